@@ -1,0 +1,51 @@
+// peeling/programs.h - what several algorithms' fragment programs and passes have in common.
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/region.h"
+#include "rasterizer/numerics.h"
+
+namespace strata::peeling {
+inline namespace strict {
+
+// An order-preserving code of any float that is not NaN: the audit's form of a shader_z key.
+[[nodiscard]] inline std::uint32_t ordered_code(float z) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(z == 0.0f ? 0.0f : z);  // -0 is 0
+    return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
+}
+
+[[nodiscard]] inline std::size_t lanes(const pipeline::FragmentBatch& batch) noexcept {
+    return static_cast<std::size_t>(batch.count);
+}
+
+// out = (c a, a): what UNDER and additive blending expect.
+inline void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < count; ++i) out[c][i] = color[c][i] * color[3][i];
+    for (std::size_t i = 0; i < count; ++i) out[3][i] = color[3][i];
+}
+
+inline void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept {
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < count; ++i) lanes[c][i] = value[c];
+}
+
+// Publishes accumulated.rgb + accumulated.a * background, alpha 1: the end of every front-to-back composite.
+inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated, pipeline::Target background) {
+    using namespace pipeline;
+    const Target result = region.make_color();
+    PassState state;
+    state.color[0] = result;
+    state.reads = {accumulated, background};
+    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < lanes(in); ++i)
+                out.color[0][c][i] = own.color(0)[c][i] + own.color(0)[3][i] * own.color(1)[c][i];
+        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
+    }));
+    region.publish(result);
+}
+
+}  // namespace strict
+}  // namespace strata::peeling

@@ -1,0 +1,211 @@
+#include "peeling/render.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "pipeline/check_pass.h"
+#include "rasterizer/input_error.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& seconds) : seconds_{seconds}, start_{std::chrono::steady_clock::now()} {}
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+void check_options(const RenderOptions& o) {
+    const auto in_range = [](const char* option, int value, int low, int high) {
+        if (value < low || value > high)
+            throw InputError("strata", option, std::to_string(low) + " to " + std::to_string(high), std::to_string(value));
+    };
+    in_range("--size: width", o.width, 1, 16384);
+    in_range("--size: height", o.height, 1, 16384);
+    if (std::find(std::begin(tile_sizes), std::end(tile_sizes), o.tile_size) == std::end(tile_sizes))
+        throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(o.tile_size));
+    in_range("--threads", o.threads, 0, 1024);
+    in_range("--max-passes", o.max_passes, 0, 1000000);
+}
+
+// window_z is the chip's rule for vertex depths in buffer units and fixed-point codes.
+Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
+    using rasterizer::DepthPath;
+    if (auto lacking = check(profile, depth.format)) return lacking;
+    const bool has_chip_rule =
+        profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
+    if (depth.path == DepthPath::window_z && !has_chip_rule)
+        return Refusal{"GeForce3's depth interpolator window_z", "", "use --profile geforce3 with --depth d16 or d24"};
+    return check(profile, depth.path);
+}
+
+void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
+                           std::vector<Diagnostic>& all) {
+    const auto note = [&](Fault fault, const PixelCount& where, std::string detail) {
+        merge(all, {fault, where.pixels, where.first_x, where.first_y, std::move(detail)});
+    };
+    const bool merges = algorithm.ties == TiePolicy::merged, drops = algorithm.ties == TiePolicy::unique;
+    if (audit.lost_by_ties > 0 && (merges || drops))
+        note(Fault::merged_ties, audit.ties,
+             std::to_string(audit.lost_by_ties) + (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
+    if (!algorithm.exact || audit.order_errors.value_or(0) == 0) return;
+    const bool limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed ||
+                         options.termination.rule == TerminationRule::ratio;
+    if (limited)
+        note(Fault::truncated, audit.misordered, "the peel ended before the last layer");
+    else if (options.termination.rule == TerminationRule::paper)
+        note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
+}
+
+}  // namespace
+
+struct Renderer::State {
+    const DrawList& list;
+    View view;
+    DeviceProfile profile;
+    RenderOptions options;
+    rasterizer::DepthRequest depth{};
+    Format color_format = Format::rgba8;
+    rasterizer::RasterState raster{};
+    PreparedDraw transparent{}, opaque{};
+    std::optional<PreparedDraw> sorted{};
+    bool has_opaque = false;
+    double geometry_seconds = 0;
+
+    [[nodiscard]] PrepareOptions prepare_options(Selection selection) const {
+        return {.selection = selection, .alpha_scale = options.alpha.value_or(1.0f), .tile_size = options.tile_size,
+                .threads = options.threads};
+    }
+
+    [[nodiscard]] Selection transparent_selection() const {
+        return options.alpha ? Selection::all : Selection::transparent;
+    }
+
+    void prepare_lists() {
+        const Stopwatch watch{geometry_seconds};
+        transparent = prepare(list, view, raster, profile, prepare_options(transparent_selection()));
+        has_opaque = !options.alpha && std::any_of(list.materials.begin(), list.materials.end(), [](const Material& m) {
+            return m.alpha_mode != AlphaMode::blend;
+        });
+        if (has_opaque) opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque));
+    }
+
+    const PreparedDraw& list_for(const Algorithm& algorithm) {
+        if (!algorithm.sorts_triangles) return transparent;
+        if (!sorted) {
+            const Stopwatch watch{geometry_seconds};
+            PrepareOptions sorting = prepare_options(transparent_selection());
+            sorting.sort_back_to_front = true;
+            sorted = prepare(list, view, raster, profile, sorting);
+        }
+        return *sorted;
+    }
+
+    [[nodiscard]] Frame frame(const Algorithm& algorithm) {
+        Frame f;
+        f.profile = &profile;
+        f.opaque = has_opaque ? &opaque : nullptr;
+        f.transparent = &list_for(algorithm);
+        f.depth = depth;
+        if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
+        f.key = algorithm.key;
+        f.color_format = color_format;
+        f.background = options.background;
+        f.termination = options.termination;
+        f.max_passes = options.max_passes;
+        f.effects = options.effects;
+        f.keep_layers = options.keep_layers;
+        f.trace = options.audit;
+        f.nearest_depth = options.nearest_depth;
+        f.average_count = options.average_count;
+        return f;
+    }
+
+    [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
+        if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
+        if (auto lacking = check_depth(profile, depth)) return lacking;
+        if (auto lacking = check(profile, color_format)) return lacking;
+        if (options.keep_layers && !algorithm.makes_layers)
+            return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "", "use depth_units or front_to_back"};
+        return peeling::refusal(algorithm, profile);
+    }
+
+    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) const {
+        const auto& counters = transparent.geometry.counters;
+        if (counters.non_finite > 0)
+            merge(all, {Fault::non_finite_vertices, 0, -1, -1,
+                        std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
+                            std::to_string(counters.first_non_finite)});
+        if (algorithm.run == find_algorithm("depth_units")->run)
+            merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
+        const bool compares_in_program = algorithm.name == "front_to_back" && depth.format != DepthFormat::d32f;
+        if (compares_in_program)
+            merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
+    }
+};
+
+Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options)
+    : state_{std::make_unique<State>(State{.list = list, .view = view, .profile = profile, .options = options})} {
+    check_options(options);
+    const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
+    state_->depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
+    state_->depth.path = options.depth_path.value_or(profile.raster.depth_path);
+    state_->color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
+    state_->raster = options.raster;
+    state_->raster.viewport = {0, 0, options.width, options.height};
+    state_->raster.depth_format = state_->depth.format;
+    state_->prepare_lists();
+}
+
+Renderer::~Renderer() = default;
+
+RenderResult Renderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress) {
+    RenderResult result;
+    result.refusal = state_->refusal(algorithm);
+    if (!result.refusal) {
+        try {
+            const Frame frame = state_->frame(algorithm);
+            const Stopwatch watch{result.seconds.passes};
+            result.frame = run(frame, algorithm.run, state_->options.execution, state_->options.threads, progress);
+        } catch (const Refused& refused) {
+            result.refusal = refused.refusal;
+        }
+    }
+    result.seconds.geometry = state_->geometry_seconds;
+    if (result.refusal) {
+        result.outcome = Outcome::refused;
+        return result;
+    }
+    state_->note_machine(algorithm, result.frame.diagnostics);
+    if (state_->options.audit) {
+        result.audit = audit(state_->frame(algorithm), algorithm, result.frame, state_->options.threads);
+        add_audit_diagnostics(algorithm, state_->options, result.audit, result.frame.diagnostics);
+    }
+    return result;
+}
+
+std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
+    const Frame frame = state_->frame(algorithm);
+    std::vector<CapturedFragment> all;
+    const Body capture = [&](Region& region) {
+        all = region.capture(Bookkeeping::counted);
+        region.publish(region.opaque_color());
+    };
+    static_cast<void>(run(frame, capture, Execution::literal, 1));
+    return all;
+}
+
+DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
+Format Renderer::color_format() const noexcept { return state_->color_format; }
+const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->transparent.geometry.counters; }
+
+}  // namespace strata::peeling

@@ -1,0 +1,74 @@
+// peeling/render.h - one call from a draw list to a finished frame with its statistics: what tools and tests use.
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "peeling/algorithm.h"
+#include "peeling/audit.h"
+#include "pipeline/executor.h"
+
+namespace strata::peeling {
+
+inline constexpr int tile_sizes[] = {8, 16, 32, 64, 128};
+
+struct RenderOptions {
+    int width = 1024, height = 1024;
+    std::optional<pipeline::DepthFormat> depth;       // default: d32f where the profile has it, else d24
+    std::optional<rasterizer::DepthPath> depth_path;  // default: the profile's
+    std::optional<pipeline::Format> color_format;     // default: rgba8; rgba32f on a profile with exact depth ("ideal")
+    std::optional<float> alpha;   // draws everything as transparent, its own alpha times this
+    pipeline::Rgba background{0, 0, 0, 1};
+    pipeline::Termination termination;
+    int max_passes = 0;
+    pipeline::Execution execution = pipeline::Execution::tiled;
+    int tile_size = 32;
+    int threads = 0;
+    pipeline::Effects effects = pipeline::Effects::needed;
+    pipeline::Format average_count = pipeline::Format::r16f;
+    bool keep_layers = false;
+    bool audit = true;           // order_errors and the other comparisons with the a_buffer
+    bool nearest_depth = true;   // make the Z image
+    // Conventions; the viewport is set from width and height.
+    rasterizer::RasterState raster;
+};
+
+enum class Outcome : std::uint8_t { done, refused };
+
+struct Seconds {
+    double geometry = 0, passes = 0;
+};
+
+struct RenderResult {
+    Outcome outcome = Outcome::done;
+    std::optional<pipeline::Refusal> refusal;
+    pipeline::FrameResult frame;
+    AuditResult audit;
+    Seconds seconds;
+};
+
+// Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
+class Renderer {
+  public:
+    // Throws InputError for options that no profile could mean (sizes, tile sizes). `list` must outlive the renderer.
+    Renderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
+             const RenderOptions& options);
+    ~Renderer();
+
+    // A combination that the profile cannot run is refused: an outcome, not an exception.
+    [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {});
+
+    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes.
+    [[nodiscard]] std::vector<pipeline::CapturedFragment> fragments(const Algorithm& algorithm);
+
+    [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;
+    [[nodiscard]] pipeline::Format color_format() const noexcept;
+    [[nodiscard]] const rasterizer::SetupCounters& setup_counters() const noexcept;  // of the transparent list
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace strata::peeling

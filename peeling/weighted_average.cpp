@@ -1,0 +1,86 @@
+// peeling/weighted_average.cpp - one pass, every colour of a pixel replaced by their average weighted by alpha.
+// Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8.
+//
+// Needs      fp16 additive blending, two render targets.
+// Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.
+// Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets' precision.
+#include <cmath>
+
+#include "peeling/programs.h"
+#include "peeling/runs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// base^n in binary32 by repeated squaring from the lowest bit of n, every product rounded.
+float power(float base, std::uint32_t n) noexcept {
+    float result = 1.0f;
+    for (; n != 0; n >>= 1) {
+        if (n & 1u) result = result * base;
+        base = base * base;
+    }
+    return result;
+}
+
+Rgba average(const Rgba& sums, float n, const Rgba& background) noexcept {
+    const float sum_alpha = sums[3];
+    if (!(n > 0.0f) || !(sum_alpha > 0.0f)) return {background[0], background[1], background[2], 1.0f};  // sum 0 is our guard
+    const float transmitted = power(1.0f - sum_alpha / n, static_cast<std::uint32_t>(n < 0x1p31f ? n : 0x1p31f));
+    Rgba color{0, 0, 0, 1};
+    for (std::size_t c = 0; c < 3; ++c)
+        color[c] = (sums[c] / sum_alpha) * (1.0f - transmitted) + background[c] * transmitted;
+    return color;
+}
+
+Target accumulate(Region& region, Target sums, Target count) {
+    region.clear(sums, {});
+    region.clear(count, {});
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+    state.depth_target = region.opaque_depth();
+    state.color = {sums, count};
+    state.blend = {blend_mode::sum, blend_mode::sum};
+    state.needs.shader_z = false;
+    region.begin_iteration();
+    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        premultiply(in.color, out.color[0], lanes(in));
+        set(out.color[1], {1, 0, 0, 1}, lanes(in));
+    }));
+    return sums;
+}
+
+}  // namespace
+
+void weighted_average(Region& region) {
+    const bool wide = region.frame().color_format == Format::rgba32f;
+    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
+    const Format count_format = wide ? Format::r32f : region.frame().average_count;
+    const Target count = region.make(count_format), result = region.make_color();
+    accumulate(region, sums, count);
+    PassState state;
+    state.color[0] = result;
+    state.reads = {sums, count, region.opaque_color()};
+    const bool half_count = count_format == Format::r16f;
+    std::uint64_t stuck = 0;
+    std::uint32_t first_stuck = ~0u;
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        const ColorLanes& s = own.color(0);
+        const ColorLanes& b = own.color(2);
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const float n = own.color(1)[0][i];
+            const Rgba color = average({s[0][i], s[1][i], s[2][i], s[3][i]}, n, {b[0][i], b[1][i], b[2][i], b[3][i]});
+            for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = color[c];
+            if ((half_count && n >= 2048.0f) || !(s[3][i] <= 65504.0f)) {
+                ++stuck;
+                first_stuck = std::min(first_stuck, in.pixel[i]);
+            }
+        }
+    }));
+    region.report(Fault::half_saturated, stuck, first_stuck, "an fp16 sum or count has stopped growing (hardware.md 9)");
+    region.publish(result);
+}
+
+}  // namespace strata::peeling

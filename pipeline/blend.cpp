@@ -1,0 +1,116 @@
+#include "pipeline/blend.h"
+
+#include "pipeline/blend_float.h"
+#include "pipeline/blend_kernels.h"
+#include "pipeline/blend_unorm8.h"
+#include "pipeline/convert.h"
+#include "pipeline/unorm8.h"
+
+namespace strata::pipeline {
+namespace {
+
+using rasterizer::Lanes;
+using ColorLanes = std::array<Lanes<float>, 4>;
+using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;
+
+// One batch on its way through a blend; counts and masks as in `blend`.
+struct Job {
+    const Blend& state;
+    int channels;
+    const ColorLanes& src;
+    ColorCodes& codes;
+    std::size_t count;
+
+    [[nodiscard]] bool writes(int channel) const noexcept {
+        return channel < channels && ((state.write_mask >> channel) & 1u) != 0;
+    }
+};
+
+void load(const Lanes<float>& source, Lanes<float>& operand, std::size_t count, auto convert) noexcept {
+    for (std::size_t i = 0; i < count; ++i) operand[i] = convert(source[i]);
+}
+
+// Blends the loaded operands, alpha last because the colours read the stored alpha. store(channel, lanes) takes the
+// results.
+template <class Arithmetic>
+void blend_channels(const Job& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
+                    auto store) noexcept {
+    Lanes<float> out;
+    for (int channel = 0; channel < 4; ++channel) {
+        if (!job.writes(channel)) continue;
+        const auto c = static_cast<std::size_t>(channel);
+        const bool is_alpha = channel == 3;
+        const BlendOperands operands{s[c], d[c], s[3], d[3], constant[c], constant[3], is_alpha};
+        blend_channel<Arithmetic>(is_alpha ? job.state.alpha : job.state.color, operands, out, job.count);
+        store(c, out);
+    }
+}
+
+template <BlendRounding rounding>
+void blend_unorm8(const Job& job) noexcept {
+    ColorLanes s, d;
+    std::array<float, 4> constant{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        constant[c] = static_cast<float>(to_unorm8(job.state.constant[c]));
+        if (job.writes(channel) || channel == 3)
+            load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8(x)}); });
+        if (channel < job.channels)
+            for (std::size_t i = 0; i < job.count; ++i)
+                d[c][i] = static_cast<float>(static_cast<std::int32_t>(job.codes[c][i]));
+    }
+    if (job.channels < 4) d[3].fill(255.0f);
+    blend_channels<Unorm8Arithmetic<rounding>>(job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
+        for (std::size_t i = 0; i < job.count; ++i)
+            job.codes[c][i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(out[i]));
+    });
+}
+
+template <DenormalRule denormals, MinMaxNan nan_rule>
+void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexcept {
+    const auto flush = [](float x) { return flushed<denormals>(x); };
+    const int count = static_cast<int>(job.count);
+    ColorLanes s, d;
+    std::array<float, 4> constant{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        constant[c] = flush(job.state.constant[c]);
+        if (job.writes(channel) || channel == 3) load(job.src[c], s[c], job.count, flush);
+        if (channel >= job.channels) continue;
+        decode(type, job.codes[c], d[c], count);
+        if (type == ChannelType::single) load(d[c], d[c], job.count, flush);  // widened halves are never denormal
+    }
+    if (job.channels < 4) d[3].fill(1.0f);
+    blend_channels<FloatArithmetic<denormals, nan_rule>>(
+        job, constant, s, d,
+        [&](std::size_t c, const Lanes<float>& out) { encode(type, rounding, out, job.codes[c], count); });
+}
+
+void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile) noexcept {
+    using enum DenormalRule;
+    using enum MinMaxNan;
+    const bool flushes = profile.denormals == flush, propagates = profile.min_max_nan == propagate;
+    if (flushes && !propagates) return blend_float<flush, other_operand>(job, type, profile.half_rounding);
+    if (flushes) return blend_float<flush, propagate>(job, type, profile.half_rounding);
+    if (!propagates) return blend_float<keep, other_operand>(job, type, profile.half_rounding);
+    return blend_float<keep, propagate>(job, type, profile.half_rounding);
+}
+
+}  // namespace
+
+void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
+           ColorCodes& codes, int count) noexcept {
+    const Job job{state, channels, src, codes, static_cast<std::size_t>(count)};
+    if (!state.enabled) {
+        for (std::size_t c = 0; c < 4; ++c)
+            if (job.writes(static_cast<int>(c))) encode(type, profile.half_rounding, src[c], codes[c], count);
+    } else if (type != ChannelType::unorm8) {
+        blend_float(job, type, profile);
+    } else if (profile.blend_rounding == BlendRounding::nearest) {
+        blend_unorm8<BlendRounding::nearest>(job);
+    } else {
+        blend_unorm8<BlendRounding::truncate>(job);
+    }
+}
+
+}  // namespace strata::pipeline

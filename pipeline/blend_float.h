@@ -1,0 +1,80 @@
+// pipeline/blend_float.h - blending on fp16 and binary32 targets: binary32 arithmetic, no clamps.
+//
+// Rule     Stored halves are widened exactly. Each product is rounded to nearest even, then their sum or difference; 1
+// - x is
+//          one more rounding. Weight 0 or 1 is a multiplication like any other: NaN, infinity times 0 and signed zeros
+//          propagate, and every NaN result is 0x7fffffff. DenormalRule::flush: operands and results below 2^-126 become
+//          zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, by the profile), two give
+//          0x7fffffff; max(-0,+0) = +0, min = -0. SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
+// Source   hardware.md 8 and 11 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is our
+// assumption. Tests    tests/pipeline/blend_float_test.cpp
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/profile.h"
+#include "pipeline/state.h"
+#include "rasterizer/numerics.h"
+
+namespace strata::pipeline {
+inline namespace strict {
+
+inline constexpr std::uint32_t canonical_nan = 0x7fffffff;
+
+[[nodiscard]] constexpr bool is_nan_bits(std::uint32_t bits) noexcept { return (bits & 0x7fffffffu) > 0x7f800000u; }
+
+template <DenormalRule rule>
+[[nodiscard]] constexpr float flushed(float x) noexcept {
+    if constexpr (rule == DenormalRule::keep) return x;
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    return std::bit_cast<float>((bits & 0x7f800000u) == 0 ? bits & 0x80000000u : bits);
+}
+
+[[nodiscard]] constexpr float canonical(float x) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    return std::bit_cast<float>(is_nan_bits(bits) ? canonical_nan : bits);
+}
+
+// Float bits as integers in the floats' order: -Inf .. -0, +0 .. +Inf; so -0 is below +0.
+[[nodiscard]] constexpr std::int32_t order_key(std::uint32_t bits) noexcept {
+    const auto value = static_cast<std::int32_t>(bits);
+    return value ^ static_cast<std::int32_t>(static_cast<std::uint32_t>(value >> 31) >> 1);
+}
+
+// MIN or MAX of flushed operands.
+template <BlendEquation equation, MinMaxNan rule>
+[[nodiscard]] constexpr float extreme(float a, float b) noexcept {
+    const auto a_bits = std::bit_cast<std::uint32_t>(a), b_bits = std::bit_cast<std::uint32_t>(b);
+    const bool a_is_less = order_key(a_bits) < order_key(b_bits);
+    std::uint32_t result = a_is_less == (equation == BlendEquation::min) ? a_bits : b_bits;
+    result = is_nan_bits(a_bits) ? (rule == MinMaxNan::propagate ? canonical_nan : b_bits) : result;
+    result = is_nan_bits(b_bits) ? (rule == MinMaxNan::propagate ? canonical_nan : a_bits) : result;
+    return canonical(std::bit_cast<float>(result));  // two NaN
+}
+
+template <DenormalRule denormals, MinMaxNan nan_rule>
+struct FloatArithmetic {
+    static constexpr float zero = 0.0f, one = 1.0f;
+
+    [[nodiscard]] static constexpr float one_minus(float x) noexcept { return flushed<denormals>(1.0f - x); }
+    [[nodiscard]] static constexpr float lesser(float a, float b) noexcept {
+        return extreme<BlendEquation::min, nan_rule>(a, b);
+    }
+
+    // Operands flushed already.
+    template <BlendEquation equation>
+    [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
+        if constexpr (equation == BlendEquation::min || equation == BlendEquation::max)
+            return extreme<equation, nan_rule>(s, d);
+        const float source = flushed<denormals>(s * F);
+        const float destination = flushed<denormals>(d * G);
+        float sum = 0;
+        if constexpr (equation == BlendEquation::add) sum = source + destination;
+        if constexpr (equation == BlendEquation::subtract) sum = source - destination;
+        if constexpr (equation == BlendEquation::reverse_subtract) sum = destination - source;
+        return canonical(flushed<denormals>(sum));
+    }
+};
+
+}  // namespace strict
+}  // namespace strata::pipeline

@@ -1,0 +1,52 @@
+// pipeline/frame.h - everything that is the same for all regions of one run: the machine, the lists, the formats, the options.
+#pragma once
+#include <cstdint>
+
+#include "pipeline/prepare.h"
+#include "pipeline/profile.h"
+#include "rasterizer/fragment_batch.h"
+
+namespace strata::pipeline {
+
+enum class Execution : std::uint8_t { literal, tiled };  // replay takes its place here
+
+// How occlusion queries end a peel (decisions.md 3).
+enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
+struct Termination {
+    TerminationRule rule = TerminationRule::exact;
+    double ratio = 0;       // ratio: stop when the count is below ratio * width * height
+    int passes = 0;         // fixed: that many geometry passes, no query
+    friend bool operator==(const Termination&, const Termination&) = default;
+};
+
+// What an algorithm orders fragments by (decisions.md 3).
+enum class DepthKey : std::uint8_t { shader_z, stored_code };
+
+enum class Effects : std::uint8_t { needed, all };  // all: simulate every stage even where nothing calls for it; same bits
+
+struct Frame {
+    const DeviceProfile* profile = nullptr;
+    const PreparedDraw* opaque = nullptr;
+    const PreparedDraw* transparent = nullptr;
+    rasterizer::DepthRequest depth;  // the frame's depth buffer: path and format
+    DepthKey key = DepthKey::stored_code;
+    Format color_format = Format::rgba8;
+    Rgba background{0, 0, 0, 1};
+    Termination termination;
+    int max_passes = 0;  // geometry passes; 0: no limit
+    Effects effects = Effects::needed;
+    bool keep_layers = false;
+    bool trace = false;
+    bool nearest_depth = false;  // also make the frame's Z
+    Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
+
+    [[nodiscard]] rasterizer::Rect rect() const noexcept { return transparent->geometry.state.viewport; }
+
+    // How depths that this frame compares are computed and stored.
+    [[nodiscard]] rasterizer::DepthRequest key_request() const noexcept {
+        if (key == DepthKey::shader_z) return {rasterizer::DepthPath::float32, DepthFormat::d32f};
+        return depth;
+    }
+};
+
+}  // namespace strata::pipeline

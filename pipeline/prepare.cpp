@@ -1,0 +1,170 @@
+#include "pipeline/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "rasterizer/float_environment.h"
+#include "rasterizer/numerics.h"
+#include "rasterizer/parallel.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+Matrix multiply(const Matrix& a, const Matrix& b) {
+    Matrix product{};
+    for (std::size_t column = 0; column < 4; ++column)
+        for (std::size_t row = 0; row < 4; ++row) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 4; ++k) sum += a[4 * k + row] * b[4 * column + k];
+            product[4 * column + row] = sum;
+        }
+    return product;
+}
+
+std::array<float, 16> to_binary32(const Matrix& m) {
+    std::array<float, 16> rounded{};
+    std::transform(m.begin(), m.end(), rounded.begin(), [](double x) { return static_cast<float>(x); });
+    return rounded;
+}
+
+// Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for mirrored
+// models, a sign that |N.L| does not see.
+std::array<float, 9> normal_matrix(const Matrix& m) {
+    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+    std::array<float, 9> n{};
+    for (std::size_t column = 0; column < 3; ++column)
+        for (std::size_t row = 0; row < 3; ++row) {
+            const std::size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+            n[3 * column + row] = static_cast<float>(a(r1, c1) * a(r2, c2) - a(r1, c2) * a(r2, c1));
+        }
+    return n;
+}
+
+double determinant(const Matrix& m) {
+    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+    return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
+           a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
+}
+
+// The unit vector from the view's centre to the eye: the view's third row.
+Vec3 light_direction(const Matrix& view) {
+    const double x = view[2], y = view[6], z = view[10];
+    const double length = std::sqrt((x * x + y * y) + z * z);
+    if (!(length > 0)) return {0, 0, 1};
+    return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
+}
+
+float lighting(const std::array<float, 9>& m, const Vec3& n, const Vec3& light) {
+    Vec3 world{};
+    for (std::size_t r = 0; r < 3; ++r) world[r] = (m[r] * n[0] + m[3 + r] * n[1]) + m[6 + r] * n[2];
+    const float squared = (world[0] * world[0] + world[1] * world[1]) + world[2] * world[2];
+    const float length = std::sqrt(squared);
+    if (!(length > 0.0f)) return 0.25f;
+    const float dot = (world[0] * light[0] + world[1] * light[1]) + world[2] * light[2];
+    return 0.25f + 0.75f * std::fabs(dot / length);
+}
+
+struct VertexStage {
+    const Mesh& mesh;
+    const Material& material;
+    std::array<float, 16> clip;
+    std::array<float, 9> normal;
+    Vec3 light;
+    float alpha_scale;
+
+    [[nodiscard]] rasterizer::ClipVertex operator()(std::size_t i) const {
+        const auto& m = clip;
+        const Vec3& p = mesh.positions[i];
+        const auto row = [&](std::size_t r) { return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r]; };
+        rasterizer::ClipVertex v{.x = row(0), .y = row(1), .z = row(2), .w = row(3)};
+        const bool lit = !material.unlit && !mesh.normals.empty();
+        const float light_factor = lit ? lighting(normal, mesh.normals[i], light) : 1.0f;
+        const Rgba color = mesh.colors.empty() ? Rgba{1, 1, 1, 1} : mesh.colors[i];
+        for (std::size_t c = 0; c < 3; ++c) {
+            v.front[c] = (material.front[c] * color[c]) * light_factor;
+            v.back[c] = (material.back[c] * color[c]) * light_factor;
+        }
+        v.front[3] = (material.front[3] * color[3]) * alpha_scale;
+        v.back[3] = (material.back[3] * color[3]) * alpha_scale;
+        if (!mesh.texcoords.empty()) v.texcoord = mesh.texcoords[i];
+        return v;
+    }
+};
+
+bool is_selected(const Material& material, Selection selection) {
+    if (selection == Selection::all) return true;
+    return (material.alpha_mode == AlphaMode::blend) == (selection == Selection::transparent);
+}
+
+void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
+            rasterizer::TriangleSoup& soup) {
+    const Mesh& mesh = list.meshes[instance.mesh];
+    const Material& material = list.materials[instance.material];
+    const VertexStage stage{mesh, material, to_binary32(multiply(multiply(view.projection, view.view), instance.model)),
+                            normal_matrix(instance.model), light_direction(view.view), options.alpha_scale};
+    const std::size_t base = soup.vertices.size();
+    soup.vertices.resize(base + mesh.positions.size());
+    constexpr std::size_t chunk = 4096;
+    parallel_for((mesh.positions.size() + chunk - 1) / chunk, options.threads, [&](std::size_t c) {
+        const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
+        for (std::size_t i = c * chunk; i < end; ++i) soup.vertices[base + i] = stage(i);
+    });
+    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(soup.indices.size()),
+                         .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
+                         .material = instance.material,
+                         .double_sided = material.double_sided,
+                         .mirrored = determinant(instance.model) < 0});
+    soup.indices.reserve(soup.indices.size() + mesh.indices.size());
+    for (const std::uint32_t index : mesh.indices) soup.indices.push_back(static_cast<std::uint32_t>(base) + index);
+}
+
+MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
+    MaterialStage stage;
+    if (material.texture >= 0) stage.texture = &list.textures[static_cast<std::size_t>(material.texture)];
+    if (material.alpha_mode == AlphaMode::mask)
+        stage.mask = {.enabled = true, .func = CompareFunc::gequal, .ref = material.alpha_cutoff * alpha_scale};
+    return stage;
+}
+
+}  // namespace
+
+rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options) {
+    rasterizer::TriangleSoup soup;
+    for (const Instance& instance : list.instances)
+        if (is_selected(list.materials[instance.material], options.selection)) append(list, instance, view, options, soup);
+    return soup;
+}
+
+std::vector<std::uint32_t> back_to_front_order(const rasterizer::TriangleSoup& soup) {
+    std::vector<double> key(soup.indices.size() / 3);
+    for (std::size_t t = 0; t < key.size(); ++t) {
+        double sum = 0;
+        for (std::size_t corner = 0; corner < 3; ++corner) sum += double{soup.vertices[soup.indices[3 * t + corner]].z};
+        key[t] = sum == sum ? sum : 0;  // a NaN is dropped at set-up; here it must only not upset the order
+    }
+    std::vector<std::uint32_t> order(key.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] > key[b]; });
+    return order;
+}
+
+PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                     const DeviceProfile& profile, const PrepareOptions& options) {
+    const FloatEnvironment ours;
+    rasterizer::TriangleSoup soup = transform(list, view, options);
+    if (options.sort_back_to_front) soup.order = back_to_front_order(soup);
+    PreparedDraw prepared;
+    prepared.geometry = rasterizer::set_up(soup, state, profile.raster, options.threads);
+    bin_triangles(prepared.geometry, options.tile_size);
+    for (const Material& material : list.materials) {
+        prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
+        if (!is_selected(material, options.selection)) continue;
+        prepared.needs_texcoord |= material.texture >= 0;
+        prepared.needs_color |= material.alpha_mode == AlphaMode::mask;
+    }
+    return prepared;
+}
+
+}  // namespace strata::pipeline

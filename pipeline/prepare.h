@@ -1,0 +1,54 @@
+// pipeline/prepare.h - the vertex stage and everything else that is done once a frame: transform, light, clip, set up, bin.
+//
+// Rule     Matrices are multiplied in binary64 (projection * view * model) and rounded once to binary32;
+//          clip[r] = ((m[r] x + m[4+r] y) + m[8+r] z) + m[12+r] in binary32, every operation rounded (vertex path `separate`).
+//          Lighting is two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye,
+//          per vertex in binary32, on the frame's colour values.
+// Source   decisions.md 1.
+// Tests    tests/pipeline/prepare_test.cpp
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "pipeline/draw_list.h"
+#include "pipeline/profile.h"
+#include "pipeline/state.h"
+#include "rasterizer/geometry.h"
+
+namespace strata::pipeline {
+
+// What a fragment of one material needs besides its interpolants; empty optionals are effects that nobody asked for.
+struct MaterialStage {
+    const Texture* texture = nullptr;  // into the draw list, which must outlive this
+    AlphaTest mask;                    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha
+};
+
+struct PreparedDraw {
+    rasterizer::Geometry geometry;
+    std::vector<MaterialStage> materials;
+    bool needs_texcoord = false;  // some material has a texture
+    bool needs_color = false;     // some material tests its alpha, so that even a depth-only pass must shade
+};
+
+enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK
+
+struct PrepareOptions {
+    Selection selection = Selection::all;
+    float alpha_scale = 1.0f;     // --alpha: every alpha times this; cutoffs too, so that MASK cuts at the material's own alpha
+    bool sort_back_to_front = false;  // painter: triangles by centroid, far first, ties in submission order
+    int tile_size = 32;
+    int threads = 0;
+};
+
+// Inverts nothing it need not: mirrored instances keep their winding and flip their facing.
+[[nodiscard]] PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                                   const DeviceProfile& profile, const PrepareOptions& options);
+
+// The clip-space soup that `prepare` sets up; for tests and for whoever wants the vertices.
+[[nodiscard]] rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options);
+
+// Submission order of the soup's triangles, far first. Key: the sum of the three clip z, an increasing function of the
+// centroid's eye depth for every projection whose third row is (0, 0, a, b).
+[[nodiscard]] std::vector<std::uint32_t> back_to_front_order(const rasterizer::TriangleSoup& soup);
+
+}  // namespace strata::pipeline

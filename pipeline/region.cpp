@@ -1,0 +1,153 @@
+#include "pipeline/region.h"
+
+#include <bit>
+#include <cassert>
+
+#include "pipeline/convert.h"
+#include "pipeline/half.h"
+#include "pipeline/region_scratch.h"
+#include "pipeline/unorm8.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const std::array<float, 4>& color) {
+    std::array<std::uint32_t, 4> codes{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        switch (info(format).type) {
+            case ChannelType::unorm8: codes[c] = to_unorm8(color[c]); break;
+            case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
+            case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
+            case ChannelType::depth:
+            case ChannelType::stencil: break;
+        }
+    }
+    return codes;
+}
+
+std::uint64_t bytes(const TargetStorage& s) {
+    return s.pixels() * static_cast<std::uint64_t>(s.samples()) * static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
+}
+
+}  // namespace
+
+Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script)
+    : frame_{frame}, rect_{rect}, tile_{tile}, extent_{extent}, script_{std::move(script)}, rasterizer_{rect},
+      scratch_{std::make_unique<Scratch>()}, records_(1) {
+    opaque_depth_ = make_depth();
+    opaque_color_ = make_color();
+    counts_ = false;
+    clear(opaque_depth_, {.depth = 1.0f});
+    clear(opaque_color_, {.color = frame.background});
+    if (frame.opaque != nullptr) draw_opaque();
+    counts_ = true;
+}
+
+Region::~Region() = default;
+
+Target Region::make(Format format, int samples) {
+    storages_.emplace_back(format, samples, rect_.area());
+    return {static_cast<int>(storages_.size()) - 1};
+}
+
+void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_mask) {
+    TargetStorage& storage = at(target);
+    const Format format = storage.format();
+    if (is_color(format)) {
+        storage.fill(color_codes(format, profile().half_rounding, value.color), sample_mask);
+    } else if (is_depth(format)) {
+        // D32F is cleared as it is on devices with NV_depth_buffer_float's unclamped clear, clamped elsewhere (hardware.md 2).
+        const bool unclamped = format == Format::d32f && profile().has_unclamped_depth_clear;
+        const std::uint32_t code =
+            unclamped ? std::bit_cast<std::uint32_t>(value.depth)
+                      : rasterizer::to_depth_code(value.depth, depth_format(format), profile().raster.depth_rounding);
+        storage.fill({code, 0, 0, 0}, sample_mask);
+    }
+    if (has_stencil(format)) storage.fill_stencil(value.stencil, sample_mask);
+    record().counters.bytes_written += bytes(storage);
+}
+
+void Region::copy(Target from, Target to) {
+    assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
+    at(to) = at(from);
+    record().counters.bytes_read += bytes(at(from));
+    record().counters.bytes_written += bytes(at(to));
+    ++record().passes.copies;
+}
+
+void Region::draw_opaque() {
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = opaque_depth_;
+    state.color[0] = opaque_color_;
+    auto program = [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        out.color[0] = in.color;
+        out.color[0][3].fill(1.0f);  // alphaMode OPAQUE ignores alpha, and what MASK keeps is opaque
+    };
+    static_cast<void>(draw_list(state, *frame_.opaque, program));
+}
+
+Target Region::nearest_depth() {
+    counts_ = false;
+    const Target nearest = make_depth();
+    copy(opaque_depth_, nearest);
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = nearest;
+    state.needs = {.shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
+    static_cast<void>(draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    counts_ = true;
+    return nearest;
+}
+
+std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
+    counts_ = bookkeeping == Bookkeeping::counted;
+    std::vector<CapturedFragment> all;
+    PassState state;
+    state.needs = {.shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
+    static_cast<void>(draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            if (out.alive[i] == 0) continue;
+            all.push_back({in.pixel[i], in.primitive[i], in.code[i], in.exact_code[i], in.shader_z[i],
+                           {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}});
+        }
+    }));
+    counts_ = true;
+    return all;
+}
+
+void Region::store_pixel(Target target, std::uint32_t pixel, const Rgba& color) {
+    const auto codes = color_codes(at(target).format(), profile().half_rounding, color);
+    Scratch& s = *scratch_;
+    Lanes<std::uint32_t>& index = s.depth_stored;  // one lane of it
+    index[0] = pixel;
+    s.alive[0] = ~0u;
+    for (std::size_t c = 0; c < 4; ++c) s.codes[c][0] = codes[c];
+    at(target).scatter(index, s.alive, 1, 0, 0xfu, s.codes);
+}
+
+Rgba Region::color(Target target, std::uint32_t pixel) const {
+    const TargetStorage& from = storage(target);
+    const FormatInfo format = info(from.format());
+    Rgba color{0, 0, 0, 1};
+    for (int c = 0; c < format.channels; ++c) {
+        const std::uint32_t code = from.code(pixel, c, 0);
+        color[static_cast<std::size_t>(c)] = format.type == ChannelType::unorm8 ? from_unorm8(static_cast<std::uint8_t>(code))
+                                             : format.type == ChannelType::half ? half_to_float(static_cast<std::uint16_t>(code))
+                                                                                : std::bit_cast<float>(code);
+    }
+    return color;
+}
+
+Image Region::image(Target target) const {
+    const TargetStorage& from = storage(target);
+    Image image{from.format(), rect_.width(), rect_.height(), from.samples()};
+    std::size_t next = 0;
+    for (std::size_t pixel = 0; pixel < from.pixels(); ++pixel)
+        for (int sample = 0; sample < from.samples(); ++sample)
+            for (int c = 0; c < image.channels(); ++c) image.codes[next++] = from.code(pixel, c, sample);
+    return image;
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,193 @@
+// pipeline/region.h - a rectangle of the frame with render targets of its own: what peeling algorithms are written against.
+//
+// Rule     An algorithm is one function over a region. Literal execution gives it the frame, tiled execution one tile after
+//          another; bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
+// Source   design.md, idea 2; decisions.md 7.
+// Tests    tests/pipeline/region_test.cpp, tests/peeling/execution_test.cpp
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "pipeline/counters.h"
+#include "pipeline/diagnostics.h"
+#include "pipeline/frame.h"
+#include "pipeline/pass.h"
+#include "rasterizer/tile_rasterizer.h"
+
+namespace strata::pipeline {
+
+// One step of what a pixel composited, in the order in which it happened; see Outputs::side.
+struct TraceEntry {
+    std::uint32_t pixel = 0, key = 0, primitive = 0;
+    Side side = Side::none;
+    bool is_fragment = false;  // `primitive` counts; false: a layer, known by its key alone
+};
+
+struct CapturedFragment {
+    std::uint32_t pixel = 0, primitive = 0;
+    std::uint32_t code = 0, exact_code = 0;
+    float shader_z = 0;
+    Rgba color{};
+};
+
+// What one iteration (or what stands before the first and after the last) did in one region.
+struct IterationRecord {
+    Counters counters;
+    PassCount passes;
+};
+
+struct Decision {
+    std::uint64_t own = 0;
+    Idle idle = Idle::no;
+    bool answer = false;
+};
+
+struct KeptLayer {
+    Image color, depth;  // of the region's rectangle
+};
+
+enum class Extent : std::uint8_t { frame, tile };
+enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
+
+class Region {
+  public:
+    // `script`: the frame's answers that are known already; further ones are guessed from the region's own counts.
+    Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script = {});
+    Region(const Region&) = delete;
+    Region& operator=(const Region&) = delete;
+    ~Region();
+
+    [[nodiscard]] const Frame& frame() const noexcept { return frame_; }
+    [[nodiscard]] const DeviceProfile& profile() const noexcept { return *frame_.profile; }
+    [[nodiscard]] rasterizer::Rect rect() const noexcept { return rect_; }
+
+    [[nodiscard]] Target make(Format format, int samples = 1);  // contents 0; same order in every region
+    [[nodiscard]] Target make_color() { return make(frame_.color_format); }
+    [[nodiscard]] Target make_depth() { return make(target_format(frame_.key_request().format)); }
+    // The opaque scene, drawn before the algorithm starts: depth in the form of the algorithm's key, and colour over the
+    // background (without opaque geometry: depth 1, the background).
+    [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
+    [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
+
+    // Clears obey the scissor and nothing else here (write masks are pass state).
+    void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
+    void copy(Target from, Target to);  // same format and samples: a bit copy
+
+    // One geometry pass over the transparent list.
+    template <FragmentProgram P>
+    Drawn draw(const PassState& state, P&& program) {
+        return draw_list(state, *frame_.transparent, program);
+    }
+    // A screen-aligned quad: every pixel of the region once.
+    template <FragmentProgram P>
+    Drawn full_screen(const PassState& state, P&& program);
+
+    // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.
+    template <FragmentProgram P>
+    void trace_pixels(Target read, P&& program);
+
+    // The frame's answer to "is the count above the limit that --termination sets?".
+    // The last act of an iteration: whatever followed it would be counted by some regions and not by others.
+    [[nodiscard]] bool any(Count count, Idle idle);
+    void begin_iteration();
+    // Work after the last iteration that each iteration causes (the compositing of its layer) is counted with it: from now on
+    // counters go to the record of iteration `iteration`, from 1.
+    void count_with(int iteration) { counted_record_ = static_cast<std::size_t>(iteration); }
+    // True once --max-passes or fixed:N are used up; the same in every region.
+    [[nodiscard]] bool limit_reached();
+    void keep_layer(Target color, Target depth);
+    // `pixels` of this region, the first of them at region index `first_pixel`.
+    void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail);
+
+    // What an algorithm leaves: its final colour.
+    void publish(Target color) { published_ = color; }
+
+    // Every fragment of the transparent list in submission order, after MASK, before any test.
+    [[nodiscard]] std::vector<CapturedFragment> capture(Bookkeeping bookkeeping);
+    // Depth of the nearest visible key: the frame's Z. The emulator's own look, never counted.
+    [[nodiscard]] Target nearest_depth();
+
+    // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
+    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel) const;  // of sample 0, as a program would load it
+    void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
+    [[nodiscard]] const TargetStorage& storage(Target target) const { return storages_[static_cast<std::size_t>(target.id)]; }
+    [[nodiscard]] Image image(Target target) const;
+
+    // For the executor.
+    [[nodiscard]] const std::vector<Decision>& decisions() const noexcept { return decisions_; }
+    [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_; }
+    [[nodiscard]] int idle_from() const noexcept { return idle_from_; }
+    [[nodiscard]] int iterations() const noexcept { return iterations_; }
+    [[nodiscard]] bool probed() const noexcept { return probed_; }  // the last iteration was an idle probe
+    [[nodiscard]] std::vector<KeptLayer>& layers() noexcept { return layers_; }
+    [[nodiscard]] std::vector<TraceEntry>& trace() noexcept { return trace_; }
+    [[nodiscard]] std::vector<Diagnostic>& diagnostics() noexcept { return diagnostics_; }
+    [[nodiscard]] Target published() const noexcept { return published_; }
+    [[nodiscard]] std::uint64_t fragments_drawn() const noexcept { return fragments_drawn_; }
+
+  private:
+    struct Scratch;  // the arrays that a batch passes through
+
+    enum class PassKind : std::uint8_t { geometry, full_screen };
+
+    template <FragmentProgram P>
+    Drawn draw_list(const PassState& state, const PreparedDraw& list, P& program);
+    template <class P>
+    void run_program(P& program, FragmentBatch& batch, Outputs& out);
+
+    void begin_pass(const PassState& state, PassKind kind);
+    void rasterize(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
+    [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
+    void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
+    void load(const PassState& state, const FragmentBatch& batch);
+    void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
+    void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
+    void test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
+    void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
+    void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
+    void report_saturation(const FragmentBatch& batch);
+    void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                      const Lanes<std::uint32_t>& alive, std::uint64_t passed);
+    void draw_opaque();
+    bool stop_iterating();
+
+    [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
+    [[nodiscard]] const Loads& loads() const noexcept;
+    [[nodiscard]] FragmentBatch& screen_batch() noexcept;
+    bool next_screen_batch(FragmentBatch& batch, std::size_t& next) const;
+    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
+    [[nodiscard]] IterationRecord& record() noexcept { return counts_ ? records_[counted_record_] : uncounted_; }
+
+    const Frame& frame_;
+    rasterizer::Rect rect_;
+    std::size_t tile_;
+    Extent extent_;
+    std::vector<bool> script_;
+    rasterizer::TileRasterizer rasterizer_;
+    std::unique_ptr<Scratch> scratch_;
+    std::vector<TargetStorage> storages_;
+    Target opaque_depth_, opaque_color_, published_;
+
+    PassKind kind_ = PassKind::geometry;
+    std::uint64_t tallied_ = 0;
+    bool counts_ = true;          // false during the emulator's own work (opaque priming, capture)
+    IterationRecord uncounted_;   // where that work is counted instead
+    int geometry_passes_ = 0;
+    int idle_from_ = -1;   // index of the record whose counters every further iteration repeats; -1: never idle
+    bool probing_ = false, probed_ = false;
+    int iterations_ = 0;
+    std::size_t counted_record_ = 0;
+    std::vector<IterationRecord> records_;  // [0] before the first iteration, then one each, at last what follows
+    std::vector<Decision> decisions_;
+    std::vector<KeptLayer> layers_;
+    std::vector<TraceEntry> trace_;
+    std::vector<Diagnostic> diagnostics_;
+    std::uint64_t fragments_drawn_ = 0;
+};
+
+}  // namespace strata::pipeline
+
+#include "pipeline/region_draw.h"

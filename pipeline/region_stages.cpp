@@ -1,0 +1,251 @@
+// pipeline/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order: texture and MASK,
+// (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. hardware.md 0.
+#include <algorithm>
+#include <cassert>
+
+#include "pipeline/alpha_test.h"
+#include "pipeline/blend.h"
+#include "pipeline/check_pass.h"
+#include "pipeline/convert.h"
+#include "pipeline/depth_test.h"
+#include "pipeline/region.h"
+#include "pipeline/region_scratch.h"
+#include "pipeline/stencil.h"
+#include "pipeline/texture_sample.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+// Gathers or scatters one value a pixel; T is the stored width.
+template <class T>
+void gather_plane(const T* plane, const FragmentBatch& batch, Lanes<std::uint32_t>& values) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) values[i] = plane[batch.pixel[i]];
+}
+template <class T>
+void scatter_plane(T* plane, const FragmentBatch& batch, const Lanes<std::uint32_t>& values) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+        plane[batch.pixel[i]] = static_cast<T>(values[i]);
+}
+
+std::uint64_t count_lanes(const Lanes<std::uint32_t>& mask, int count) {
+    std::uint32_t alive = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) alive += mask[i] & 1u;
+    return alive;
+}
+
+std::uint64_t pixel_bytes(const TargetStorage& s) { return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel); }
+
+}  // namespace
+
+const Loads& Region::loads() const noexcept { return scratch_->loads; }
+FragmentBatch& Region::screen_batch() noexcept { return scratch_->screen; }
+std::uint64_t Region::alive_count(const Outputs& out, int count) noexcept { return count_lanes(out.alive, count); }
+
+void Region::begin_pass(const PassState& state, PassKind kind) {
+    kind_ = kind;
+    tallied_ = 0;
+    check_pass(profile(), state, storages_);
+    if (kind == PassKind::geometry) {
+        ++record().passes.geometry;
+        if (counts_) ++geometry_passes_;
+        return;
+    }
+    ++record().passes.full_screen;
+    for (std::size_t k = 0; k < state.color.size(); ++k)  // a quad's traffic is every pixel's, whatever its program discards
+        if (state.color[k].exists()) count_color_bytes(state.blend[k], at(state.color[k]), rect_.area());
+}
+
+void Region::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
+    if (blending.enabled) record().counters.bytes_read += pixel_bytes(target) * pixels;
+    record().counters.bytes_written += pixel_bytes(target) * pixels;
+}
+
+bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
+    const std::size_t left = rect_.area() - next;
+    const std::size_t count = std::min<std::size_t>(left, batch_capacity);
+    const auto width = static_cast<std::size_t>(rect_.width());
+    std::size_t x = next % width, y = next / width;
+    for (std::size_t i = 0; i < count; ++i) {
+        batch.pixel[i] = static_cast<std::uint32_t>(next + i);
+        batch.x[i] = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.x0) + x);
+        batch.y[i] = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.y0) + y);
+        if (++x == width) x = 0, ++y;
+    }
+    next += count;
+    batch.count = static_cast<int>(count);
+    return count > 0;
+}
+
+void Region::rasterize(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
+    rasterizer::FragmentNeeds needs = state.needs;
+    needs.code |= state.depth.enabled || state.depth_unit_count > 0;
+    needs.facing |= state.stencil.enabled && state.stencil.two_sided;
+    needs.color |= list.needs_color;
+    needs.texcoord |= list.needs_texcoord && needs.color;
+    if (frame_.effects == Effects::all) needs = {true, true, needs.exact_code, true, true, true};
+    const auto& geometry = list.geometry;
+    const auto triangles =
+        extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
+    rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
+}
+
+Outputs& Region::start_batch(const FragmentBatch& batch) {
+    Outputs& out = scratch_->out;
+    std::fill_n(out.alive.begin(), batch.count, ~0u);
+    out.traced = false;
+    return out;
+}
+
+void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
+    fragments_drawn_ += static_cast<std::uint64_t>(batch.count);
+    record().counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
+    const MaterialStage& material = list.materials[batch.material];
+    if (material.texture != nullptr && list.needs_texcoord) {
+        sample(*material.texture, profile().texture_filter, batch.texcoord[0], batch.texcoord[1], scratch_->texel, batch.count);
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                batch.color[c][i] *= scratch_->texel[c][i];
+    }
+    if (!material.mask.enabled) return;
+    const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
+    alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
+    record().counters.alpha_killed += static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count);
+}
+
+void Region::load(const PassState& state, const FragmentBatch& batch) {
+    for (std::size_t r = 0; r < state.reads.size(); ++r) {
+        if (!state.reads[r].exists()) continue;
+        const TargetStorage& from = at(state.reads[r]);
+        record().counters.bytes_read += pixel_bytes(from) * static_cast<std::uint64_t>(batch.count);
+        if (is_depth(from.format())) {
+            gather_plane(from.depth(0), batch, scratch_->loads.depth_[r]);
+            continue;
+        }
+        const FormatInfo format = info(from.format());
+        from.gather(batch.pixel, batch.count, 0, scratch_->codes);
+        for (std::size_t c = 0; c < 4; ++c) {
+            if (c < static_cast<std::size_t>(format.channels))
+                decode(format.type, scratch_->codes[c], scratch_->loads.color_[r][c], batch.count);
+            else
+                std::fill_n(scratch_->loads.color_[r][c].begin(), batch.count, c == 3 ? 1.0f : 0.0f);
+        }
+    }
+}
+
+void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
+    if (state.alpha.enabled) {
+        const std::uint64_t before = alive_count(out, batch.count);
+        const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
+        alpha_test(state.alpha, is_eight_bit_alpha(profile().alpha_test, type), out.color[0][3].data(), out.alive.data(),
+                   batch.count);
+        record().counters.alpha_killed += before - alive_count(out, batch.count);
+    }
+    int samples = 1;
+    for (const Target t : {state.depth_target, state.stencil_target, state.color[0]})
+        if (t.exists()) samples = std::max(samples, at(t).samples());
+    for (int sample = 0; sample < samples; ++sample)
+        if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
+    drawn.tallied = Count{tallied_};
+}
+
+void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn) {
+    Lanes<std::uint32_t>& alive = scratch_->alive;
+    std::copy_n(out.alive.begin(), batch.count, alive.begin());
+    if (count_lanes(alive, batch.count) == 0) return;
+    if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
+    if (state.depth.enabled || state.stencil.enabled) test_depth_and_stencil(state, batch, sample, alive);
+    const std::uint64_t passed = count_lanes(alive, batch.count);
+    drawn.passed.own_ += passed;
+    if (passed == 0) return;
+    if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
+    write_colors(state, batch, out, sample, alive, passed);
+    if (out.traced && frame_.trace && counts_ && sample == 0) record_trace(batch, out, alive);
+}
+
+void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+        if (alive[i] != 0 && out.side[i] != Side::none)
+            trace_.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0, out.side[i],
+                              kind_ == PassKind::geometry});
+}
+
+void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
+    Scratch& s = *scratch_;
+    for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
+        const TargetStorage& target = at(state.depth_units[unit].depth);
+        const std::uint64_t before = count_lanes(alive, batch.count);
+        record().counters.bytes_read += pixel_bytes(target) * before;
+        gather_plane(target.depth(0), batch, s.depth_stored);
+        const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
+        depth_test(test, depth_format(target.format()), batch.code.data(), s.depth_stored.data(), s.depth_pass.data(),
+                   batch.count);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) alive[i] &= s.depth_pass[i];
+        record().counters.depth_killed += before - count_lanes(alive, batch.count);
+    }
+}
+
+void Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                    Lanes<std::uint32_t>& alive) {
+    Scratch& s = *scratch_;
+    Counters& counters = record().counters;
+    const std::uint64_t arriving = count_lanes(alive, batch.count);
+    TargetStorage* depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
+    if (depth != nullptr) {
+        gather_plane(depth->depth(sample), batch, s.depth_stored);
+        depth_test(state.depth, depth_format(depth->format()), batch.code.data(), s.depth_stored.data(), s.depth_pass.data(),
+                   batch.count);
+    } else {
+        std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
+    }
+    std::uint64_t stencil_killed = 0;
+    if (state.stencil.enabled) {
+        TargetStorage& stencil = at(state.stencil_target);
+        gather_plane(stencil.stencil(sample), batch, s.stencil_stored);
+        stencil_killed = static_cast<std::uint64_t>(stencil_test(
+            state.stencil, {batch.front_facing.data(), s.depth_pass.data(), alive.data(), s.stencil_stored.data(),
+                            s.saturated.data(), batch.count}));
+        scatter_plane(stencil.stencil(sample), batch, s.stencil_stored);
+        counters.bytes_read += arriving;
+        counters.bytes_written += arriving;
+        report_saturation(batch);
+    } else {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) alive[i] &= s.depth_pass[i];
+    }
+    const std::uint64_t passed = count_lanes(alive, batch.count);
+    counters.stencil_killed += stencil_killed;
+    counters.depth_killed += arriving - stencil_killed - passed;
+    if (depth == nullptr) return;
+    counters.bytes_read += pixel_bytes(*depth) * (arriving - stencil_killed);
+    if (!state.depth.write) return;
+    write_depth(batch.code.data(), alive.data(), s.depth_stored.data(), batch.count);
+    scatter_plane(depth->depth(sample), batch, s.depth_stored);
+    counters.bytes_written += pixel_bytes(*depth) * passed;
+}
+
+void Region::report_saturation(const FragmentBatch& batch) {
+    const Lanes<std::uint32_t>& saturated = scratch_->saturated;
+    const std::uint64_t lanes = count_lanes(saturated, batch.count);
+    if (lanes == 0) return;
+    std::uint32_t first = ~0u;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+        if (saturated[i] != 0) first = std::min(first, batch.pixel[i]);
+    report(Fault::stencil_saturated, lanes, first, "INCR or DECR at the end of the 8-bit range");
+}
+
+void Region::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                          const Lanes<std::uint32_t>& alive, std::uint64_t passed) {
+    for (std::size_t k = 0; k < state.color.size(); ++k) {
+        const Blend& blending = state.blend[k];
+        if (!state.color[k].exists() || blending.write_mask == 0) continue;
+        TargetStorage& target = at(state.color[k]);
+        const FormatInfo format = info(target.format());
+        if (blending.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
+            target.gather(batch.pixel, batch.count, sample, scratch_->codes);
+        if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
+        blend(blending, format.type, profile(), format.channels, out.color[k], scratch_->codes, batch.count);
+        target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, scratch_->codes);
+    }
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,94 @@
+#include "rasterizer/clip.h"
+
+#include <cassert>
+
+#include "rasterizer/numerics.h"
+
+namespace strata::rasterizer {
+
+Clipper::Clipper(const RasterState& state, const RasterRules& rules) {
+    const auto add = [&](Plane plane) { plane_[static_cast<std::size_t>(count_++)] = plane; };
+    add({0, 0, 0, 1, -double{least_w}, Kind::w});
+    if (!state.depth_clamp && rules.z_clip == ZClip::per_primitive) {
+        const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
+        add(symmetric ? Plane{0, 0, 1, 1, 0, Kind::z_is_minus_w} : Plane{0, 0, 1, 0, 0, Kind::z_is_zero});
+        add({0, 0, -1, 1, 0, Kind::z_is_w});
+    }
+    // |centre + half x / w| <= guard, times w: products are exact in binary64, so the sign of the distance is.
+    const double guard = rules.guard_band_px;
+    const auto add_guard = [&](double half, double centre, bool is_x) {
+        for (const double side : {-half, half})
+            add({is_x ? side : 0, is_x ? 0 : side, 0, guard + (side > 0 ? centre : -centre), 0, Kind::other});
+    };
+    const Rect& v = state.viewport;
+    const double y_sign = state.y_direction == YDirection::up ? -1.0 : 1.0;
+    add_guard(0.5 * v.width(), v.x0 + 0.5 * v.width(), true);
+    // With y up, window y = centre - half y / w: the same two planes with the centre's sign exchanged.
+    add_guard(0.5 * v.height(), y_sign * (v.y0 + 0.5 * v.height()), false);
+    assert(state.clip_plane_count <= static_cast<int>(state.clip_planes.size()) && "at most six user clip planes");
+    for (int i = 0; i < state.clip_plane_count; ++i) {
+        const ClipPlane& p = state.clip_planes[static_cast<std::size_t>(i)];
+        add({p.a, p.b, p.c, p.d, 0, Kind::other});
+    }
+}
+
+double Clipper::distance(const Plane& plane, const ClipVertex& v) noexcept {
+    double d = plane.x * v.x;
+    d = d + plane.y * v.y;
+    d = d + plane.z * v.z;
+    d = d + plane.w * v.w;
+    return d + plane.constant;
+}
+
+std::uint32_t Clipper::outside(const ClipVertex& v) const noexcept {
+    std::uint32_t mask = 0;
+    for (int i = 0; i < count_; ++i) mask |= (distance(plane_[static_cast<std::size_t>(i)], v) < 0.0 ? 1u : 0u) << i;
+    return mask;
+}
+
+ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_in, const ClipVertex& out,
+                             double d_out) noexcept {
+    const double t = d_in / (d_in - d_out);
+    const auto mix = [t](float a, float b) { return static_cast<float>(a + t * (double{b} - a)); };
+    ClipVertex v;
+    v.x = mix(in.x, out.x);
+    v.y = mix(in.y, out.y);
+    v.z = mix(in.z, out.z);
+    v.w = mix(in.w, out.w);
+    for (std::size_t i = 0; i < v.front.size(); ++i) v.front[i] = mix(in.front[i], out.front[i]);
+    for (std::size_t i = 0; i < v.back.size(); ++i) v.back[i] = mix(in.back[i], out.back[i]);
+    for (std::size_t i = 0; i < v.texcoord.size(); ++i) v.texcoord[i] = mix(in.texcoord[i], out.texcoord[i]);
+    switch (plane.kind) {  // what the plane says holds exactly: window z of the corner is n or f
+        case Kind::w: v.w = least_w; break;
+        case Kind::z_is_minus_w: v.z = -v.w; break;
+        case Kind::z_is_zero: v.z = 0.0f; break;
+        case Kind::z_is_w: v.z = v.w; break;
+        case Kind::other: break;
+    }
+    return v;
+}
+
+void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept {
+    to.count = 0;
+    const auto emit = [&](const ClipVertex& v) { to.corner[static_cast<std::size_t>(to.count++)] = v; };
+    for (int i = 0; i < from.count; ++i) {
+        const ClipVertex& a = from.corner[static_cast<std::size_t>(i)];
+        const ClipVertex& b = from.corner[static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1)];
+        const double da = distance(plane, a), db = distance(plane, b);
+        if (da >= 0.0) emit(a);
+        if (da >= 0.0 && db < 0.0 && da > 0.0) emit(crossing(plane, a, da, b, db));
+        if (da < 0.0 && db > 0.0) emit(crossing(plane, b, db, a, da));
+    }
+}
+
+void Clipper::clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept {
+    ClipPolygon other;
+    for (int i = 0; i < count_; ++i) {
+        if ((planes >> i & 1u) == 0) continue;
+        cut(plane_[static_cast<std::size_t>(i)], polygon, other);
+        polygon = other;
+        if (polygon.count < 3) break;
+    }
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,51 @@
+// rasterizer/clip.h - homogeneous clipping of a triangle to what can be projected and what the state keeps.
+//
+// Rule     Planes in this order: w >= 2^-64; near and far (not with depth clamp or per-fragment z clip); the guard band
+// in x and
+//          y; the user's planes. A side that crosses a plane gets one new corner, computed from its inside end I to its
+//          outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64, each
+//          component rounded once to binary32. So two triangles that share a side share its new corners to the bit, and
+//          equal values stay equal.
+// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; hardware.md 1. The w bound is ours [A]: 1 / w and u / w stay
+// finite. Tests    tests/rasterizer/clip_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "rasterizer/geometry.h"
+
+namespace strata::rasterizer {
+
+inline constexpr int max_clip_planes = 1 + 2 + 4 + 6;
+inline constexpr float least_w = 0x1p-64f;
+
+struct ClipPolygon {
+    std::array<ClipVertex, 3 + max_clip_planes> corner;
+    int count = 0;
+};
+
+class Clipper {
+  public:
+    Clipper(const RasterState& state, const RasterRules& rules);
+
+    // Bit i: the vertex is outside plane i. Bit 0 is the w plane.
+    [[nodiscard]] std::uint32_t outside(const ClipVertex& v) const noexcept;
+    // Cuts `polygon` by the planes of the set `planes`; corners stay in walking order from corner 0.
+    void clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept;
+
+  private:
+    enum class Kind : std::uint8_t { w, z_is_minus_w, z_is_zero, z_is_w, other };  // what holds exactly on the plane
+    struct Plane {
+        double x, y, z, w, constant;
+        Kind kind;
+    };
+    [[nodiscard]] static double distance(const Plane& plane, const ClipVertex& v) noexcept;
+    [[nodiscard]] static ClipVertex crossing(const Plane& plane, const ClipVertex& in, double d_in,
+                                             const ClipVertex& out, double d_out) noexcept;
+    void cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept;
+
+    std::array<Plane, max_clip_planes> plane_{};
+    int count_ = 0;
+};
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,91 @@
+// rasterizer/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
+//
+// Rule     Vertex colours to 8 bits first (nearest, a half up). Weights b as in cut_weight.h; the vertex whose b has
+// the largest
+//          exponent takes the remainder 1 - (the two others), exactly; ties {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all
+//          -> v2. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2 c2 + 128) >>
+//          8, over 255 in binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2))
+//          in binary64, cut to 24 bits.
+// Source   nv2a-fragment.md R5, R6; nv2a-depth.md section 3.
+// Tests    tests/rasterizer/color_weights_test.cpp
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "rasterizer/coverage.h"
+#include "rasterizer/cut_weight.h"
+#include "rasterizer/exact_sum.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+[[nodiscard]] constexpr std::int32_t to_color_code(float c) noexcept {
+    if (!(c > 0.0f)) return 0;
+    return c >= 1.0f ? 255 : static_cast<std::int32_t>(double{c} * 255.0 + 0.5);
+}
+
+class ColorWeights {
+  public:
+    ColorWeights(const std::array<float, 3>& inverse_w, std::int64_t area) noexcept
+        : reciprocal_{static_cast<std::uint64_t>(area)},
+          inverse_w_{inverse_w},
+          is_affine_{inverse_w[0] == inverse_w[1] && inverse_w[0] == inverse_w[2]} {}
+
+    // w0, w1, w2 in 1/256 at a fragment with edge values `e`.
+    [[nodiscard]] std::array<std::int32_t, 3> at(const EdgeValues& e) const noexcept {
+        return from(is_affine_ ? affine(e) : perspective(e));
+    }
+
+  private:
+    using Weights = std::array<double, 3>;
+
+    [[nodiscard]] Weights affine(const EdgeValues& e) const noexcept {
+        Weights b{};
+        for (std::size_t i = 0; i < 3; ++i) b[i] = value(reciprocal_.weight(static_cast<std::uint64_t>(e[i])));
+        return b;
+    }
+    [[nodiscard]] Weights perspective(const EdgeValues& e) const noexcept {
+        Weights p{};
+        for (std::size_t i = 0; i < 3; ++i) p[i] = static_cast<double>(e[i]) * inverse_w_[i];
+        const double r = 1.0 / ((p[0] + p[1]) + p[2]);
+        constexpr std::uint64_t upper_24_bits = ~std::uint64_t{0} << (53 - 24);
+        for (double& b : p) b = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b * r) & upper_24_bits);
+        return p;
+    }
+    [[nodiscard]] static std::size_t remainder_vertex(const Weights& b) noexcept {
+        const auto exponent = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(b[i]) >> 52; };
+        const auto k0 = exponent(0), k1 = exponent(1), k2 = exponent(2);
+        if (k2 >= k0 && k2 > k1) return 2;  // alone, or with v0
+        if (k1 > k0) return 1;              // alone, or with v2
+        if (k0 > k2) return 0;              // alone, or with v1
+        return 2;                           // all three
+    }
+    [[nodiscard]] static std::array<std::int32_t, 3> from(const Weights& b) noexcept {
+        const std::size_t rest = remainder_vertex(b);
+        const auto whole = [&](std::size_t i) {
+            if (i != rest) return static_cast<std::int32_t>(256.0 * b[i]);
+            // floor(256 (1 - x)) = 256 - ceil(256 x); x = high + low exactly, and low alone never crosses a multiple of
+            // 1/256.
+            const TwoTerms x = two_sum(b[(i + 1) % 3], b[(i + 2) % 3]);
+            const double scaled = 256.0 * x.high;
+            const auto down = static_cast<std::int32_t>(scaled);
+            return 256 - down - (down < scaled || x.low > 0.0 ? 1 : 0);
+        };
+        const std::int32_t w0 = whole(0), w2 = whole(2);
+        return {w0, 256 - w0 - w2, w2};
+    }
+
+    CutReciprocal reciprocal_;
+    std::array<float, 3> inverse_w_;
+    bool is_affine_;
+};
+
+// One channel: `c` are vertex codes.
+[[nodiscard]] constexpr float weighted_color(const std::array<std::int32_t, 3>& w,
+                                             const std::array<std::int32_t, 3>& c) noexcept {
+    return static_cast<float>((w[0] * c[0] + w[1] * c[1] + w[2] * c[2] + 128) >> 8) / 255.0f;
+}
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,212 @@
+#include "rasterizer/fragment_values.h"
+
+#include <algorithm>
+#include <cassert>
+#include <span>
+
+#include "rasterizer/color_weights.h"
+#include "rasterizer/window.h"
+#include "rasterizer/window_z.h"
+
+namespace strata::rasterizer {
+namespace {
+
+// A depth range limit, within [0,1] as glDepthRange clamps it; -0 becomes 0.
+[[nodiscard]] float range_limit(float z) noexcept { return z > 0.0f ? std::min(z, 1.0f) : 0.0f; }
+
+// b1 and b2 from the unsnapped corners: a function of the pixel alone, whatever span it came in.
+void fill_unsnapped_weights(const SetupTriangle& t, int first, const FragmentBatch& batch,
+                            WeightLanes& weights) noexcept {
+    const auto [p0, p1, p2] = t.unsnapped;
+    const double x1 = double{p1[0]} - p0[0], y1 = double{p1[1]} - p0[1];
+    const double x2 = double{p2[0]} - p0[0], y2 = double{p2[1]} - p0[1];
+    const double r = 1.0 / (x1 * y2 - x2 * y1);
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
+        const double dx = batch.x[i] + 0.5 - p0[0], dy = batch.y[i] + 0.5 - p0[1];
+        weights.b1[i] = (dx * y2 - dy * x2) * r;
+        weights.b2[i] = (dy * x1 - dx * y1) * r;
+    }
+}
+
+// A triangle whose unsnapped corners lie on a line has no plane there: it takes the snapped one.
+[[nodiscard]] bool has_unsnapped_area(const SetupTriangle& t) noexcept {
+    const auto [p0, p1, p2] = t.unsnapped;
+    return (double{p1[0]} - p0[0]) * (double{p2[1]} - p0[1]) != (double{p2[0]} - p0[0]) * (double{p1[1]} - p0[1]);
+}
+
+[[nodiscard]] bool same_bits(float a, float b) noexcept {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+void to_codes(const float* __restrict z, int count, float least, float greatest, DepthFormat format, double half,
+              std::uint32_t* __restrict out) noexcept {
+    if (format == DepthFormat::d32f) {
+        for (int i = 0; i < count; ++i) {
+            const float above = z[i] > least ? z[i] : least;  // also turns -0 and NaN into `least`
+            out[i] = std::bit_cast<std::uint32_t>(above < greatest ? above : greatest);
+        }
+        return;
+    }
+    const double max = max_code(format);
+    for (int i = 0; i < count; ++i) {
+        const float above = z[i] > least ? z[i] : least;
+        const float clamped = above < greatest ? above : greatest;
+        out[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(double{clamped} * max + half));
+    }
+}
+
+void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, int first, FragmentBatch& batch) noexcept {
+    std::array<std::array<std::int32_t, 3>, color_channels> codes{};
+    for (std::size_t c = 0; c < color_channels; ++c)
+        for (std::size_t i = 0; i < 3; ++i) codes[c][i] = to_color_code(t.attribute[i][c]);
+    const ColorWeights weights{t.inverse_w, lanes.edges->area()};
+    for (int i = 0; i < lanes.count; ++i) {
+        const std::array<std::int32_t, 3> w = weights.at(lanes.edge_values(i));
+        for (std::size_t c = 0; c < color_channels; ++c)
+            batch.color[c][static_cast<std::size_t>(first + i)] = weighted_color(w, codes[c]);
+    }
+}
+
+}  // namespace
+
+FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs)
+    : rules_{geometry.rules}, depth_{depth}, needs_{needs}, z_units_{z_units(geometry.state, geometry.rules)} {
+    const float n = range_limit(geometry.state.depth_near), f = range_limit(geometry.state.depth_far);
+    least_ = std::min(n, f);
+    greatest_ = std::max(n, f);
+    least_code_ = to_depth_code(least_, depth.format, rules_.depth_rounding);
+    greatest_code_ = to_depth_code(greatest_, depth.format, rules_.depth_rounding);
+    clips_fragments_ = rules_.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
+    const bool is_float = depth.format == DepthFormat::d32f;
+    needs_float_z_ = needs.shader_z || (needs.code && (depth.path == DepthPath::float32 || is_float)) ||
+                     (needs.exact_code && is_float);
+    assert((!needs.code || depth.path == DepthPath::window_z || depth.path == DepthPath::float32 ||
+            depth.path == DepthPath::exact) &&
+           "the other depth paths are refused before rasterization");
+    assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0)) &&
+           "window_z works in the buffer units of a fixed-point format, the one that is stored");
+}
+
+TriangleLanes FragmentValues::lanes(const TriangleEdges& edges, int first, const FragmentBatch& batch,
+                                    const WeightLanes& weights) const noexcept {
+    const auto f = static_cast<std::size_t>(first);
+    return {&edges,         rules_.subpixel_bits, &batch.x[f],         &batch.y[f],
+            &weights.b1[f], &weights.b2[f],       batch.count - first, true};
+}
+
+// A convex combination leaves the range only if a corner does; the products are exact.
+bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcept {
+    const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
+    return low < least_ * z_units_ || high > greatest_ * z_units_;
+}
+
+// ZClip::per_fragment compares shader_z with the range [A]: what rounds to n or f is inside.
+void FragmentValues::drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept {
+    auto kept = static_cast<std::size_t>(first);
+    for (auto i = kept; i < static_cast<std::size_t>(batch.count); ++i) {
+        if (!(batch.shader_z[i] >= least_ && batch.shader_z[i] <= greatest_)) continue;
+        batch.pixel[kept] = batch.pixel[i];
+        batch.x[kept] = batch.x[i];
+        batch.y[kept] = batch.y[i];
+        batch.shader_z[kept] = batch.shader_z[i];
+        weights.b1[kept] = weights.b1[i];
+        weights.b2[kept] = weights.b2[i];
+        ++kept;
+    }
+    batch.count = static_cast<int>(kept);
+}
+
+int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes& lanes, const float* shader_z,
+                                     std::uint32_t* out) const noexcept {
+    if (depth_.format == DepthFormat::d32f) {
+        to_codes(shader_z, lanes.count, least_, greatest_, depth_.format, 0.0, out);
+        return 0;
+    }
+    const std::uint32_t max = max_code(depth_.format);
+    const bool in_codes = z_units_ == max;
+    const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
+    const double half = rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
+    const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
+    for (int i = 0; i < lanes.count; ++i) out[i] = std::clamp(out[i], least_code_, greatest_code_);
+    return fallbacks;
+}
+
+int FragmentValues::fill_codes(const SetupTriangle& t, const TriangleLanes& lanes, int first,
+                               FragmentBatch& batch) const {
+    const auto f = static_cast<std::size_t>(first);
+    std::uint32_t* const out = &batch.code[f];
+    switch (depth_.path) {
+        case DepthPath::float32:
+            to_codes(&batch.shader_z[f], lanes.count, least_, greatest_, depth_.format,
+                     rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0, out);
+            return 0;
+        case DepthPath::exact: return fill_exact_codes(t, lanes, &batch.shader_z[f], out);
+        case DepthPath::window_z: {
+            const WindowZ24 rule{t.z, lanes.edges->area()};
+            for (int i = 0; i < lanes.count; ++i)
+                out[i] = static_cast<std::uint32_t>(
+                    std::clamp(rule.at(lanes.edge_values(i)), double{1.0} * least_code_, double{1.0} * greatest_code_));
+            return 0;
+        }
+        case DepthPath::perspective_rq:
+        case DepthPath::depth_replace:
+        case DepthPath::float32_plane: break;  // refused: the constructor asserts
+    }
+    return 0;
+}
+
+int FragmentValues::fill_attributes(const SetupTriangle& t, const TriangleLanes& lanes, int first,
+                                    FragmentBatch& batch) const {
+    const bool weighted = needs_.color && rules_.color == ColorInterpolation::weights_8bit;
+    if (weighted) fill_color_weights(t, lanes, first, batch);
+    const std::size_t begin = needs_.color && !weighted ? 0 : color_channels;
+    const std::size_t end = needs_.texcoord ? attribute_count : color_channels;
+    const bool has_w = !(t.inverse_w[0] == 1.0f && t.inverse_w[1] == 1.0f && t.inverse_w[2] == 1.0f);
+    const std::span<const std::array<float, attribute_count>, 3> u{t.attribute};
+    const auto f = static_cast<std::size_t>(first);
+    alignas(64) Lanes<float> inverse_w;
+    bool has_inverse_w = false;
+    int fallbacks = 0;
+    for (std::size_t a = begin; a < end; ++a) {
+        float* __restrict out = a < color_channels ? &batch.color[a][f] : &batch.texcoord[a - color_channels][f];
+        if (same_bits(u[0][a], u[1][a]) && same_bits(u[0][a], u[2][a])) {
+            std::fill_n(out, lanes.count, u[0][a]);
+            continue;
+        }
+        const auto product = [&](std::size_t i) { return u[i][a] * t.inverse_w[i]; };  // rounded to binary32
+        fallbacks += round_plane(RationalPlane{{product(0), product(1), product(2)}}, lanes, out);
+        if (!has_w) continue;  // 1/w is 1 everywhere: the quotient is the dividend
+        if (!has_inverse_w) {
+            fallbacks +=
+                round_plane(RationalPlane{{t.inverse_w[0], t.inverse_w[1], t.inverse_w[2]}}, lanes, inverse_w.data());
+            has_inverse_w = true;
+        }
+        for (int i = 0; i < lanes.count; ++i) out[i] = out[i] / inverse_w[static_cast<std::size_t>(i)];
+    }
+    return fallbacks;
+}
+
+int FragmentValues::fill(const SetupTriangle& t, const TriangleEdges& edges, int first, FragmentBatch& batch,
+                         WeightLanes& weights) const {
+    const auto f = static_cast<std::size_t>(first);
+    TriangleLanes own = lanes(edges, first, batch, weights);
+    if (rules_.plane_origin == PlaneOrigin::unsnapped && has_unsnapped_area(t)) {
+        fill_unsnapped_weights(t, first, batch, weights);
+        own.is_exact = false;
+    }
+    const bool clips = clips_fragments_ && may_leave_depth_range(t);
+    int fallbacks = 0;
+    if (needs_float_z_ || clips) fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
+    if (clips) {
+        drop_outside_depth_range(first, batch, weights);
+        own.count = batch.count - first;
+    }
+    if (needs_.code) fallbacks += fill_codes(t, own, first, batch);
+    if (needs_.exact_code) fallbacks += fill_exact_codes(t, own, &batch.shader_z[f], &batch.exact_code[f]);
+    if (needs_.color || needs_.texcoord) fallbacks += fill_attributes(t, own, first, batch);
+    std::fill_n(&batch.primitive[f], own.count, t.primitive);
+    if (needs_.facing) std::fill_n(&batch.front_facing[f], own.count, std::uint8_t{t.front_facing});
+    return fallbacks;
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,58 @@
+// rasterizer/fragment_values.h - fills the arrays of a batch for the fragments of one triangle.
+//
+// Rule     Depth: shader_z is the exact plane in [0,1] units, rounded once, not clamped; code by the requested path,
+// clamped to the
+//          depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded once, divided by
+//          the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the same bits are that
+//          constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions, evaluated in binary64 and
+//          rounded once.
+// Source   decisions.md 1; hardware.md 2 and 3.
+// Tests    tests/rasterizer/fragment_values_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "rasterizer/fragment_batch.h"
+#include "rasterizer/geometry.h"
+#include "rasterizer/plane.h"
+
+namespace strata::rasterizer {
+
+// The weights b1 and b2 of a batch's fragments in their own triangles.
+struct alignas(64) WeightLanes {
+    Lanes<double> b1, b2;
+};
+
+class FragmentValues {
+  public:
+    FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
+
+    // Fragments [first, batch.count) are those of `triangle`, with pixel, x, y and weights written. Fills what the
+    // needs name; with ZClip::per_fragment it removes the fragments outside the depth range. Returns the number of
+    // exact fallbacks.
+    [[nodiscard]] int fill(const SetupTriangle& triangle, const TriangleEdges& edges, int first, FragmentBatch& batch,
+                           WeightLanes& weights) const;
+
+  private:
+    [[nodiscard]] TriangleLanes lanes(const TriangleEdges& edges, int first, const FragmentBatch& batch,
+                                      const WeightLanes& weights) const noexcept;
+    [[nodiscard]] bool may_leave_depth_range(const SetupTriangle& triangle) const noexcept;
+    void drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept;
+    [[nodiscard]] int fill_exact_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, const float* shader_z,
+                                       std::uint32_t* out) const noexcept;
+    [[nodiscard]] int fill_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, int first,
+                                 FragmentBatch& batch) const;
+    [[nodiscard]] int fill_attributes(const SetupTriangle& triangle, const TriangleLanes& lanes, int first,
+                                      FragmentBatch& batch) const;
+
+    RasterRules rules_;
+    DepthRequest depth_;
+    FragmentNeeds needs_;
+    double z_units_;          // vertex z of depth 1.0
+    float least_, greatest_;  // the depth range, ordered
+    std::uint32_t least_code_, greatest_code_;
+    bool clips_fragments_;
+    bool needs_float_z_;
+};
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,93 @@
+// rasterizer/window.h - from clip space to the window: divide by w, viewport, snapping.
+//
+// Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
+// once
+//          (rules.viewport); all in binary32. y up turns the sign of the y scale. z goes to n..f, or to n..f times 2^n
+//          - 1 with scale and offset pre-multiplied (buffer units; a float depth buffer has the unit 1). x, y are cut
+//          or rounded to 1/2^n.
+// Source   GL 2.1 2.11.1; decisions.md 1; hardware.md 1; nv2a-geometry.md 1 and 4.
+// Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the second
+// rounding is the only one. Tests    tests/rasterizer/window_test.cpp
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "rasterizer/exact_sum.h"
+#include "rasterizer/geometry.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+struct WindowVertex {
+    float x, y, z, inverse_w;
+};
+
+// The number of vertex z units in depth 1.0: 2^n - 1 for buffer units of a fixed-point format, else 1.
+[[nodiscard]] constexpr double z_units(const RasterState& state, const RasterRules& rules) noexcept {
+    const bool scaled = rules.window_z == WindowZ::buffer_units && state.depth_format != DepthFormat::d32f;
+    return scaled ? max_code(state.depth_format) : 1.0;
+}
+
+// a * b + c rounded once to binary32.
+[[nodiscard]] constexpr float fused_multiply_add(float a, float b, float c) noexcept {
+    const TwoTerms sum = two_sum(double{a} * b, double{c});
+    auto bits = std::bit_cast<std::uint64_t>(sum.high);
+    if (sum.low != 0.0 && (bits & 1) == 0)
+        bits += (sum.low > 0.0) == (sum.high > 0.0) ? 1 : ~std::uint64_t{0};  // to odd
+    return static_cast<float>(std::bit_cast<double>(bits));
+}
+
+// v in subpixels; |v| * 2^n < 2^30.
+[[nodiscard]] constexpr std::int32_t snap(float v, int subpixel_bits, Snap rule) noexcept {
+    const double scaled = double{v} * (1 << subpixel_bits);  // exact
+    if (rule == Snap::toward_zero) return static_cast<std::int32_t>(scaled);
+    constexpr double round_at_one = 0x1.8p52;  // the unit in the last place of the sum is 1
+    return static_cast<std::int32_t>((scaled + round_at_one) - round_at_one);
+}
+
+class WindowTransform {
+  public:
+    constexpr WindowTransform(const RasterState& state, const RasterRules& rules) noexcept
+        : rules_{rules}, guard_{static_cast<float>(rules.guard_band_px)} {
+        const Rect& v = state.viewport;
+        x_ = {0.5f * static_cast<float>(v.width()), static_cast<float>(v.x0) + 0.5f * static_cast<float>(v.width())};
+        y_ = {0.5f * static_cast<float>(v.height()), static_cast<float>(v.y0) + 0.5f * static_cast<float>(v.height())};
+        if (state.y_direction == YDirection::up) y_.scale = -y_.scale;
+        const double n = state.depth_near, f = state.depth_far, units = z_units(state, rules);
+        const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
+        z_ = {static_cast<float>((symmetric ? (f - n) * 0.5 : f - n) * units),
+              static_cast<float>((symmetric ? (n + f) * 0.5 : n) * units)};
+    }
+
+    [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v) const noexcept {
+        const float inverse_w = 1.0f / v.w;
+        const auto divided = [&](float c) { return rules_.w_divide == WDivide::quotient ? c / v.w : c * inverse_w; };
+        return {within_guard(map(x_, divided(v.x))), within_guard(map(y_, divided(v.y))), map(z_, divided(v.z)),
+                inverse_w};
+    }
+    [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
+        return {snap(v.x, rules_.subpixel_bits, rules_.snap), snap(v.y, rules_.subpixel_bits, rules_.snap)};
+    }
+
+  private:
+    struct Axis {
+        float scale, offset;
+    };
+    [[nodiscard]] constexpr float map(const Axis& axis, float c) const noexcept {
+        if (rules_.viewport == ViewportArithmetic::fused) return fused_multiply_add(axis.scale, c, axis.offset);
+        const float scaled = axis.scale * c;
+        return scaled + axis.offset;
+    }
+    // Clipping left the vertex inside the guard band but for rounding. NaN stays: set-up counts it.
+    [[nodiscard]] constexpr float within_guard(float c) const noexcept {
+        return c > guard_ ? guard_ : (c < -guard_ ? -guard_ : c);
+    }
+
+    RasterRules rules_;
+    float guard_;
+    Axis x_{}, y_{}, z_{};
+};
+
+}  // namespace strict
+}  // namespace strata::rasterizer

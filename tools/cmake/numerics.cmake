@@ -1,0 +1,24 @@
+# strata::numerics - the floating-point rules of every result bit (rasterizer/numerics.h), for our targets and for whoever includes our arithmetic.
+add_library(strata_numerics INTERFACE)
+add_library(strata::numerics ALIAS strata_numerics)
+target_compile_features(strata_numerics INTERFACE cxx_std_20)
+target_compile_options(strata_numerics INTERFACE -ffp-contract=off -fno-fast-math)
+target_include_directories(strata_numerics INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+
+# strata::warnings - what our own code must compile without.
+add_library(strata_warnings INTERFACE)
+add_library(strata::warnings ALIAS strata_warnings)
+target_compile_options(strata_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wswitch $<$<BOOL:${STRATA_WERROR}>:-Werror>)
+
+# Instrumented builds (presets asan, tsan, fuzz). They ride on strata::numerics because every target links that one.
+set(STRATA_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")
+option(STRATA_FUZZ "Build the fuzz targets (clang only)" OFF)
+set(sanitizer_flags "")
+if(STRATA_SANITIZE)
+  list(APPEND sanitizer_flags -fsanitize=${STRATA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+endif()
+if(STRATA_FUZZ)
+  list(APPEND sanitizer_flags -fsanitize=fuzzer-no-link)
+endif()
+target_compile_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")
+target_link_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")
