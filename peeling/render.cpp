@@ -124,6 +124,7 @@ struct Renderer::State {
         f.max_passes = options.max_passes;
         f.effects = options.effects;
         f.keep_layers = options.keep_layers;
+        f.trust_idle = options.trust_idle;
         f.trace = options.audit;
         f.nearest_depth = options.nearest_depth;
         f.average_count = options.average_count;

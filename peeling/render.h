@@ -28,6 +28,7 @@ struct RenderOptions {
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Format average_count = pipeline::Format::r16f;
     bool keep_layers = false;
+    bool trust_idle = true;      // pipeline/frame.h
     bool audit = true;           // order_errors and the other comparisons with the a_buffer
     bool nearest_depth = true;   // make the Z image
     // Conventions; the viewport is set from width and height.

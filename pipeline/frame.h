@@ -35,6 +35,7 @@ struct Frame {
     Termination termination;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
+    bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
     bool keep_layers = false;
     bool trace = false;
     bool nearest_depth = false;  // also make the frame's Z

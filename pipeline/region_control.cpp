@@ -23,6 +23,7 @@ bool Region::stop_iterating() {
 // more iteration, the probe, because literal execution would: its counters are those of every iteration that the frame still runs.
 bool Region::any(Count count, Idle idle) {
     if (frame_.termination.rule == TerminationRule::fixed) return true;  // no query at all
+    if (!frame_.trust_idle) idle = Idle::no;
     const std::size_t index = decisions_.size();
     const bool finished = extent_ == Extent::tile && count.own_ == 0 && idle != Idle::no;
     bool answer = false;

@@ -1,6 +1,8 @@
 #include "pipeline/target.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <type_traits>
 
 namespace strata::pipeline {
@@ -35,6 +37,35 @@ void scatter_texels(T* base, int channels, const Lanes<std::uint32_t>& pixel, co
                 if (mask >> c & 1u) base[pixel[i] * n + c] = static_cast<T>(codes[c][i]);
         }
     });
+}
+
+// Four 8-bit channels travel as one word: r in the low byte, as they lie in memory.
+static_assert(std::endian::native == std::endian::little);
+
+void gather_words(const std::uint8_t* base, const Lanes<std::uint32_t>& pixel, int count, ColorCodes& codes) {
+    Lanes<std::uint32_t> word;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+        std::memcpy(&word[i], base + std::size_t{4} * pixel[i], 4);
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) codes[c][i] = word[i] >> (8 * c) & 0xffu;
+}
+
+void scatter_words(std::uint8_t* base, const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count,
+                   unsigned mask, const ColorCodes& codes) {
+    std::uint32_t written = 0;
+    for (std::size_t c = 0; c < 4; ++c)
+        if (mask >> c & 1u) written |= 0xffu << (8 * c);
+    Lanes<std::uint32_t> word;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+        word[i] = codes[0][i] | codes[1][i] << 8 | codes[2][i] << 16 | codes[3][i] << 24;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        std::uint8_t* const texel = base + std::size_t{4} * pixel[i];
+        std::uint32_t old;
+        std::memcpy(&old, texel, 4);
+        const std::uint32_t changed = written & alive[i];
+        const std::uint32_t merged = (word[i] & changed) | (old & ~changed);
+        std::memcpy(texel, &merged, 4);
+    }
 }
 
 // One sample plane holds `plane` pixels.
@@ -78,7 +109,7 @@ void TargetStorage::gather(const Lanes<std::uint32_t>& pixel, int count, int sam
     const int channels = info(format_).channels;
     const std::size_t base = plane(sample) * static_cast<std::size_t>(channels);
     switch (info(format_).type) {
-        case ChannelType::unorm8: return gather_texels(bytes_.data() + base, channels, pixel, count, codes);
+        case ChannelType::unorm8: return gather_words(bytes_.data() + base, pixel, count, codes);
         case ChannelType::half: return gather_texels(halves_.data() + base, channels, pixel, count, codes);
         case ChannelType::single:
         case ChannelType::depth: return gather_texels(words_.data() + base, channels, pixel, count, codes);
@@ -91,8 +122,7 @@ void TargetStorage::scatter(const Lanes<std::uint32_t>& pixel, const Lanes<std::
     const int channels = info(format_).channels;
     const std::size_t base = plane(sample) * static_cast<std::size_t>(channels);
     switch (info(format_).type) {
-        case ChannelType::unorm8:
-            return scatter_texels(bytes_.data() + base, channels, pixel, alive, count, mask, codes);
+        case ChannelType::unorm8: return scatter_words(bytes_.data() + base, pixel, alive, count, mask, codes);
         case ChannelType::half:
             return scatter_texels(halves_.data() + base, channels, pixel, alive, count, mask, codes);
         case ChannelType::single:

@@ -67,62 +67,70 @@ struct PixelSpan {
     EdgeValues e;  // exact edge values at x0
 };
 
-// Edge values along one row of pixels of a box; `step` is the change per pixel to the right.
+// Edge values along the rows of a box of pixels.
 class RowWalker {
   public:
-    RowWalker(const TriangleEdges& edges, const Rect& box, int subpixel_bits) noexcept : box_{box} {
-        const SubpixelPoint corner = pixel_centre(box.x0, box.y0, subpixel_bits);
-        value_ = edges.at(corner);
+    RowWalker(const TriangleEdges& edges, const Rect& box, int subpixel_bits) noexcept
+        : x0_{box.x0}, width_{box.width()}, value_{edges.at(pixel_centre(box.x0, box.y0, subpixel_bits))} {
         for (std::size_t i = 0; i < 3; ++i) {
-            tie_[i] = edges.tie(i);
             step_[i] = edges.edge(i).step_x() * (std::int64_t{1} << subpixel_bits);
             down_[i] = edges.edge(i).step_y() * (std::int64_t{1} << subpixel_bits);
+            const std::int64_t rise = step_[i] < 0 ? -step_[i] : step_[i];
+            const double inverse = rise == 0 ? 0.0 : 1.0 / static_cast<double>(rise);
+            crossing_[i] = {rise, -width_ * rise, inverse, edges.tie(i), step_[i] < 0};
         }
     }
-    [[nodiscard]] const EdgeValues& step() const noexcept { return step_; }
+    [[nodiscard]] const EdgeValues& step() const noexcept { return step_; }  // per pixel to the right
     void next_row() noexcept {
         for (std::size_t i = 0; i < 3; ++i) value_[i] += down_[i];
     }
-    // The covered span of the present row, empty if x0 >= x1. Short rows are stepped through, long ones divided.
+    // The covered span of the present row, empty if x0 >= x1.
     [[nodiscard]] PixelSpan span() const noexcept {
-        constexpr int short_row = 12;
-        return box_.width() <= short_row ? stepped() : divided();
+        std::int64_t first = 0, end = width_;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Crossing& c = crossing_[i];
+            const std::int64_t e = value_[i] - c.tie;
+            const std::int64_t k = first_reached(c.falls ? -e - 1 : e, c);
+            first = c.falls ? first : std::max(first, k);
+            end = c.falls ? std::min(end, k) : end;
+        }
+        const auto at = [&](std::size_t i) { return value_[i] + first * step_[i]; };
+        return {x0_ + static_cast<int>(first), x0_ + static_cast<int>(end), {at(0), at(1), at(2)}};
+    }
+    // The same pixels one by one, for boxes so narrow that a span costs more than its fragments: visit(x, e1, e2).
+    template <class Visit>
+    void for_each_covered(Visit&& visit) const {
+        EdgeValues e{value_[0] - crossing_[0].tie, value_[1] - crossing_[1].tie, value_[2] - crossing_[2].tie};
+        for (int k = 0; k < width_; ++k) {
+            if ((e[0] | e[1] | e[2]) >= 0) visit(x0_ + k, e[1] + crossing_[1].tie, e[2] + crossing_[2].tie);
+            for (std::size_t i = 0; i < 3; ++i) e[i] += step_[i];
+        }
     }
 
   private:
-    [[nodiscard]] PixelSpan stepped() const noexcept {
-        EdgeValues e{value_[0] - tie_[0], value_[1] - tie_[1], value_[2] - tie_[2]};
-        int x = box_.x0;
-        const auto outside = [&] { return (e[0] | e[1] | e[2]) < 0; };
-        const auto advance = [&] {
-            for (std::size_t i = 0; i < 3; ++i) e[i] += step_[i];
-            ++x;
-        };
-        while (x < box_.x1 && outside()) advance();
-        PixelSpan span{x, x, {e[0] + tie_[0], e[1] + tie_[1], e[2] + tie_[2]}};
-        while (x < box_.x1 && !outside()) advance();
-        span.x1 = x;
-        return span;
-    }
-    // E(k) = value - tie + k step >= 0 for k in [0, width), solved exactly for each edge.
-    [[nodiscard]] PixelSpan divided() const noexcept {
-        std::int64_t first = 0, end = box_.width();
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::int64_t e = value_[i] - tie_[i], step = step_[i];
-            if (e < 0) {
-                if (step <= 0) return {box_.x0, box_.x0, {}};
-                first = std::max(first, (-e + step - 1) / step);
-            } else if (step < 0) {
-                end = std::min(end, e / -step + 1);
-            }
-        }
-        const auto at = [&](std::size_t i) { return value_[i] + first * step_[i]; };
-        return {box_.x0 + static_cast<int>(std::min<std::int64_t>(first, box_.width())),
-                box_.x0 + static_cast<int>(end), first < end ? EdgeValues{at(0), at(1), at(2)} : EdgeValues{}};
+    struct Crossing {
+        std::int64_t rise;    // |step|
+        std::int64_t beyond;  // what a row's width cannot make up for
+        double inverse;       // 1 / rise, or 0
+        std::int64_t tie;
+        bool falls;  // the edge is left to the right: its end is where -E - 1 reaches 0
+    };
+
+    // The least k >= 0 with e + k rise >= 0, at most the width, without a branch. The guess is never high, and low by
+    // less than 2: it is at most 2^16, its error below 2^-35, and an exact quotient that is no integer lies 1 / rise or
+    // more above one.
+    [[nodiscard]] std::int64_t first_reached(std::int64_t e, const Crossing& c) const noexcept {
+        const std::int64_t missing = std::clamp(e, c.beyond, std::int64_t{0});
+        auto k = static_cast<std::int64_t>(static_cast<double>(-missing) * c.inverse);
+        k += e + k * c.rise < 0 ? 1 : 0;
+        k += e + k * c.rise < 0 ? 1 : 0;
+        return e < c.beyond ? width_ : k;
     }
 
-    Rect box_;
-    EdgeValues value_, tie_, step_, down_;
+    int x0_;
+    std::int64_t width_;
+    EdgeValues value_, step_, down_;
+    std::array<Crossing, 3> crossing_;
 };
 
 }  // namespace strata::rasterizer

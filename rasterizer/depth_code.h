@@ -1,7 +1,8 @@
 // rasterizer/depth_code.h - window depth to its stored code. Depth is compared on stored codes only.
 //
 // Rule     D16, D24: clamp to [0,1], scale by 2^n - 1, round by the profile's rule (a half goes up); NaN is 0.
-//          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned integers.
+//          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned
+//          integers.
 // Source   hardware.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's.
 // Numbers  Scaling in binary64: 24 by 24 bits are exact, while binary32 has no half left above z = 0.5.
 // Tests    tests/rasterizer/depth_code_test.cpp
@@ -33,7 +34,8 @@ inline namespace strict {
     if (z >= 1.0f) return max_code(format);
     if (format == DepthFormat::d32f) return std::bit_cast<std::uint32_t>(z);
     const double scaled = double{z} * max_code(format);
-    return static_cast<std::uint32_t>(scaled + (rounding == DepthRounding::nearest ? 0.5 : 0.0));  // >= 0: the cast floors
+    return static_cast<std::uint32_t>(scaled +
+                                      (rounding == DepthRounding::nearest ? 0.5 : 0.0));  // >= 0: the cast floors
 }
 
 // k / (2^n - 1) rounded once to binary64, for pictures and reports; comparisons use codes.

@@ -1,6 +1,6 @@
 // rasterizer/fragment_batch.h - fragments on their way through the stages, as arrays.
-// A batch holds fragments of one material in submission order, and no pixel twice: a stage may read, change and write back
-// the stored values of all its fragments in one loop without looking at the order between them.
+// A batch holds fragments of one material in submission order, and no pixel twice: a stage may read, change and write
+// back the stored values of all its fragments in one loop without looking at the order between them.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -16,20 +16,21 @@ template <class T>
 using Lanes = std::array<T, batch_capacity>;
 
 struct alignas(64) FragmentBatch {
-    Lanes<std::uint32_t> pixel;       // index into the region, row-major
-    Lanes<std::uint16_t> x, y;        // window position of the pixel, y down
-    Lanes<std::uint32_t> primitive;   // submission index of the source triangle
-    Lanes<float> shader_z;            // what a fragment program sees as depth: binary32, not clamped, not quantised
-    Lanes<std::uint32_t> code;        // the depth as this pass's buffer would store it
-    Lanes<std::uint32_t> exact_code;  // the same by DepthPath::exact, when asked for
-    std::array<Lanes<float>, 4> color;     // r g b a, interpolated
+    Lanes<std::uint32_t> pixel;         // index into the region, row-major
+    Lanes<std::uint16_t> x, y;          // window position of the pixel, y down
+    Lanes<std::uint32_t> primitive;     // submission index of the source triangle
+    Lanes<float> shader_z;              // what a fragment program sees as depth: binary32, not clamped, not quantised
+    Lanes<std::uint32_t> code;          // the depth as this pass's buffer would store it
+    Lanes<std::uint32_t> exact_code;    // the same by DepthPath::exact, when asked for
+    std::array<Lanes<float>, 4> color;  // r g b a, interpolated
     std::array<Lanes<float>, 2> texcoord;  // s t
     Lanes<std::uint8_t> front_facing;
     int count = 0;
     std::uint32_t material = 0;
 };
 
-// Which of a batch's arrays a pass looks at; the others keep whatever they held. pixel, x, y and primitive are always there.
+// Which of a batch's arrays a pass looks at; the others keep whatever they held. pixel, x, y and primitive are always
+// there.
 struct FragmentNeeds {
     bool shader_z = true, code = true, exact_code = false, color = true, texcoord = false, facing = false;
     friend bool operator==(const FragmentNeeds&, const FragmentNeeds&) = default;

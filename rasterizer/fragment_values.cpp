@@ -41,14 +41,14 @@ void fill_unsnapped_weights(const SetupTriangle& t, int first, const FragmentBat
 void to_codes(const float* __restrict z, int count, float least, float greatest, DepthFormat format, double half,
               std::uint32_t* __restrict out) noexcept {
     if (format == DepthFormat::d32f) {
-        for (int i = 0; i < count; ++i) {
+        for (int i = 0; i < padded(count); ++i) {
             const float above = z[i] > least ? z[i] : least;  // also turns -0 and NaN into `least`
             out[i] = std::bit_cast<std::uint32_t>(above < greatest ? above : greatest);
         }
         return;
     }
     const double max = max_code(format);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < padded(count); ++i) {
         const float above = z[i] > least ? z[i] : least;
         const float clamped = above < greatest ? above : greatest;
         out[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(double{clamped} * max + half));
@@ -127,7 +127,7 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
     const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
     const double half = rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
     const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
-    for (int i = 0; i < lanes.count; ++i) out[i] = std::clamp(out[i], least_code_, greatest_code_);
+    for (int i = 0; i < padded(lanes.count); ++i) out[i] = std::clamp(out[i], least_code_, greatest_code_);
     return fallbacks;
 }
 
@@ -164,24 +164,25 @@ int FragmentValues::fill_attributes(const SetupTriangle& t, const TriangleLanes&
     const bool has_w = !(t.inverse_w[0] == 1.0f && t.inverse_w[1] == 1.0f && t.inverse_w[2] == 1.0f);
     const std::span<const std::array<float, attribute_count>, 3> u{t.attribute};
     const auto f = static_cast<std::size_t>(first);
-    alignas(64) Lanes<float> inverse_w;
+    alignas(64) Lanes<float> inverse_w_lanes;
+    float* const __restrict inverse_w = inverse_w_lanes.data();
     bool has_inverse_w = false;
     int fallbacks = 0;
     for (std::size_t a = begin; a < end; ++a) {
         float* __restrict out = a < color_channels ? &batch.color[a][f] : &batch.texcoord[a - color_channels][f];
         if (same_bits(u[0][a], u[1][a]) && same_bits(u[0][a], u[2][a])) {
-            std::fill_n(out, lanes.count, u[0][a]);
+            const float constant = u[0][a];
+            for (int i = 0; i < padded(lanes.count); ++i) out[i] = constant;
             continue;
         }
         const auto product = [&](std::size_t i) { return u[i][a] * t.inverse_w[i]; };  // rounded to binary32
         fallbacks += round_plane(RationalPlane{{product(0), product(1), product(2)}}, lanes, out);
         if (!has_w) continue;  // 1/w is 1 everywhere: the quotient is the dividend
         if (!has_inverse_w) {
-            fallbacks +=
-                round_plane(RationalPlane{{t.inverse_w[0], t.inverse_w[1], t.inverse_w[2]}}, lanes, inverse_w.data());
+            fallbacks += round_plane(RationalPlane{{t.inverse_w[0], t.inverse_w[1], t.inverse_w[2]}}, lanes, inverse_w);
             has_inverse_w = true;
         }
-        for (int i = 0; i < lanes.count; ++i) out[i] = out[i] / inverse_w[static_cast<std::size_t>(i)];
+        for (int i = 0; i < padded(lanes.count); ++i) out[i] = out[i] / inverse_w[i];
     }
     return fallbacks;
 }
@@ -204,7 +205,8 @@ int FragmentValues::fill(const SetupTriangle& t, const TriangleEdges& edges, int
     if (needs_.code) fallbacks += fill_codes(t, own, first, batch);
     if (needs_.exact_code) fallbacks += fill_exact_codes(t, own, &batch.shader_z[f], &batch.exact_code[f]);
     if (needs_.color || needs_.texcoord) fallbacks += fill_attributes(t, own, first, batch);
-    std::fill_n(&batch.primitive[f], own.count, t.primitive);
+    std::uint32_t* const primitive = &batch.primitive[f];
+    for (int i = 0; i < padded(own.count); ++i) primitive[i] = t.primitive;
     if (needs_.facing) std::fill_n(&batch.front_facing[f], own.count, std::uint8_t{t.front_facing});
     return fallbacks;
 }

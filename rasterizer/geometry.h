@@ -1,4 +1,5 @@
-// rasterizer/geometry.h - what comes in (clip-space vertices) and what is made of it once a frame (set-up triangles, binned).
+// rasterizer/geometry.h - what comes in (clip-space vertices) and what is made of it once a frame (set-up triangles,
+// binned).
 #pragma once
 #include <array>
 #include <cstdint>
@@ -38,12 +39,12 @@ struct TriangleSoup {
 // A triangle after clipping, snapping and facing; one source triangle may become several (fan from its first corner).
 // Corner order is that of submission: geforce3's depth and colour depend on it.
 struct SetupTriangle {
-    std::array<SubpixelPoint, 3> p;      // snapped window position, y down
+    std::array<SubpixelPoint, 3> p;                 // snapped window position, y down
     std::array<std::array<float, 2>, 3> unsnapped;  // window position before snapping, for PlaneOrigin::unsnapped
-    std::array<double, 3> z;             // window z (rules.window_z units), polygon offset added
-    std::array<float, 3> inverse_w;      // binary32 1 / w
+    std::array<double, 3> z;                        // window z (rules.window_z units), polygon offset added
+    std::array<float, 3> inverse_w;                 // binary32 1 / w
     std::array<std::array<float, attribute_count>, 3> attribute;  // as given, before the product with 1 / w
-    std::uint32_t primitive = 0;         // submission index of the source triangle
+    std::uint32_t primitive = 0;                                  // submission index of the source triangle
     std::uint32_t material = 0;
     bool front_facing = true;
 };
@@ -72,9 +73,11 @@ struct Geometry {
 };
 
 // Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`.
-[[nodiscard]] Geometry set_up(const TriangleSoup& soup, const RasterState& state, const RasterRules& rules, int threads);
+[[nodiscard]] Geometry set_up(const TriangleSoup& soup, const RasterState& state, const RasterRules& rules,
+                              int threads);
 
-// Sorts the set-up triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport, row-major.
+// Sorts the set-up triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport,
+// row-major.
 void bin_triangles(Geometry& geometry, int tile_size);
 
 // The rectangle of tile number `tile` of the viewport.

@@ -1,8 +1,11 @@
-// rasterizer/numerics.h - the floating-point rules that every result bit stands on. Every header with arithmetic includes this one.
+// rasterizer/numerics.h - the floating-point rules that every result bit stands on. Every header with arithmetic
+// includes this one.
 //
-// Rule     IEEE 754 binary32 and binary64, round to nearest even, each operation rounded once: no contraction into fused
-//          multiply-add, no excess precision, no reassociation. Headers with inline arithmetic live in the inline namespace
-//          `strict`, so that a program compiled with other rules cannot silently share their code at link time.
+// Rule     IEEE 754 binary32 and binary64, round to nearest even, each operation rounded once: no contraction into
+// fused
+//          multiply-add, no excess precision, no reassociation. Headers with inline arithmetic live in the inline
+//          namespace `strict`, so that a program compiled with other rules cannot silently share their code at link
+//          time.
 // Source   decisions.md 1 and 6; ISO C++ <cfenv>; the build carries the flags as strata::numerics.
 // Tests    tests/rasterizer/numerics_test.cpp
 #pragma once

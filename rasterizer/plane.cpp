@@ -73,14 +73,14 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
         const float value = plane.numerator == plane.denominator
                                 ? static_cast<float>(plane.v[0])
                                 : exact_float(plane, {lanes.edges->area(), 0, 0}, lanes.edges->area());
-        std::fill_n(out, count, value);
+        for (int i = 0; i < padded(count); ++i) out[i] = value;
         return 0;
     }
     const FilterPlane filter{plane, lanes.is_exact};
     const double* __restrict b1 = lanes.weight1;
     const double* __restrict b2 = lanes.weight2;
     std::uint32_t unsure = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < padded(count); ++i) {
         const double v = filter.at(b1[i], b2[i]);
         const auto low = static_cast<float>(v - filter.error), high = static_cast<float>(v + filter.error);
         unsure |= difference(low, high);
@@ -101,7 +101,8 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRoun
                 std::uint32_t* __restrict out) noexcept {
     const int count = lanes.count;
     if (is_constant(plane)) {
-        std::fill_n(out, count, exact_code(plane, {lanes.edges->area(), 0, 0}, lanes.edges->area(), rounding));
+        const std::uint32_t code = exact_code(plane, {lanes.edges->area(), 0, 0}, lanes.edges->area(), rounding);
+        for (int i = 0; i < padded(count); ++i) out[i] = code;
         return 0;
     }
     const FilterPlane filter{plane, lanes.is_exact};
@@ -110,7 +111,7 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRoun
     const double max = rounding.max, half = rounding.half;
     const double error = lanes.is_exact ? filter.error + 0x1p-47 : 0.0;  // the sum with 1/2 rounds once more
     std::int32_t unsure = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < padded(count); ++i) {
         const double v = filter.at(b1[i], b2[i]) + half;
         const std::int32_t low = clamped_floor(v - error, max), high = clamped_floor(v + error, max);
         unsure |= low ^ high;

@@ -41,6 +41,12 @@ struct CodeRounding {
 [[nodiscard]] std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::int64_t area,
                                        CodeRounding rounding) noexcept;
 
+// Loops over lanes run to whole blocks, so that they have no remainder; what stands in the lanes beyond the count is
+// never looked at. A batch is flushed early enough that there is room for them.
+inline constexpr int lane_block = 4;
+[[nodiscard]] constexpr int padded(int count) noexcept { return (count + lane_block - 1) & -lane_block; }
+inline constexpr int usable_capacity = batch_capacity - lane_block + 1;
+
 // The fragments of one triangle: `count` lanes of batch arrays.
 struct TriangleLanes {
     const TriangleEdges* edges;
@@ -62,7 +68,8 @@ struct FilterPlane {
     double w0, d1, d2, error;
 
     FilterPlane(const RationalPlane& plane, bool is_exact) noexcept {
-        const double scale = plane.numerator / plane.denominator;  // 1, N or 1 / D: rounded at most once
+        const double n = plane.numerator, d = plane.denominator;
+        const double scale = n == d ? 1.0 : n / d;  // 1, N or 1 / D: rounded at most once
         w0 = plane.v[0] * scale;
         const double w1 = plane.v[1] * scale, w2 = plane.v[2] * scale;
         d1 = w1 - w0;

@@ -23,8 +23,12 @@ struct Rect {
     return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1};
 }
 
-enum class ClipDepth : std::uint8_t { minus_one_to_one, zero_to_one };  // -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D)
-// Where clip-space +y points on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the window.
+enum class ClipDepth : std::uint8_t {
+    minus_one_to_one,
+    zero_to_one
+};  // -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D)
+// Where clip-space +y points on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the
+// window.
 enum class YDirection : std::uint8_t { up, down };
 enum class CullFace : std::uint8_t { none, front, back, front_and_back };
 enum class FrontFace : std::uint8_t { counter_clockwise, clockwise };  // as seen in the window with y up, GL 2.1 2.14.1
@@ -47,7 +51,7 @@ struct RasterState {
     ClipDepth clip_depth = ClipDepth::minus_one_to_one;
     YDirection y_direction = YDirection::up;
     std::optional<Rect> scissor;
-    bool depth_clamp = false;  // ARB_depth_clamp: no clipping at near and far, depth clamped just before the test
+    bool depth_clamp = false;        // ARB_depth_clamp: no clipping at near and far, depth clamped just before the test
     CullFace cull = CullFace::back;  // for single-sided items; double-sided items are never culled
     FrontFace front_face = FrontFace::counter_clockwise;
     PolygonOffset polygon_offset;

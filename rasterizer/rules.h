@@ -1,5 +1,6 @@
 // rasterizer/rules.h - how a device turns vertices into fragments, as a value. `DeviceProfile` (pipeline) contains one.
-// Every field is a knob that a foreign rasterizer may set differently; the devices' own numbers stand in pipeline/profile.cpp.
+// Every field is a knob that a foreign rasterizer may set differently; the devices' own numbers stand in
+// pipeline/profile.cpp.
 #pragma once
 #include <cstdint>
 
@@ -12,18 +13,28 @@ enum class Snap : std::uint8_t { toward_zero, nearest_even };  // window x, y to
 // Which sides of a triangle own a centre that lies exactly on them, in y-down memory order (edge.h).
 enum class TieRule : std::uint8_t { top_left, bottom_left, top_right, bottom_right };
 
-enum class ZClip : std::uint8_t { per_primitive, per_fragment };  // polygons are cut, or fragments outside n..f are dropped
-enum class WClip : std::uint8_t { clip, drop };                   // a vertex with w <= 0: cut the polygon at w > 0, or drop it whole
-enum class WDivide : std::uint8_t { quotient, reciprocal };       // x / w, or x * (1 / w)
+enum class ZClip : std::uint8_t {
+    per_primitive,
+    per_fragment
+};                                               // polygons are cut, or fragments outside n..f are dropped
+enum class WClip : std::uint8_t { clip, drop };  // a vertex with w <= 0: cut the polygon at w > 0, or drop it whole
+enum class WDivide : std::uint8_t { quotient, reciprocal };        // x / w, or x * (1 / w)
 enum class ViewportArithmetic : std::uint8_t { separate, fused };  // scale, then offset: two roundings or one
-enum class PlaneOrigin : std::uint8_t { snapped, unsnapped };     // attribute planes start at snapped or unsnapped positions
-enum class WindowZ : std::uint8_t { unit_interval, buffer_units };  // vertex window z in [0,1], or scaled by 2^n - 1 at the vertex
+enum class PlaneOrigin : std::uint8_t {
+    snapped,
+    unsnapped
+};  // attribute planes start at snapped or unsnapped positions
+enum class WindowZ : std::uint8_t {
+    unit_interval,
+    buffer_units
+};  // vertex window z in [0,1], or scaled by 2^n - 1 at the vertex
 enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
-// Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), or 2^(e - 23) always.
+// Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), or 2^(e - 23)
+// always.
 enum class OffsetUnit : std::uint8_t { format, float_exponent };
 
-// How a fragment's depth is computed (design.md, "Depth paths"). perspective_rq, depth_replace and float32_plane have their
-// room here and are refused by pipeline/check.h until the invariance laboratory brings them.
+// How a fragment's depth is computed (design.md, "Depth paths"). perspective_rq, depth_replace and float32_plane have
+// their room here and are refused by pipeline/check.h until the invariance laboratory brings them.
 enum class DepthPath : std::uint8_t { window_z, perspective_rq, depth_replace, float32, float32_plane, exact };
 
 struct RasterRules {

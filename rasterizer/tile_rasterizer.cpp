@@ -9,7 +9,7 @@
 namespace strata::rasterizer {
 namespace {
 
-constexpr auto counting = [] {
+alignas(64) constexpr auto counting = [] {
     Lanes<double> k{};
     for (std::size_t i = 0; i < k.size(); ++i) k[i] = static_cast<double>(i);
     return k;
@@ -43,9 +43,15 @@ class TileRasterizer::Pass {
         const Source source{triangle, edges, 1.0 / static_cast<double>(edges.area())};
         first_ = batch_.count;
         RowWalker row{edges, box, subpixel_bits_};
-        for (int y = box.y0; y < box.y1; ++y, row.next_row()) {
-            const PixelSpan span = row.span();
-            if (span.x0 < span.x1) add_span(source, span, row.step(), y);
+        constexpr int narrow = 8;
+        if (box.width() <= narrow) {
+            for (int y = box.y0; y < box.y1; ++y, row.next_row())
+                row.for_each_covered([&](int x, std::int64_t e1, std::int64_t e2) { add_pixel(source, x, y, e1, e2); });
+        } else {
+            for (int y = box.y0; y < box.y1; ++y, row.next_row()) {
+                const PixelSpan span = row.span();
+                if (span.x0 < span.x1) add_span(source, span, row.step(), y);
+            }
         }
         if (batch_.count > first_) fill(source);
     }
@@ -72,56 +78,72 @@ class TileRasterizer::Pass {
             static_cast<std::uint64_t>(values_.fill(source.triangle, source.edges, first_, batch_, owner_.weights_));
     }
 
-    void add_span(const Source& source, const PixelSpan& span, const EdgeValues& step, int y) {
-        const auto row =
-            static_cast<std::uint32_t>(y - owner_.region_.y0) * static_cast<std::uint32_t>(owner_.region_.width());
-        const std::uint32_t pixel = row + static_cast<std::uint32_t>(span.x0 - owner_.region_.x0);
-        const int width = span.x1 - span.x0;
-        for (int done = 0; done < width;) {
-            const int count = std::min(width - done, batch_capacity - batch_.count);
-            const std::uint32_t first_pixel = pixel + static_cast<std::uint32_t>(done);
-            if (count == 0 || is_taken(first_pixel, count)) {
+    [[nodiscard]] std::uint32_t row_start(int y) const noexcept {
+        return static_cast<std::uint32_t>(y - owner_.region_.y0) * static_cast<std::uint32_t>(owner_.region_.width());
+    }
+
+    void add_span(const Source& source, PixelSpan span, const EdgeValues& step, int y) {
+        while (span.x0 < span.x1) {
+            const std::uint32_t pixel = row_start(y) + static_cast<std::uint32_t>(span.x0 - owner_.region_.x0);
+            const int count = std::min(span.x1 - span.x0, usable_capacity - batch_.count);
+            if (count == 0 || !claim(pixel, count)) {
                 if (batch_.count > first_) fill(source);
                 flush();
                 continue;
             }
-            append(source, span, step, y, done, count, first_pixel);
-            done += count;
+            append(source, span, step, y, count, pixel);
+            span.x0 += count;
+            for (std::size_t i = 1; i < 3; ++i) span.e[i] += count * step[i];
         }
     }
 
-    [[nodiscard]] bool is_taken(std::uint32_t first_pixel, int count) const noexcept {
-        const std::uint32_t* stamp = &owner_.last_batch_[first_pixel];
-        bool taken = false;
-        for (int i = 0; i < count; ++i) taken |= stamp[i] == owner_.batch_number_;
-        return taken;
+    void add_pixel(const Source& source, int x, int y, std::int64_t e1, std::int64_t e2) {
+        const std::uint32_t pixel = row_start(y) + static_cast<std::uint32_t>(x - owner_.region_.x0);
+        if (batch_.count == usable_capacity || owner_.last_batch_[pixel] == owner_.batch_number_) {
+            if (batch_.count > first_) fill(source);
+            flush();
+        }
+        owner_.last_batch_[pixel] = owner_.batch_number_;
+        const auto at = static_cast<std::size_t>(batch_.count++);
+        owner_.weights_.b1[at] = static_cast<double>(e1) * source.inverse_area;
+        owner_.weights_.b2[at] = static_cast<double>(e2) * source.inverse_area;
+        batch_.pixel[at] = pixel;
+        batch_.x[at] = static_cast<std::uint16_t>(x);
+        batch_.y[at] = static_cast<std::uint16_t>(y);
     }
 
-    // Pixels [done, done + count) of the span. Edge values are integers: exact in binary64 below 2^53, within the
-    // filter's bound above.
-    void append(const Source& source, const PixelSpan& span, const EdgeValues& step, int y, int done, int count,
+    // Stamps the pixels with this batch's number; false if the batch already holds one of them.
+    [[nodiscard]] bool claim(std::uint32_t first_pixel, int count) noexcept {
+        std::uint32_t* const stamp = &owner_.last_batch_[first_pixel];
+        const std::uint32_t now = owner_.batch_number_;
+        for (int i = 0; i < count; ++i) {
+            if (stamp[i] == now) return false;
+            stamp[i] = now;
+        }
+        return true;
+    }
+
+    // The span's first `count` pixels. Edge values are integers: exact in binary64 below 2^53, within the filter's
+    // bound above.
+    void append(const Source& source, const PixelSpan& span, const EdgeValues& step, int y, int count,
                 std::uint32_t first_pixel) noexcept {
         const auto at = static_cast<std::size_t>(batch_.count);
-        const auto e1 = static_cast<double>(span.e[1] + done * step[1]),
-                   e2 = static_cast<double>(span.e[2] + done * step[2]);
+        const auto e1 = static_cast<double>(span.e[1]), e2 = static_cast<double>(span.e[2]);
         const auto s1 = static_cast<double>(step[1]), s2 = static_cast<double>(step[2]);
         const double r = source.inverse_area;
         double* __restrict b1 = &owner_.weights_.b1[at];
         double* __restrict b2 = &owner_.weights_.b2[at];
-        for (int i = 0; i < count; ++i) {
-            b1[i] = (e1 + counting[static_cast<std::size_t>(i)] * s1) * r;
-            b2[i] = (e2 + counting[static_cast<std::size_t>(i)] * s2) * r;
+        std::uint32_t* __restrict pixels = &batch_.pixel[at];
+        std::uint16_t* __restrict xs = &batch_.x[at];
+        std::uint16_t* __restrict ys = &batch_.y[at];
+        for (int i = 0; i < padded(count); ++i) {
+            const double k = counting[static_cast<std::size_t>(i)];
+            b1[i] = (e1 + k * s1) * r;
+            b2[i] = (e2 + k * s2) * r;
         }
-        std::uint32_t* stamp = &owner_.last_batch_[first_pixel];
-        std::uint32_t* pixels = &batch_.pixel[at];
-        std::uint16_t* xs = &batch_.x[at];
-        std::uint16_t* ys = &batch_.y[at];
-        for (int i = 0; i < count; ++i) {
-            stamp[i] = owner_.batch_number_;
-            pixels[i] = first_pixel + static_cast<std::uint32_t>(i);
-            xs[i] = static_cast<std::uint16_t>(span.x0 + done + i);
-            ys[i] = static_cast<std::uint16_t>(y);
-        }
+        for (int i = 0; i < padded(count); ++i) pixels[i] = first_pixel + static_cast<std::uint32_t>(i);
+        for (int i = 0; i < padded(count); ++i) xs[i] = static_cast<std::uint16_t>(span.x0 + i);
+        for (int i = 0; i < padded(count); ++i) ys[i] = static_cast<std::uint16_t>(y);
         batch_.count += count;
     }
 

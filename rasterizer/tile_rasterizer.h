@@ -48,7 +48,7 @@ class TileRasterizer {
     std::uint32_t batch_number_ = 0;
     std::uint64_t exact_fallbacks_ = 0;
     FragmentBatch batch_;
-    WeightLanes weights_;
+    WeightLanes weights_{};
 };
 
 }  // namespace strata::rasterizer

@@ -1,0 +1,38 @@
+#include "scenes/bounds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rasterizer/numerics.h"
+
+namespace strata::scenes {
+namespace {
+
+std::array<double, 3> transformed(const pipeline::Matrix& m, const pipeline::Vec3& p) noexcept {
+    std::array<double, 3> world{};
+    for (std::size_t r = 0; r < 3; ++r)
+        world[r] = ((m[r] * double{p[0]} + m[4 + r] * double{p[1]}) + m[8 + r] * double{p[2]}) + m[12 + r];
+    return world;
+}
+
+void include(Bounds& bounds, const std::array<double, 3>& point) noexcept {
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) return;
+    if (bounds.is_empty()) bounds = {point, point};
+    for (std::size_t i = 0; i < 3; ++i) {
+        bounds.lo[i] = std::min(bounds.lo[i], point[i]);
+        bounds.hi[i] = std::max(bounds.hi[i], point[i]);
+    }
+}
+
+}  // namespace
+
+Bounds bounds_of(const pipeline::DrawList& list) {
+    Bounds bounds;
+    for (const pipeline::Instance& instance : list.instances) {
+        const pipeline::Mesh& mesh = list.meshes[instance.mesh];
+        for (const std::uint32_t index : mesh.indices) include(bounds, transformed(instance.model, mesh.positions[index]));
+    }
+    return bounds;
+}
+
+}  // namespace strata::scenes

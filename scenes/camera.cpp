@@ -1,0 +1,115 @@
+#include "scenes/camera.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "rasterizer/float_environment.h"
+#include "rasterizer/input_error.h"
+#include "rasterizer/numerics.h"
+#include "scenes/elementary.h"
+
+namespace strata::scenes {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector difference(const Vector& a, const Vector& b) noexcept { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Vector& a, const Vector& b) noexcept { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) noexcept {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector normalized(const Vector& a) noexcept {
+    const double length = std::sqrt(dot(a, a));
+    return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+pipeline::Matrix look_at_matrix(const Vector& eye, const Vector& center, const Vector& up) noexcept {
+    const Vector forward = normalized(difference(center, eye));
+    const Vector side = normalized(cross(forward, up));
+    const Vector top = cross(side, forward);
+    return {side[0], top[0], -forward[0], 0, side[1], top[1], -forward[1], 0,
+            side[2], top[2], -forward[2], 0, -dot(side, eye), -dot(top, eye), dot(forward, eye), 1};
+}
+
+// The two entries of a perspective matrix's third row; zfar 0: at infinity.
+void set_depth_row(pipeline::Matrix& m, double znear, double zfar) noexcept {
+    m[10] = zfar == 0 ? -1 : -(zfar + znear) / (zfar - znear);
+    m[14] = zfar == 0 ? -2 * znear : -2 * znear * zfar / (zfar - znear);
+    m[11] = -1;
+}
+
+// `half_angle` in radians.
+pipeline::Matrix perspective(double half_angle, double aspect, double znear, double zfar) noexcept {
+    const double cotangent = cos(half_angle) / sin(half_angle);
+    pipeline::Matrix m{};
+    m[0] = cotangent / aspect;
+    m[5] = cotangent;
+    set_depth_row(m, znear, zfar);
+    return m;
+}
+
+pipeline::Matrix orthographic(const SceneCamera& camera) noexcept {
+    pipeline::Matrix m{};
+    const double depth = camera.znear - camera.zfar;
+    m[0] = 1 / camera.xmag;
+    m[5] = 1 / camera.ymag;
+    m[10] = 2 / depth;
+    m[14] = (camera.zfar + camera.znear) / depth;
+    m[15] = 1;
+    return m;
+}
+
+void check_angle(const char* name, double angle, double limit, const char* expected) {
+    if (angle >= -limit && angle <= limit) return;
+    throw InputError("--orbit", name, expected, fmt::format("{}", angle));
+}
+
+struct Sphere {
+    Vector center{0, 0, 0};
+    double radius = 1;
+};
+
+Sphere bounding_sphere(const Bounds& bounds) noexcept {
+    if (bounds.is_empty()) return {};
+    Sphere sphere;
+    for (std::size_t i = 0; i < 3; ++i) sphere.center[i] = (bounds.lo[i] + bounds.hi[i]) * 0.5;
+    const Vector half = difference(bounds.hi, sphere.center);
+    sphere.radius = std::sqrt(dot(half, half));
+    if (sphere.radius == 0) sphere.radius = 1;
+    return sphere;
+}
+
+}  // namespace
+
+pipeline::View look_at(const LookAt& camera, double aspect) noexcept {
+    const FloatEnvironment environment;
+    return {look_at_matrix(camera.eye, camera.center, camera.up),
+            perspective(radians(camera.fovy_degrees) / 2, aspect, camera.near, camera.far)};
+}
+
+pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees, double aspect) {
+    const FloatEnvironment environment;
+    check_angle("azimuth", azimuth_degrees, 1e6, "degrees from -1000000 to 1000000");
+    check_angle("elevation", elevation_degrees, 90, "degrees from -90 to 90");
+    const double azimuth = radians(azimuth_degrees), elevation = radians(elevation_degrees);
+    const Vector outward{cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth)};
+    const auto [center, radius] = bounding_sphere(bounds);
+
+    LookAt camera{.center = center, .near = 1.4 * radius, .far = 3.6 * radius};
+    for (std::size_t i = 0; i < 3; ++i) camera.eye[i] = center[i] + 2.5 * radius * outward[i];
+    if (std::abs(outward[1]) > 0x1.ffffffffffp-1) {  // within 10^-6 radians of a pole: +y is the line of sight
+        const double sign = outward[1] > 0 ? -1 : 1;
+        camera.up = {sign * sin(azimuth), 0, sign * cos(azimuth)};
+    }
+    return look_at(camera, aspect);
+}
+
+pipeline::View camera_view(const SceneCamera& camera, double image_aspect) {
+    const FloatEnvironment environment;
+    if (!camera.perspective) return {camera.view, orthographic(camera)};
+    const double aspect = camera.aspect > 0 ? camera.aspect : image_aspect;
+    return {camera.view, perspective(camera.yfov / 2, aspect, camera.znear, camera.zfar)};
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,35 @@
+// scenes/camera.h - views: an orbit round a scene's bounds, a camera file, a camera of a glTF scene.
+//
+// Rule     gluLookAt and gluPerspective in binary64 with our own sin and cos; matrices column-major, clip depth in [-1, 1].
+// Source   decisions.md 1 and 2; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (projection matrices, infinite far).
+// Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
+#pragma once
+#include <string>
+
+#include "scenes/scene.h"
+
+namespace strata::scenes {
+
+struct LookAt {  // what a camera file of the first form says
+    std::array<double, 3> eye{0, 0, 1}, center{0, 0, 0}, up{0, 1, 0};
+    double fovy_degrees = 45, near = 0.1, far = 100;
+};
+
+[[nodiscard]] pipeline::View look_at(const LookAt& camera, double aspect) noexcept;
+
+// Sees the whole bounding sphere of the box. |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and below,
+// up is the limit. A box without extent is framed as if its radius were 1, an empty one as if it stood at the origin.
+[[nodiscard]] pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees,
+                                        double aspect);
+
+// The camera's own aspect if it has one, else the image's.
+[[nodiscard]] pipeline::View camera_view(const SceneCamera& camera, double image_aspect);
+
+// Reads a camera file of either form (scenes/README.md); InputError names the file and the JSON pointer.
+[[nodiscard]] pipeline::View load_camera(const std::string& path, double aspect);
+[[nodiscard]] pipeline::View parse_camera(const std::string& text, const std::string& name, double aspect);
+
+// {"view":[16],"projection":[16]} in hexadecimal floats: parse_camera gives the same bits back.
+[[nodiscard]] std::string to_json(const pipeline::View& view);
+
+}  // namespace strata::scenes

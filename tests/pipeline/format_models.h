@@ -1,0 +1,84 @@
+// tests/pipeline/format_models.h - the conversions as inequalities over integers, written from the specification: no
+// division, no rounding mode, no constant shared with the code.
+#pragma once
+#include <cstdint>
+
+namespace strata::pipeline::model {
+
+using Wide = __int128;
+
+// |x| = mantissa * 2^exponent for finite float bits.
+struct Binary {
+    std::int64_t mantissa;
+    int exponent;
+};
+[[nodiscard]] inline Binary magnitude(std::uint32_t bits) {
+    const auto e = static_cast<int>(bits >> 23 & 0xff);
+    const std::int64_t fraction = bits & 0x7fffff;
+    return e == 0 ? Binary{fraction, -149} : Binary{fraction + (1 << 23), e - 150};
+}
+
+// Sign of |x| - n 2^scale for n >= 0 below 2^60.
+[[nodiscard]] inline int order(Binary x, std::int64_t n, int scale) {
+    const int shift = x.exponent - scale;
+    if (shift > 60) return x.mantissa > 0 ? 1 : n > 0 ? -1 : 0;
+    if (shift < -60) return n > 0 ? -1 : x.mantissa > 0 ? 1 : 0;
+    const Wide left = shift >= 0 ? Wide{x.mantissa} << shift : Wide{x.mantissa};
+    const Wide right = shift >= 0 ? Wide{n} : Wide{n} << -shift;
+    return left < right ? -1 : left > right ? 1 : 0;
+}
+
+// k is the code of x exactly if k - 1/2 <= 255 x < k + 1/2 after clamping; NaN is 0.
+[[nodiscard]] inline bool is_unorm8(std::uint32_t bits, int k) {
+    const std::uint32_t positive = bits & 0x7fffffff;
+    if (positive > 0x7f800000 || (bits >> 31) != 0) return k == 0;
+    if (positive >= 0x3f800000) return k == 255;
+    const Binary x = magnitude(bits);
+    const Binary scaled{x.mantissa * 255, x.exponent};
+    return k >= 0 && k <= 255 && (k == 0 || order(scaled, 2 * k - 1, -1) >= 0) && order(scaled, 2 * k + 1, -1) < 0;
+}
+
+// The code of x by search.
+[[nodiscard]] inline int unorm8(std::uint32_t bits) {
+    for (int k = 0; k < 256; ++k)
+        if (is_unorm8(bits, k)) return k;
+    return -1;
+}
+
+// A finite half's magnitude in units of 2^-24, at most 2047 * 2^29.
+[[nodiscard]] inline std::int64_t half_units(std::uint32_t half) {
+    const std::uint32_t e = half >> 10 & 0x1f, m = half & 0x3ff;
+    return e == 0 ? m : std::int64_t{m + 1024} << (e - 1);
+}
+
+// `half` is x rounded to the nearest half; at a midpoint the one whose last bit is 0. The first value that is not
+// there, 2^16, stands for infinity.
+[[nodiscard]] inline bool is_nearest_half(std::uint32_t bits, std::uint32_t half) {
+    if (bits >> 31 != half >> 15) return false;
+    const std::uint32_t x_bits = bits & 0x7fffffff, h = half & 0x7fff;
+    if (x_bits > 0x7f800000) return h == (0x7e00 | ((x_bits >> 13) & 0x3ff));  // quiet, upper payload bits
+    if (x_bits == 0x7f800000) return h == 0x7c00;
+    if (h > 0x7c00) return false;
+    const Binary x = magnitude(x_bits);
+    const std::int64_t here = half_units(h);
+    const bool is_even = (h & 1) == 0;
+    if (h > 0) {
+        const int low = order(x, half_units(h - 1) + here, -25);
+        if (low < 0 || (low == 0 && !is_even)) return false;
+    }
+    if (h == 0x7c00) return true;  // half_units continues the sequence: 2^16
+    const int high = order(x, here + half_units(h + 1), -25);
+    return high < 0 || (high == 0 && is_even);
+}
+
+// `half` is the largest half whose magnitude is not above that of x.
+[[nodiscard]] inline bool is_half_toward_zero(std::uint32_t bits, std::uint32_t half) {
+    if (bits >> 31 != half >> 15) return false;
+    const std::uint32_t x_bits = bits & 0x7fffffff, h = half & 0x7fff;
+    if (x_bits > 0x7f800000) return h == (0x7e00 | ((x_bits >> 13) & 0x3ff));
+    if (x_bits == 0x7f800000) return h == 0x7c00;
+    if (h > 0x7bff || order(magnitude(x_bits), half_units(h), -24) < 0) return false;
+    return h == 0x7bff || order(magnitude(x_bits), half_units(h + 1), -24) < 0;
+}
+
+}  // namespace strata::pipeline::model

@@ -1,0 +1,124 @@
+// tests/rasterizer/support.h - scenes made of window positions, and the fragments of a draw as plain rows.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "rasterizer/geometry.h"
+#include "rasterizer/tile_rasterizer.h"
+
+namespace strata::rasterizer {
+
+using Random = std::mt19937_64;
+
+[[nodiscard]] inline int random_int(Random& random, int low, int high) {  // both included
+    return low + static_cast<int>(random() % (static_cast<std::uint64_t>(high - low) + 1));
+}
+[[nodiscard]] inline float random_float(Random& random, float low, float high) {
+    return low + (high - low) * static_cast<float>(random() >> 40) * 0x1p-24f;
+}
+
+// A triangle that is already set up: snapped positions, window z, 1/w; attributes are left at 0.
+[[nodiscard]] inline SetupTriangle window_triangle(const std::array<SubpixelPoint, 3>& p, int subpixel_bits,
+                                                   const std::array<double, 3>& z = {0, 0, 0},
+                                                   const std::array<float, 3>& inverse_w = {1, 1, 1}) {
+    SetupTriangle t{};
+    t.p = p;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto unit = static_cast<float>(1 << subpixel_bits);
+        t.unsnapped[i] = {static_cast<float>(p[i].x) / unit, static_cast<float>(p[i].y) / unit};
+    }
+    t.z = z;
+    t.inverse_w = inverse_w;
+    return t;
+}
+
+[[nodiscard]] inline Geometry window_geometry(const std::vector<SetupTriangle>& triangles, int width, int height,
+                                              const RasterRules& rules) {
+    Geometry g;
+    g.rules = rules;
+    g.state.viewport = {0, 0, width, height};
+    g.triangles = triangles;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        g.triangles[i].primitive = i;
+        g.all_triangles.push_back(i);
+    }
+    return g;
+}
+
+struct Fragment {
+    int x = 0, y = 0;
+    std::uint32_t primitive = 0, material = 0, code = 0, exact_code = 0;
+    float shader_z = 0;
+    std::array<float, 4> color{};
+    std::array<float, 2> texcoord{};
+    bool front_facing = false;
+    friend bool operator==(const Fragment&, const Fragment&) = default;
+};
+
+inline constexpr FragmentNeeds everything{true, true, true, true, true, true};
+inline constexpr FragmentNeeds coverage_only{false, false, false, false, false, false};
+
+struct DrawResult {
+    std::vector<Fragment> fragments;
+    std::uint64_t exact_fallbacks = 0;
+    bool batches_are_sound = true;  // no pixel twice, one material, the pixel index is that of x and y
+};
+
+inline void append_batch(const FragmentBatch& batch, const Rect& region, const FragmentNeeds& needs,
+                         DrawResult& result) {
+    std::vector<std::uint32_t> pixels;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+        Fragment f;
+        f.x = batch.x[i];
+        f.y = batch.y[i];
+        f.primitive = batch.primitive[i];
+        f.material = batch.material;
+        if (needs.code) f.code = batch.code[i];
+        if (needs.exact_code) f.exact_code = batch.exact_code[i];
+        if (needs.shader_z) f.shader_z = batch.shader_z[i];
+        for (std::size_t c = 0; c < 4 && needs.color; ++c) f.color[c] = batch.color[c][i];
+        for (std::size_t c = 0; c < 2 && needs.texcoord; ++c) f.texcoord[c] = batch.texcoord[c][i];
+        if (needs.facing) f.front_facing = batch.front_facing[i] != 0;
+        const auto expected = static_cast<std::uint32_t>((f.y - region.y0) * region.width() + (f.x - region.x0));
+        result.batches_are_sound &= batch.pixel[i] == expected;
+        pixels.push_back(expected);
+        result.fragments.push_back(f);
+    }
+    std::ranges::sort(pixels);
+    result.batches_are_sound &= std::ranges::adjacent_find(pixels) == pixels.end();
+}
+
+[[nodiscard]] inline DrawResult draw(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs,
+                                     const Rect& region, std::span<const std::uint32_t> triangles) {
+    DrawResult result;
+    TileRasterizer rasterizer{region};
+    auto sink = [&](FragmentBatch& batch) { append_batch(batch, region, needs, result); };
+    rasterizer.draw(geometry, triangles, depth, needs, BatchSink{sink});
+    result.exact_fallbacks = rasterizer.exact_fallbacks();
+    return result;
+}
+
+[[nodiscard]] inline DrawResult draw(const Geometry& geometry, const DepthRequest& depth = {},
+                                     const FragmentNeeds& needs = everything) {
+    return draw(geometry, depth, needs, geometry.state.viewport, geometry.all_triangles);
+}
+
+// Sorted by pixel and primitive: what must not depend on the walk.
+[[nodiscard]] inline std::vector<Fragment> by_pixel(std::vector<Fragment> fragments) {
+    std::ranges::stable_sort(fragments, [](const Fragment& a, const Fragment& b) {
+        return std::array{a.y, a.x} < std::array{b.y, b.x};
+    });
+    return fragments;
+}
+
+[[nodiscard]] inline SubpixelPoint random_point(Random& random, int width, int height, int subpixel_bits,
+                                                int outside_px = 0) {
+    const int unit = 1 << subpixel_bits;
+    return {random_int(random, -outside_px * unit, (width + outside_px) * unit),
+            random_int(random, -outside_px * unit, (height + outside_px) * unit)};
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,122 @@
+// Model: the sentences and exit statuses that people read in tools/README.md.
+#include <catch2/catch.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+namespace {
+
+struct Wrong {
+    std::vector<std::string> words;
+    std::string sentence;  // all of it, or where it ends in "..." its beginning
+};
+
+bool says(const std::string& err, const std::string& sentence) {
+    if (sentence.ends_with("...")) return err.starts_with(sentence.substr(0, sentence.size() - 3));
+    return err == sentence + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
+    const auto wrong = GENERATE(values<Wrong>({
+        {{"rendr", "teapot"},
+         "strata: expected a command (render, layers, scene, digest, algorithms, profiles or scenes), found 'rendr' "
+         "(did you mean 'render'?)"},
+        {{"render", "teapot", "--sise", "8x8"},
+         "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
+        {{"render", "teapot", "--sise=8x8"},
+         "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
+        {{"render", "teapot", "--size", "12by3"},
+         "strata: --size: expected WIDTHxHEIGHT such as 640x480, each from 1 to 16384, found '12by3'"},
+        {{"render", "teapot", "--size", "0x3"},
+         "strata: --size: expected WIDTHxHEIGHT such as 640x480, each from 1 to 16384, found '0x3'"},
+        {{"render", "teapot", "--size", "8x16385"},
+         "strata: --size: expected WIDTHxHEIGHT such as 640x480, each from 1 to 16384, found '8x16385'"},
+        {{"render", "teapot", "--size"}, "strata: --size: expected one value, found none or several"},
+        {{"render", "teapot", "--algorithm", "duel"},
+         "strata: --algorithm: expected names of algorithms (strata algorithms lists them) or all, found 'duel' (did "
+         "you mean 'dual'?)"},
+        {{"render", "teapot", "--profile", "geforce4"},
+         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, or a JSON file, found "
+         "'geforce4' (did you mean 'geforce3'?)"},
+        {{"render", "teapt"},
+         "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, found 'teapt' "
+         "(did you mean 'teapot'?)"},
+        {{"render", "teapot", "--depth", "d25"},
+         "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd16'?)"},
+        {{"render", "teapot", "--tile", "33"},
+         "strata: --tile: expected 8, 16, 32, 64 or 128, found '33' (did you mean '32'?)"},
+        {{"render", "teapot", "--threads", "-1"}, "strata: --threads: expected a whole number from 0, found '-1'"},
+        {{"render", "teapot", "--alpha", "1,5"}, "strata: --alpha: expected a number from 0 to 1, found '1,5'"},
+        {{"render", "teapot", "--alpha", "nan"}, "strata: --alpha: expected a number from 0 to 1, found 'nan'"},
+        {{"render", "teapot", "--background", "0,0"},
+         "strata: --background: expected three numbers from 0 to 1 such as 0.2,0.2,0.3, found '0,0'"},
+        {{"render", "teapot", "--orbit", "30"},
+         "strata: --orbit: expected azimuth and elevation in degrees such as 30,20, found '30'"},
+        {{"render", "teapot", "--termination", "ratio:2"},
+         "strata: --termination: expected exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1, "
+         "found 'ratio:2'"},
+        {{"render", "teapot", "--orbit", "1,2", "--camera", "x.json"},
+         "strata: --orbit: expected either --orbit or --camera, found both"},
+        {{"render", "teapot", "--camera", "top"},
+         "strata: --camera: expected a .json file (the scene has no camera), found 'top'"},
+        {{"render", "teapot", "--camera", "none.json"}, "strata: none.json: ..."},
+        {{"render", "teapot", "-o", "out.jpg"},
+         "strata: -o: expected a file that ends in .exr or .png, found 'out.jpg'"},
+        {{"render", "teapot", "-o", "nowhere/out.png"},
+         "strata: -o: expected a file in a folder that exists, found 'nowhere/out.png'"},
+        {{"render"}, "strata: SCENE: expected one, found none; strata render --help says more"},
+        {{"render", "teapot", "bunny"}, "strata: strata render: expected no further argument, found 'bunny'"},
+        {{"render", "none.glb"}, "strata: none.glb: ..."},
+        {{"digest", "none.exr"}, "strata: none.exr: ..."},
+        {{"layers", "teapot"}, "strata: ..."},
+        {{"profiles", "ideel"},
+         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, or a JSON file, found 'ideel' "
+         "(did you mean 'ideal'?)"},
+    }));
+    const Folder folder;
+    const Ended ended = run_strata(folder, wrong.words);
+    INFO("wanted " << wrong.sentence << "\nfound  " << ended.err);
+    CHECK(ended.status == 2);
+    CHECK(says(ended.err, wrong.sentence));
+    CHECK(lines_of(ended.err).size() == 1);
+    CHECK(ended.out.empty());
+    CHECK(folder.files().empty());
+}
+
+TEST_CASE("an algorithm that the profile cannot run is exit status 2 alone, and a row of the table among others") {
+    const Folder folder;
+    const Ended alone =
+        run_strata(folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual_independent", "-o", "out.png"});
+    CHECK(alone.status == 2);
+    CHECK(alone.err.find("ARB_draw_buffers_blend") != std::string::npos);
+    CHECK(folder.files().empty());
+    const Ended among = run_strata(
+        folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual,dual_independent", "-o", "out.png"});
+    CHECK(among.status == 0);
+    CHECK(among.out.find("refused") != std::string::npos);
+    CHECK(folder.files() == std::vector<std::string>{"out.dual.png"});
+}
+
+TEST_CASE("a write that fails is exit status 3 and leaves no file") {
+    const auto words =
+        GENERATE(values<std::vector<std::string>>({{"-o", "out.exr"}, {"-o", "out.png"}, {"--stats", "out.json"}}));
+    const Folder folder;
+    std::vector<std::string> all{"render", "random:seed=3,triangles=300", "--size", "256x256", "--algorithm", "dual"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Ended ended = run_strata(folder, all, {.out = "/dev/null", .max_file_bytes = 600});
+    INFO(ended.err);
+    CHECK(ended.status == 3);
+    CHECK(lines_of(ended.err).size() == 1);
+    CHECK(folder.files().empty());
+}
+
+TEST_CASE("standard output on a full disk is exit status 3") {
+    const auto verb = GENERATE(as<std::string>{}, "algorithms", "profiles", "scenes");
+    const Folder folder;
+    const Ended ended = run_strata(folder, {verb, "--json"}, {.out = "/dev/full"});
+    CHECK(ended.status == 3);
+    CHECK(ended.err.starts_with("strata: standard output: "));
+}

@@ -1,0 +1,49 @@
+// Model: the help texts themselves: what they print as an example must run.
+#include <catch2/catch.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+namespace {
+
+std::vector<std::string> examples_of(const std::string& help) {
+    std::vector<std::string> examples;
+    bool inside = false;
+    for (const std::string& line : lines_of(help)) {
+        if (line == "Examples:")
+            inside = true;
+        else if (inside && line.starts_with("  strata "))
+            examples.push_back(line.substr(2));
+        else
+            inside = false;
+    }
+    return examples;
+}
+
+}  // namespace
+
+TEST_CASE("every example of every --help runs as printed") {
+    const auto verb =
+        GENERATE(as<std::string>{}, "render", "layers", "scene", "digest", "algorithms", "profiles", "scenes");
+    const Folder folder;
+    const Ended help = run_strata(folder, {verb, "--help"});
+    CHECK(help.status == 0);
+    const auto examples = examples_of(help.out);
+    CHECK(examples.size() >= 2);
+    CHECK(examples.size() <= 3);
+    for (const std::string& example : examples) {
+        const Ended ended = shell(folder, example);
+        INFO(example << "\n" << ended.err);
+        CHECK(ended.status == 0);
+    }
+}
+
+TEST_CASE("--help and --version succeed and write to standard output alone") {
+    const auto word = GENERATE(as<std::string>{}, "--help", "--version");
+    const Folder folder;
+    const Ended ended = run_strata(folder, {word});
+    CHECK(ended.status == 0);
+    CHECK(ended.out.find("strata") != std::string::npos);
+    CHECK(ended.err.empty());
+}

@@ -1,0 +1,117 @@
+// Model: equality of files and digests between runs that must not differ.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+using nlohmann::ordered_json;
+
+namespace {
+
+const std::vector<std::string> small{"volume-beam:slices=4", "--size", "40x24"};
+
+Ended render(const Folder& folder, std::vector<std::string> more, const Setting& setting = {}) {
+    more.insert(more.begin(), small.begin(), small.end());
+    more.insert(more.begin(), "render");
+    return run_strata(folder, more, setting);
+}
+
+std::string digest_line(const Folder& folder, const std::string& file) {
+    return run_strata(folder, {"digest", file}).out;
+}
+
+}  // namespace
+
+TEST_CASE("strata digest of an image is the digest that its statistics gave") {
+    const auto format = GENERATE(as<std::string>{}, "rgba8", "rgba16f", "rgba32f");
+    const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
+    if (ending == ".png" && format != "rgba8") return;  // a PNG holds 8-bit codes
+    const Folder folder;
+    const Ended ended = render(folder, {"--color-format", format, "--stats", "-", "-o", "out" + ending});
+    REQUIRE(ended.status == 0);
+    const auto row = ordered_json::parse(ended.out)[0];
+    INFO(digest_line(folder, "out" + ending));
+    CHECK(digest_line(folder, "out" + ending).find(row["digest"]["color"].get<std::string>()) != std::string::npos);
+    if (ending == ".exr")
+        CHECK(digest_line(folder, "out.exr").find(row["digest"]["depth"].get<std::string>()) != std::string::npos);
+}
+
+TEST_CASE("the same run gives the same bytes, whatever threads, tiles, execution and effects make it") {
+    const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
+    const Folder folder;
+    CHECK(render(folder, {"-o", "first" + ending}).status == 0);
+    const std::string first = content_of(folder / ("first" + ending));
+    REQUIRE_FALSE(first.empty());
+    const std::vector<std::vector<std::string>> settings{
+        {}, {"--threads", "1"}, {"--tile", "8"}, {"--execution", "literal"}, {"--effects", "all"}, {"--no-audit"}};
+    for (const auto& setting : settings) {
+        auto words = setting;
+        words.insert(words.end(), {"-o", "again" + ending});
+        CHECK(render(folder, words).status == 0);
+        INFO((setting.empty() ? "the same again" : setting.front()));
+        CHECK((content_of(folder / ("again" + ending)) == first));
+    }
+}
+
+TEST_CASE("layers and deep files are the same bytes in every run") {
+    const Folder folder;
+    for (const std::string name : {"a", "b"}) {
+        CHECK(run_strata(folder,
+                         {"layers", small[0], small[1], small[2], "-o", name + ".exr", "--deep", name + ".deep.exr"})
+                  .status == 0);
+    }
+    CHECK((content_of(folder / "a.exr") == content_of(folder / "b.exr")));
+    CHECK((content_of(folder / "a.deep.exr") == content_of(folder / "b.deep.exr")));
+    CHECK(folder.files() == std::vector<std::string>{"a.deep.exr", "a.exr", "b.deep.exr", "b.exr"});
+}
+
+TEST_CASE("no output holds a path, a host or a user") {
+    const Folder folder;
+    CHECK(shell(folder, "cp " STRATA_PROGRAM
+                        " here && mkdir -p deep/er && strata render teapot --size 16x16 -o deep/er/out.exr")
+              .status == 0);
+    const std::string bytes = content_of(folder / "deep/er/out.exr");
+    CHECK(bytes.find("deep/er") == std::string::npos);
+    CHECK(bytes.find(folder.path().string()) == std::string::npos);
+    CHECK(bytes.find("strata render teapot --algorithm dual --profile geforce8 --size 16x16 --orbit 30,20") !=
+          std::string::npos);
+}
+
+TEST_CASE("pictures of several algorithms have the algorithm's name before the ending") {
+    const Folder folder;
+    CHECK(render(folder, {"--algorithm", "dual,unsorted", "-o", "out.png"}).status == 0);
+    CHECK(folder.files() == std::vector<std::string>{"out.dual.png", "out.unsorted.png"});
+}
+
+TEST_CASE("a table in a pipe has no escape codes and no progress bar") {
+    const Folder folder;
+    const Ended ended = render(folder, {"--algorithm", "all"});
+    CHECK(ended.out.find('\x1b') == std::string::npos);
+    CHECK(ended.err.find('\r') == std::string::npos);
+    CHECK(lines_of(ended.out).size() >= 10);
+}
+
+TEST_CASE("a locale with decimal commas changes no byte") {
+    const Folder folder, locales;
+    const std::string make = "localedef -i de_DE -f UTF-8 " + (locales / "de_DE.UTF-8");
+    if (shell(folder, make).status > 1) {  // 1: made, with warnings
+        WARN("localedef cannot make de_DE.UTF-8 (package locales): decimal commas are not tested");
+        return;
+    }
+    const Setting german{
+        .environment = {{"LOCPATH", locales.path().string()}, {"LC_ALL", "de_DE.UTF-8"}, {"LANG", "de_DE.UTF-8"}}};
+    const std::vector<std::string> options{"--alpha",      "0.5",         "--orbit", "12.5,-7.25",
+                                           "--background", "0.1,0.2,0.3", "-o"};
+    auto plain = options, comma = options;
+    plain.emplace_back("plain.exr");
+    comma.emplace_back("comma.exr");
+    CHECK(render(folder, plain).status == 0);
+    CHECK(render(folder, comma, german).status == 0);
+    CHECK((content_of(folder / "plain.exr") == content_of(folder / "comma.exr")));
+    const auto profile = [&](const Setting& setting) {
+        return run_strata(folder, {"profiles", "--json", "geforce3"}, setting).out;
+    };
+    CHECK(profile({}) == profile(german));
+}

@@ -1,0 +1,28 @@
+// tools/strata/command.h - a subcommand: its options, and what runs once they are parsed. Each has a file of its own.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+namespace strata::tools {
+
+struct Command {
+    CLI::App* app = nullptr;
+    std::function<int()> run;  // the exit status
+};
+
+[[nodiscard]] Command add_render(CLI::App& root);
+[[nodiscard]] Command add_layers(CLI::App& root);
+[[nodiscard]] Command add_scene(CLI::App& root);
+[[nodiscard]] Command add_digest(CLI::App& root);
+[[nodiscard]] Command add_algorithms(CLI::App& root);
+[[nodiscard]] Command add_profiles(CLI::App& root);
+[[nodiscard]] Command add_scenes(CLI::App& root);
+
+// The end of a --help: examples that run as printed, one a line, then the exit statuses.
+[[nodiscard]] inline std::string footer(const std::string& examples) {
+    return "Examples:\n" + examples +
+           "Exit status: 0 done, 2 bad input or usage, 3 the system failed, 130 interrupted.";
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,121 @@
+// tools/strata/main.cpp - the command: which subcommand runs, and what every failure looks like from outside.
+//
+// Rule     One line "strata: ..." on standard error and the exit status: 2 bad input or usage, 3 the system failed, 130
+// interrupted. Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
+#include <cstdio>
+#include <filesystem>
+#include <ios>
+#include <new>
+
+#include "pipeline/check.h"
+#include "rasterizer/input_error.h"
+#include "scenes/atomic_file.h"
+#include "tools/strata/command.h"
+#include "tools/strata/names.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+enum Exit : int { bad_input = 2, system_failed = 3 };
+
+int fail(const std::string& sentence, Exit status) {
+    std::fprintf(stderr, "strata: %s\n", sentence.c_str());
+    return status;
+}
+
+std::vector<std::string> names_of(const std::vector<Command>& commands) {
+    std::vector<std::string> names;
+    for (const Command& command : commands) names.push_back(command.app->get_name());
+    return names;
+}
+
+// Long options as they are typed: --size.
+std::vector<std::string> options_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+const CLI::App& parsed_app(const CLI::App& root) {
+    const auto subcommands = root.get_subcommands();
+    return subcommands.empty() ? root : *subcommands.front();
+}
+
+// CLI11's own words, in the house's form. What our validators say has that form already.
+std::string sentence(const CLI::ParseError& error, const CLI::App& root) {
+    const CLI::App& app = parsed_app(root);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+        const std::string extra = root.remaining(true).front();
+        if (!extra.starts_with('-'))
+            return "strata " + app.get_name() + ": expected no further argument, found '" + extra + "'";
+        const std::string option = extra.substr(0, extra.find('='));
+        return "expected an option of strata " + app.get_name() + ", found " + found_but_near(option, options_of(app));
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        const std::string missing = std::string(error.what()).substr(0, std::string(error.what()).find(' '));
+        return missing + ": expected one, found none; strata " + app.get_name() + " --help says more";
+    }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+        const std::string option = std::string(error.what()).substr(0, std::string(error.what()).find(':'));
+        return option + ": expected one value, found none or several";
+    }
+    return error.what();
+}
+
+int parse_and_run(CLI::App& root, const std::vector<Command>& commands, int count, char** words) {
+    const auto names = names_of(commands);
+    if (count < 2)
+        return fail("expected a command (" + one_of(names) + "), found none; strata --help says more", bad_input);
+    const std::string first = words[1];
+    if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
+        return fail("expected a command (" + one_of(names) + "), found " + found_but_near(first, names), bad_input);
+    }
+    try {
+        root.parse(count, words);
+        for (const Command& command : commands) {
+            if (command.app->parsed()) return command.run();
+        }
+        return fail("expected a command (" + one_of(names) + "), found none", bad_input);
+    } catch (const CLI::CallForHelp&) {
+        print(parsed_app(root).help(&parsed_app(root) == &root ? "" : "strata") + '\n');
+    } catch (const CLI::CallForVersion& version) {
+        print(std::string(version.what()) + '\n');
+    } catch (const CLI::ParseError& error) {
+        return fail(sentence(error, root), bad_input);
+    }
+    return 0;
+}
+
+int run(int count, char** words) {
+    CLI::App root{
+        "Deterministic, bit-exact software rasterizer that runs depth-peeling algorithms as old GPUs ran them.",
+        "strata"};
+    root.set_version_flag("--version", "strata " STRATA_VERSION);
+    root.footer("strata COMMAND --help says more about a command, with examples.");
+    const std::vector<Command> commands{add_render(root),     add_layers(root),   add_scene(root), add_digest(root),
+                                        add_algorithms(root), add_profiles(root), add_scenes(root)};
+    return parse_and_run(root, commands, count, words);
+}
+
+}  // namespace
+}  // namespace strata::tools
+
+int main(int count, char** words) {
+    using namespace strata::tools;
+    strata::scenes::remove_unfinished_files_when_interrupted();
+    try {
+        return run(count, words);
+    } catch (const strata::InputError& error) {
+        return fail(error.what(), bad_input);
+    } catch (const strata::pipeline::Refused& error) {
+        return fail(error.what(), bad_input);
+    } catch (const std::bad_alloc&) {
+        return fail("not enough memory", system_failed);
+    } catch (const std::exception& error) {  // SystemError, file systems, streams
+        return fail(error.what(), system_failed);
+    }
+}

@@ -1,0 +1,194 @@
+#include "tools/strata/options.h"
+
+#include <algorithm>
+
+#include "tools/strata/choices.h"
+#include "tools/strata/parse.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct Size {
+    int width = 0, height = 0;
+};
+
+std::optional<Size> to_size(std::string_view text) {
+    constexpr int max_side = 16384;
+    const auto parts = split(text, 'x');
+    if (parts.size() != 2) return std::nullopt;
+    const auto width = to_int(parts[0]), height = to_int(parts[1]);
+    if (!width || !height || *width < 1 || *height < 1 || *width > max_side || *height > max_side) return std::nullopt;
+    return Size{*width, *height};
+}
+
+std::optional<Orbit> to_orbit(std::string_view text) {
+    const auto angles = to_numbers<double>(text, 2);
+    if (!angles) return std::nullopt;
+    return Orbit{(*angles)[0], (*angles)[1]};
+}
+
+std::optional<float> to_share(std::string_view text) {
+    const auto value = to_number<float>(text);
+    if (!value || *value < 0.0f || *value > 1.0f) return std::nullopt;
+    return value;
+}
+
+std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
+    pipeline::Rgba color{0, 0, 0, 1};
+    const auto parts = split(text, ',');
+    if (parts.size() != 3) return std::nullopt;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto value = to_share(parts[i]);
+        if (!value) return std::nullopt;
+        color[i] = *value;
+    }
+    return color;
+}
+
+std::optional<int> to_count(std::string_view text) {
+    const auto value = to_int(text);
+    return value && *value >= 0 ? value : std::nullopt;
+}
+
+std::optional<pipeline::Termination> to_termination(std::string_view text) {
+    using enum pipeline::TerminationRule;
+    if (text == "exact") return pipeline::Termination{.rule = exact};
+    if (text == "paper") return pipeline::Termination{.rule = paper};
+    if (text == "any") return pipeline::Termination{.rule = any};
+    if (text.starts_with("ratio:")) {
+        const auto value = to_number<double>(text.substr(6));
+        if (value && *value >= 0 && *value <= 1) return pipeline::Termination{.rule = ratio, .ratio = *value};
+    }
+    if (text.starts_with("fixed:")) {
+        const auto value = to_int(text.substr(6));
+        if (value && *value >= 1) return pipeline::Termination{.rule = fixed, .passes = *value};
+    }
+    return std::nullopt;
+}
+
+std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
+    std::vector<const peeling::Algorithm*> chosen;
+    const auto add = [&](const peeling::Algorithm& algorithm) {
+        if (std::find(chosen.begin(), chosen.end(), &algorithm) == chosen.end()) chosen.push_back(&algorithm);
+    };
+    for (const std::string& name : split(text, ',')) {
+        if (name == "all") {
+            for (const peeling::Algorithm& algorithm : peeling::algorithms()) add(algorithm);
+            continue;
+        }
+        const peeling::Algorithm* algorithm = peeling::find_algorithm(name);
+        if (algorithm == nullptr) {
+            auto names = algorithm_names();
+            names.emplace_back("all");
+            throw CLI::ValidationError("--algorithm",
+                                       "expected names of algorithms (strata algorithms lists them) or all, found " +
+                                           found_but_near(name, names));
+        }
+        add(*algorithm);
+    }
+    return chosen;
+}
+
+void add_machine_options(CLI::App& app, RunOptions& options) {
+    app.add_option_function<std::string>(
+           "--algorithm", [&options](const std::string& text) { options.algorithms = to_algorithms(text); },
+           "algorithms with commas between, or all (default " + options.default_algorithm + ")")
+        ->type_name("NAME[,NAME...]|all");
+    app.add_option("--profile", options.profile, "a built-in profile, or a JSON file with one (default geforce8)")
+        ->type_name("NAME|FILE");
+    add_choice(app, options.render.depth, "--depth", depth_formats,
+               "depth buffer (default d32f, or d24 where that is missing)");
+    add_choice(app, options.render.depth_path, "--depth-path", depth_paths(),
+               "how depth is computed (default: the profile's own)");
+    add_choice(app, options.render.color_format, "--color-format", color_formats,
+               "colour target (default rgba8; rgba32f on ideal)");
+    add_choice(app, options.render.average_count, "--average-count", count_formats,
+               "fragment count of weighted_average (default r16f, as in the paper)");
+    add_option(app, options.render.termination,
+               {"--termination", "exact|paper|any|ratio:R|fixed:N", "what ends a peel (default exact)",
+                "exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1"},
+               to_termination);
+    add_option(
+        app, options.render.max_passes,
+        {"--max-passes", "N", "geometry passes at most (default 0: as many as it takes)", "a whole number from 0"},
+        to_count);
+}
+
+}  // namespace
+
+std::vector<std::string> algorithm_names() {
+    std::vector<std::string> names;
+    for (const peeling::Algorithm& algorithm : peeling::algorithms()) names.push_back(algorithm.name);
+    return names;
+}
+
+void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options) {
+    app.add_option("SCENE", scene, "a .gltf or .glb file, or a built-in scene (strata scenes)")
+        ->required()
+        ->type_name("");
+    add_option(app, options.scene,
+               {"--scene", "N", "which scene of a glTF file (default: the file's own)", "a whole number from 0"},
+               to_count);
+    add_choice(app, options.color_space, "--colour", color_spaces,
+               "blend sRGB values as they are, or decoded to linear light (default encoded)");
+    app.add_flag_callback(
+        "--no-light", [&options] { options.light = false; }, "draw every material unlit");
+}
+
+void add_picture_options(CLI::App& app, RunOptions& options) {
+    add_scene_options(app, options.scene, options.scene_options);
+    add_machine_options(app, options);
+    const auto set_size = [&options](std::string_view text) {
+        const auto size = to_size(text);
+        if (size) options.render.height = size->height;
+        return size ? std::optional(size->width) : std::nullopt;
+    };
+    add_option(
+        app, options.render.width,
+        {"--size", "WIDTHxHEIGHT", "pixels (default 1024x1024)", "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},
+        set_size);
+    app.add_option("--camera", options.camera, "a camera of the scene, or a JSON file with one")
+        ->type_name("NAME|FILE");
+    add_option(app, options.orbit,
+               {"--orbit", "AZ,EL", "look at the scene's bounds from these degrees (default 30,20)",
+                "azimuth and elevation in degrees such as 30,20"},
+               to_orbit);
+    add_option(app, options.render.alpha,
+               {"--alpha", "A", "draw everything as transparent, its own alpha times A", "a number from 0 to 1"},
+               to_share);
+    add_option(app, options.render.background,
+               {"--background", "R,G,B", "sRGB values from 0 to 1 (default 0,0,0)",
+                "three numbers from 0 to 1 such as 0.2,0.2,0.3"},
+               to_rgb);
+}
+
+void add_execution_options(CLI::App& app, peeling::RenderOptions& options) {
+    add_choice(app, options.execution, "--execution", executions,
+               "frame by frame or tile by tile; same bits (default tiled)");
+    add_choice(app, options.tile_size, "--tile", tile_sizes, "side of a tile in pixels; same bits (default 32)");
+    add_option(
+        app, options.threads,
+        {"--threads", "N", "threads at most; same bits (default 0: all that there are)", "a whole number from 0"},
+        to_count);
+    add_choice(app, options.effects, "--effects", effects,
+               "simulate the stages that are needed, or all; same bits (default needed)");
+}
+
+void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help) {
+    app.add_option("-o,--output", options.output, output_help)->type_name("FILE");
+    app.add_option("--stats", options.stats, "statistics as JSON, one object an algorithm; - is standard output")
+        ->type_name("FILE|-");
+    app.add_flag_callback(
+        "--no-audit", [&options] { options.render.audit = false; },
+        "do not compare with the exact A-buffer: faster, and those statistics are null");
+}
+
+void complete(RunOptions& options) {
+    if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
+    if (options.orbit && !options.camera.empty()) {
+        throw CLI::ValidationError("--orbit", "expected either --orbit or --camera, found both");
+    }
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,126 @@
+// tools/strata/scene.cpp - strata scene: what a model holds, before it is rendered.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/strata/command.h"
+#include "tools/strata/options.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct InspectOptions {
+    std::string scene;
+    scenes::SceneOptions scene_options;
+    bool json = false;
+};
+
+constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
+    switch (mode) {
+        case pipeline::AlphaMode::opaque: return "OPAQUE";
+        case pipeline::AlphaMode::mask: return "MASK";
+        case pipeline::AlphaMode::blend: return "BLEND";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+// What instances draw: a mesh that is placed twice counts twice.
+struct Drawn {
+    std::uint64_t instances = 0, triangles = 0;
+};
+
+Drawn drawn(const pipeline::DrawList& list, std::optional<pipeline::AlphaMode> mode) {
+    Drawn sum;
+    for (const auto& instance : list.instances) {
+        if (mode && list.materials[instance.material].alpha_mode != *mode) continue;
+        ++sum.instances;
+        sum.triangles += list.meshes[instance.mesh].indices.size() / 3;
+    }
+    return sum;
+}
+
+constexpr std::array alpha_modes{pipeline::AlphaMode::opaque, pipeline::AlphaMode::mask, pipeline::AlphaMode::blend};
+
+ordered_json to_json(const scenes::Scene& scene) {
+    ordered_json modes = ordered_json::object(), textures = ordered_json::array(), cameras = ordered_json::array();
+    for (const auto mode : alpha_modes) {
+        const Drawn part = drawn(scene.list, mode);
+        modes[std::string(alpha_mode_name(mode))] = {{"instances", part.instances}, {"triangles", part.triangles}};
+    }
+    for (const auto& texture : scene.list.textures) {
+        textures.push_back({{"name", texture.name}, {"width", texture.width}, {"height", texture.height}});
+    }
+    for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
+    ordered_json bounds = nullptr;
+    if (!scene.bounds.is_empty()) bounds = {{"lo", scene.bounds.lo}, {"hi", scene.bounds.hi}};
+    const Drawn all = drawn(scene.list, std::nullopt);
+    return {{"name", scene.name},
+            {"scene", scene.scene_index},
+            {"scenes", scene.scene_count},
+            {"meshes", scene.list.meshes.size()},
+            {"materials", scene.list.materials.size()},
+            {"instances", all.instances},
+            {"triangles", all.triangles},
+            {"alpha_modes", modes},
+            {"textures", textures},
+            {"cameras", cameras},
+            {"extensions", scene.extensions},
+            {"bounds", bounds},
+            {"warnings", scene.warnings}};
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+    return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string bounds_text(const scenes::Bounds& bounds) {
+    if (bounds.is_empty()) return "empty";
+    return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", bounds.lo[0], bounds.lo[1], bounds.lo[2],
+                       bounds.hi[0], bounds.hi[1], bounds.hi[2]);
+}
+
+std::string describe(const scenes::Scene& scene) {
+    const Drawn all = drawn(scene.list, std::nullopt);
+    std::vector<std::string> textures, cameras;
+    for (const auto& t : scene.list.textures) textures.push_back(fmt::format("{} {}x{}", t.name, t.width, t.height));
+    for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
+    Table table{{{scene.name}, {fmt::format("scene {} of {}", scene.scene_index, scene.scene_count)}}, {}};
+    table.rows.push_back({"meshes", fmt::format("{}, drawn {} times", scene.list.meshes.size(), all.instances)});
+    table.rows.push_back({"triangles", fmt::format("{}", all.triangles)});
+    for (const auto mode : alpha_modes) {
+        const Drawn part = drawn(scene.list, mode);
+        table.rows.push_back({fmt::format("  {}", alpha_mode_name(mode)), fmt::format("{}", part.triangles)});
+    }
+    table.rows.push_back({"materials", fmt::format("{}", scene.list.materials.size())});
+    table.rows.push_back({"textures", joined(textures)});
+    table.rows.push_back({"cameras", joined(cameras)});
+    table.rows.push_back({"extensions", joined(scene.extensions)});
+    table.rows.push_back({"bounds", bounds_text(scene.bounds)});
+    table.rows.push_back({"warnings", scene.warnings.empty() ? "none" : scene.warnings.front()});
+    for (std::size_t i = 1; i < scene.warnings.size(); ++i) table.rows.push_back({"", scene.warnings[i]});
+    return to_text(table);
+}
+
+}  // namespace
+
+Command add_scene(CLI::App& root) {
+    auto* app =
+        root.add_subcommand("scene", "tell what a model holds: meshes, alpha modes, textures, cameras, warnings");
+    const auto options = std::make_shared<InspectOptions>();
+    add_scene_options(*app, options->scene, options->scene_options);
+    app->add_flag("--json", options->json, "one JSON document instead of the text");
+    app->footer(footer("  strata scene teapot\n  strata scene volume-beam:slices=16 --json\n"));
+    return {app, [options] {
+                const scenes::Scene scene = scenes::load_scene(options->scene, options->scene_options);
+                print(options->json ? to_json(scene).dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n'
+                                    : describe(scene));
+                return 0;
+            }};
+}
+
+}  // namespace strata::tools

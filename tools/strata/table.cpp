@@ -1,0 +1,53 @@
+#include "tools/strata/table.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "scenes/system_error.h"
+
+namespace strata::tools {
+
+namespace {
+
+std::size_t width_of(const std::string& text) {
+    const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
+}
+
+std::string to_line(const std::vector<std::string>& cells, const std::vector<Column>& columns,
+                    const std::vector<std::size_t>& widths) {
+    std::string line;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const std::string space(widths[i] - width_of(cells[i]), ' ');
+        if (i > 0) line += "  ";
+        line += columns[i].align == Align::right ? space + cells[i] : cells[i] + space;
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + '\n';
+}
+
+}  // namespace
+
+std::string to_text(const Table& table) {
+    std::vector<std::string> titles;
+    std::vector<std::size_t> widths;
+    for (const Column& column : table.columns) {
+        titles.push_back(column.title);
+        widths.push_back(width_of(column.title));
+    }
+    for (const auto& row : table.rows) {
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
+    }
+    std::string text = to_line(titles, table.columns, widths);
+    for (const auto& row : table.rows) text += to_line(row, table.columns, widths);
+    return text;
+}
+
+void print(std::string_view text) {
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (!written) throw SystemError("standard output", "write", std::generic_category().message(errno));
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,28 @@
+// tools/strata/table.h - text in columns, and the one way to standard output.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strata::tools {
+
+enum class Align : std::uint8_t { left, right };
+
+struct Column {
+    std::string title;
+    Align align = Align::left;
+};
+
+struct Table {
+    std::vector<Column> columns;
+    std::vector<std::vector<std::string>> rows;  // one cell a column
+};
+
+// Two spaces between columns, no space at a line's end; a character counts as one place wide (UTF-8).
+[[nodiscard]] std::string to_text(const Table& table);
+
+// Writes all of `text` to standard output and flushes it. Throws SystemError where that fails (a full disk).
+void print(std::string_view text);
+
+}  // namespace strata::tools

@@ -1,0 +1,88 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, and runs the tests.
+#   tools/test.sh               unit and golden tests; the fast ones under sanitizers; one minute of fuzzing
+#   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
+#   tools/test.sh --exhaustive  the tests that try every value
+set -euo pipefail
+cd "$(dirname "$0")/.."
+trap 'echo "tools/test.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
+
+step() { echo "--- $*"; }
+
+# build PRESET [TARGET...]: configures and builds, shows the log only of what fails.
+build() {
+    local preset=$1 log=build/$1.log
+    shift
+    mkdir -p build
+    if ! { cmake --preset "$preset" && cmake --build --preset "$preset" ${1:+--target "$@"}; } >"$log" 2>&1; then
+        tail -n 60 "$log" >&2
+        echo "tools/test.sh: the build failed; all of it stands in $log" >&2
+        exit 3
+    fi
+}
+
+sanitized() {
+    step "the fast tests under the address and undefined-behaviour sanitizers"
+    build asan rasterizer_test pipeline_test peeling_test scenes_test
+    ctest --preset asan --label-exclude 'exhaustive|golden|command' --output-on-failure --progress -j "$(nproc)" >build/asan-tests.log 2>&1 || {
+        tail -n 60 build/asan-tests.log >&2
+        echo "tools/test.sh: tests failed under the sanitizers; all of it stands in build/asan-tests.log" >&2
+        exit 1
+    }
+}
+
+fuzz() {
+    if ! command -v clang++ >/dev/null; then
+        step "no clang++: fuzzing left out"
+        return
+    fi
+    step "fuzzing glTF bytes for a minute"
+    build fuzz gltf_fuzz
+    mkdir -p build/fuzz/corpus
+    if ! build/fuzz/gltf_fuzz -max_total_time=60 -rss_limit_mb=2048 -timeout=10 -artifact_prefix=build/fuzz/ build/fuzz/corpus \
+        tests/scenes/corpus >build/fuzz/fuzz.log 2>&1; then
+        tail -n 40 build/fuzz/fuzz.log >&2
+        echo "tools/test.sh: the fuzzer found something; see build/fuzz/fuzz.log" >&2
+        exit 1
+    fi
+}
+
+# The digests of tests/golden/core_digests.txt from a core of each compiler at each level of optimisation.
+matrix() {
+    local compiler level folder
+    for compiler in g++ clang++; do
+        if ! command -v "$compiler" >/dev/null; then
+            step "no $compiler: left out"
+            continue
+        fi
+        for level in -O0 -O2 -O3; do
+            step "core alone, $compiler $level"
+            folder=build/matrix/$compiler$level
+            mkdir -p "$folder"
+            cmake -S . -B "$folder" -G Ninja -DSTRATA_CORE_ONLY=ON -DCMAKE_BUILD_TYPE= -DCMAKE_CXX_COMPILER="$compiler" \
+                -DCMAKE_CXX_FLAGS="$level" >"$folder/build.log"
+            cmake --build "$folder" --target core_digests >>"$folder/build.log" 2>&1 || { tail -n 60 "$folder/build.log" >&2; exit 3; }
+            "$folder/tests/golden/core_digests" >"$folder/digests.txt"
+            diff -u tests/golden/core_digests.txt "$folder/digests.txt" || {
+                echo "tools/test.sh: $compiler $level gives other bits than tests/golden/core_digests.txt" >&2
+                exit 1
+            }
+        done
+    done
+    echo "every compiler and level gives the digests of tests/golden/core_digests.txt"
+}
+
+case "${1:-}" in
+    "") ;;
+    --matrix) tools/setup.sh; matrix; exit 0 ;;
+    --exhaustive) tools/setup.sh; build release; ctest --preset exhaustive -j "$(nproc)"; exit 0 ;;
+    *) echo "tools/test.sh: expected nothing, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
+esac
+
+tools/setup.sh
+step "building"
+build release
+sanitized
+fuzz
+step "all unit and golden tests"
+ctest --preset release -j "$(nproc)"
