@@ -76,6 +76,8 @@ concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& o
 class Count {
   public:
     Count() = default;
+    // Several queries may be open at once; what one spans is the sum of its draws.
+    friend Count operator+(Count a, Count b) noexcept { return Count{a.own_ + b.own_}; }
 
   private:
     friend class Region;

@@ -1,0 +1,18 @@
+# The core as a package: find_package(strata) gives strata::rasterizer, strata::pipeline and strata::peeling, with the numeric flags.
+include(CMakePackageConfigHelpers)
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/strata)
+set(core_targets strata_numerics strata_warnings strata_rasterizer strata_pipeline strata_peeling)
+foreach(target IN LISTS core_targets)
+  string(REPLACE strata_ "" exported ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${exported})
+endforeach()
+target_include_directories(strata_numerics INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/strata>)
+install(TARGETS ${core_targets} EXPORT strata-targets)
+install(EXPORT strata-targets NAMESPACE strata:: DESTINATION ${package_folder})
+foreach(folder rasterizer pipeline peeling)
+  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/strata FILES_MATCHING PATTERN "*.h")
+endforeach()
+configure_package_config_file(tools/cmake/strata-config.cmake.in strata-config.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(strata-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/strata-config.cmake ${PROJECT_BINARY_DIR}/strata-config-version.cmake
+        DESTINATION ${package_folder})
