@@ -35,6 +35,9 @@ void check_options(const RenderOptions& o) {
         throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(o.tile_size));
     in_range("--threads", o.threads, 0, 1024);
     in_range("--max-passes", o.max_passes, 0, 1000000);
+    if (o.termination.rule == TerminationRule::fixed) in_range("--termination fixed", o.termination.passes, 1, 1000000);
+    if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
+        throw InputError("strata", "--termination ratio", "a number of at least 0", std::to_string(o.termination.ratio));
 }
 
 // window_z is the chip's rule for vertex depths in buffer units and fixed-point codes.
@@ -195,6 +198,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
 }
 
 std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
+    if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
     std::vector<CapturedFragment> all;
     const Body capture = [&](Region& region) {

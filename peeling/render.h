@@ -60,7 +60,7 @@ class Renderer {
     // A combination that the profile cannot run is refused: an outcome, not an exception.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {});
 
-    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes.
+    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused.
     [[nodiscard]] std::vector<pipeline::CapturedFragment> fragments(const Algorithm& algorithm);
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;

@@ -1,11 +1,10 @@
 // pipeline/alpha_test.h - fragments leave by their alpha.
 //
 // Rule     eight_bit: round(255 alpha) FUNC round(255 ref), integers, both clamped. Otherwise alpha FUNC ref in
-// binary32 as they
-//          are: a NaN alpha passes `notequal` and `always` alone. With several targets the alpha is colour 0's.
-// Source   hardware.md 7 (GL 2.1 4.1.4; 8-bit integer compare measured on NV2A, nv2a-fragment.md R7; binary32 for float
-// targets:
-//          ARB_color_buffer_float).
+//          binary32 as they are: a NaN alpha passes `notequal` and `always` alone. With several targets the alpha is
+//          colour 0's.
+// Source   hardware.md 7 (GL 2.1 4.1.4; 8-bit integer compare measured on NV2A, nv2a-fragment.md R7; binary32 for
+//          float targets: ARB_color_buffer_float).
 // Tests    tests/pipeline/alpha_test_test.cpp
 #pragma once
 #include <cstdint>

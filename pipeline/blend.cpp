@@ -1,5 +1,7 @@
 #include "pipeline/blend.h"
 
+#include <bit>
+
 #include "pipeline/blend_float.h"
 #include "pipeline/blend_kernels.h"
 #include "pipeline/blend_unorm8.h"
@@ -26,12 +28,12 @@ struct Job {
     }
 };
 
-void load(const Lanes<float>& source, Lanes<float>& operand, std::size_t count, auto convert) noexcept {
+template <class T>
+void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto convert) noexcept {
     for (std::size_t i = 0; i < count; ++i) operand[i] = convert(source[i]);
 }
 
-// Blends the loaded operands, alpha last because the colours read the stored alpha. store(channel, lanes) takes the
-// results.
+// Blends the loaded operands, alpha last because the colours read the stored alpha; store(channel, lanes) takes them.
 template <class Arithmetic>
 void blend_channels(const Job& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
                     auto store) noexcept {
@@ -56,8 +58,8 @@ void blend_unorm8(const Job& job) noexcept {
         if (job.writes(channel) || channel == 3)
             load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8(x)}); });
         if (channel < job.channels)
-            for (std::size_t i = 0; i < job.count; ++i)
-                d[c][i] = static_cast<float>(static_cast<std::int32_t>(job.codes[c][i]));
+            load(job.codes[c], d[c], job.count,
+                 [](std::uint32_t code) { return static_cast<float>(static_cast<int>(code)); });
     }
     if (job.channels < 4) d[3].fill(255.0f);
     blend_channels<Unorm8Arithmetic<rounding>>(job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
@@ -77,8 +79,11 @@ void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexce
         constant[c] = flush(job.state.constant[c]);
         if (job.writes(channel) || channel == 3) load(job.src[c], s[c], job.count, flush);
         if (channel >= job.channels) continue;
-        decode(type, job.codes[c], d[c], count);
-        if (type == ChannelType::single) load(d[c], d[c], job.count, flush);  // widened halves are never denormal
+        if (type == ChannelType::single) {
+            load(job.codes[c], d[c], job.count, [&](std::uint32_t code) { return flush(std::bit_cast<float>(code)); });
+        } else {
+            decode(type, job.codes[c], d[c], count);  // widened halves are never denormal
+        }
     }
     if (job.channels < 4) d[3].fill(1.0f);
     blend_channels<FloatArithmetic<denormals, nan_rule>>(

@@ -1,17 +1,18 @@
 // pipeline/blend_float.h - blending on fp16 and binary32 targets: binary32 arithmetic, no clamps.
 //
-// Rule     Stored halves are widened exactly. Each product is rounded to nearest even, then their sum or difference; 1
-// - x is
-//          one more rounding. Weight 0 or 1 is a multiplication like any other: NaN, infinity times 0 and signed zeros
-//          propagate, and every NaN result is 0x7fffffff. DenormalRule::flush: operands and results below 2^-126 become
-//          zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, by the profile), two give
-//          0x7fffffff; max(-0,+0) = +0, min = -0. SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
+// Rule     Stored halves are widened exactly. Each product is rounded to nearest even, then their sum or difference;
+//          1 - x is one more rounding. Weight 0 or 1 is a multiplication like any other: NaN, infinity times 0 and
+//          signed zeros propagate, and every NaN result is 0x7fffffff. DenormalRule::flush: operands and results
+//          below 2^-126 become zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, by the
+//          profile), two give 0x7fffffff; max(-0,+0) = +0, min = -0. SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
 // Source   hardware.md 8 and 11 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is our
-// assumption. Tests    tests/pipeline/blend_float_test.cpp
+//          assumption.
+// Tests    tests/pipeline/blend_float_test.cpp
 #pragma once
 #include <bit>
 #include <cstdint>
 
+#include "pipeline/lane_mask.h"
 #include "pipeline/profile.h"
 #include "pipeline/state.h"
 #include "rasterizer/numerics.h"
@@ -27,29 +28,25 @@ template <DenormalRule rule>
 [[nodiscard]] constexpr float flushed(float x) noexcept {
     if constexpr (rule == DenormalRule::keep) return x;
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    return std::bit_cast<float>((bits & 0x7f800000u) == 0 ? bits & 0x80000000u : bits);
+    return std::bit_cast<float>(bits & (0x80000000u | mask((bits & 0x7f800000u) != 0)));
 }
 
 [[nodiscard]] constexpr float canonical(float x) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(x);
-    return std::bit_cast<float>(is_nan_bits(bits) ? canonical_nan : bits);
+    return std::bit_cast<float>(select(mask(is_nan_bits(bits)), canonical_nan, bits));
 }
 
-// Float bits as integers in the floats' order: -Inf .. -0, +0 .. +Inf; so -0 is below +0.
-[[nodiscard]] constexpr std::int32_t order_key(std::uint32_t bits) noexcept {
-    const auto value = static_cast<std::int32_t>(bits);
-    return value ^ static_cast<std::int32_t>(static_cast<std::uint32_t>(value >> 31) >> 1);
-}
-
-// MIN or MAX of flushed operands.
+// MIN or MAX of flushed operands. A comparison with NaN is false.
 template <BlendEquation equation, MinMaxNan rule>
 [[nodiscard]] constexpr float extreme(float a, float b) noexcept {
     const auto a_bits = std::bit_cast<std::uint32_t>(a), b_bits = std::bit_cast<std::uint32_t>(b);
-    const bool a_is_less = order_key(a_bits) < order_key(b_bits);
-    std::uint32_t result = a_is_less == (equation == BlendEquation::min) ? a_bits : b_bits;
-    result = is_nan_bits(a_bits) ? (rule == MinMaxNan::propagate ? canonical_nan : b_bits) : result;
-    result = is_nan_bits(b_bits) ? (rule == MinMaxNan::propagate ? canonical_nan : a_bits) : result;
-    return canonical(std::bit_cast<float>(result));  // two NaN
+    const std::uint32_t takes_a = mask(equation == BlendEquation::min ? a < b : a > b), are_equal = mask(a == b);
+    const std::uint32_t drops_b = rule == MinMaxNan::other_operand ? mask(is_nan_bits(b_bits)) : 0;
+    std::uint32_t result = select(takes_a | drops_b, a_bits, b_bits);
+    // Equal operands differ at most as zeros do, in the sign: MAX takes it if both have it, MIN if one has.
+    result = equation == BlendEquation::min ? result | (a_bits & are_equal) : result & (a_bits | ~are_equal);
+    if (rule == MinMaxNan::propagate) result |= mask(is_nan_bits(a_bits)) & canonical_nan;
+    return canonical(std::bit_cast<float>(result));  // two NaN, or one that propagates
 }
 
 template <DenormalRule denormals, MinMaxNan nan_rule>

@@ -1,6 +1,5 @@
-// pipeline/blend_kernels.h - one blend term over the lanes of one channel, for any arithmetic (Unorm8Arithmetic,
-// FloatArithmetic). The terms that papers name have their factors compiled in; `with_term` knows them. Included by
-// blend.cpp alone.
+// pipeline/blend_kernels.h - one blend term over the lanes of one channel, for any arithmetic: Unorm8Arithmetic or
+// FloatArithmetic. The terms that papers name have their factors compiled in. Included by blend.cpp alone.
 #pragma once
 #include <type_traits>
 

@@ -4,12 +4,12 @@
 //          t = clamp(s F + d G, 0, 65025), then t / 255 rounded half up, or cut, by the profile.
 // Source   hardware.md 8; measured on NV2A: 1,673 of 1,673 pictures (nv2a-fragment.md R1, R2, R4).
 // Numbers  Products <= 65025, sums within +-130050. The kernels hold these integers as binary32 values, where all of
-// them
-//          and every operation on them are exact: vector units multiply four floats at once, but not four 32-bit
-//          integers.
-// Tests    tests/pipeline/blend_unorm8_test.cpp
+//          them and every operation on them are exact: vector units multiply four floats at once, but not four
+//          32-bit integers.
+// Tests    tests/pipeline/blend_unorm8_test.cpp; nv2a_blend_test.cpp: 37 pictures of silicon
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "pipeline/profile.h"
@@ -31,23 +31,24 @@ struct Unorm8Arithmetic {
     static constexpr float zero = 0.0f, one = 255.0f;
 
     [[nodiscard]] static constexpr float one_minus(float x) noexcept { return 255.0f - x; }
+    // Codes are not negative: their float bits order like they do.
     [[nodiscard]] static constexpr float lesser(float a, float b) noexcept {
-        return static_cast<float>(std::min(code(a), code(b)));
+        return std::bit_cast<float>(std::min(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
+    }
+    [[nodiscard]] static constexpr float greater(float a, float b) noexcept {
+        return std::bit_cast<float>(std::max(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
     }
 
     template <BlendEquation equation>
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
-        if constexpr (equation == BlendEquation::min) return static_cast<float>(std::min(code(s), code(d)));
-        if constexpr (equation == BlendEquation::max) return static_cast<float>(std::max(code(s), code(d)));
+        if constexpr (equation == BlendEquation::min) return lesser(s, d);
+        if constexpr (equation == BlendEquation::max) return greater(s, d);
         float sum = 0;  // in units of 1/255^2
         if constexpr (equation == BlendEquation::add) sum = s * F + d * G;
         if constexpr (equation == BlendEquation::subtract) sum = s * F - d * G;
         if constexpr (equation == BlendEquation::reverse_subtract) sum = d * G - s * F;
-        return static_cast<float>(over_255<rounding>(std::min(std::max(code(sum), 0), 65025)));
+        return static_cast<float>(over_255<rounding>(std::min(std::max(static_cast<std::int32_t>(sum), 0), 65025)));
     }
-
-  private:
-    [[nodiscard]] static constexpr std::int32_t code(float exact) noexcept { return static_cast<std::int32_t>(exact); }
 };
 
 }  // namespace strict

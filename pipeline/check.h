@@ -1,9 +1,8 @@
 // pipeline/check.h - what a device lacks. State that it cannot run is refused by name, before the first fragment.
 //
-// Rule     Every feature has one row in check.cpp: words, extension, and who has it. A refusal names the profiles that
-// do.
-//          State of the era that no algorithm here needs (fog, colour sum, dither, logic op) is refused on every
-//          profile.
+// Rule     Every feature has one row in check.cpp: words, extension, and who has it. A refusal names the profiles
+//          that do. State of the era that no algorithm here needs (fog, colour sum, dither, logic op) is refused on
+//          every profile.
 // Source   hardware.md 1, 2, 6, 7, 8; decisions.md 4.
 // Tests    tests/pipeline/check_test.cpp
 #pragma once

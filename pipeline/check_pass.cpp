@@ -24,6 +24,16 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
     require(!state.stencil.enabled || (state.stencil_target.exists() && has_stencil(format(state.stencil_target))),
             "a stencil test needs a stencil target");
     for (const Target t : state.color) require(!t.exists() || is_color(format(t)), "a colour output needs a colour target");
+    int samples = 0;
+    const auto agrees = [&](Target t) {
+        const int own = targets.at(static_cast<std::size_t>(t.id)).samples();
+        require(samples == 0 || own == samples, "targets of one pass have one number of samples");
+        samples = own;
+    };
+    for (const Target t : {state.depth_target, state.stencil_target})
+        if (t.exists()) agrees(t);
+    for (const Target t : state.color)
+        if (t.exists()) agrees(t);
     for (const Target t : state.reads)
         require(!t.exists() || state.ordered_rmw || !is_written(state, t),
                 "a target is read and written at once (a feedback loop) without ordered_rmw");

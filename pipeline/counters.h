@@ -32,6 +32,13 @@ struct Counters {
 struct PassCount {
     int geometry = 0, full_screen = 0, copies = 0;
     friend bool operator==(const PassCount&, const PassCount&) = default;
+
+    PassCount& operator+=(const PassCount& o) noexcept {
+        geometry += o.geometry;
+        full_screen += o.full_screen;
+        copies += o.copies;
+        return *this;
+    }
 };
 
 }  // namespace strata::pipeline

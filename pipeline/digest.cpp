@@ -1,7 +1,8 @@
 // pipeline/digest.cpp - one string for all bits of a target.
 //
-// Rule     XXH3-128, seed 0, of: the format's name in ASCII, a zero byte, u32 width, height and samples, then the codes in the
-//          order of Image: UNORM8 and stencil u8, half u16, binary32 and every depth (D16 too) u32; all little endian.
+// Rule     XXH3-128, seed 0, of: the format's name in ASCII, a zero byte, u32 width, height and samples, then the codes
+//          in the order of Image: UNORM8 and stencil u8, half u16, binary32 and every depth (D16 too) u32; all little
+//          endian.
 // Source   decisions.md 5
 // Tests    tests/scenes/digest_test.cpp against a buffer serialised on its own
 #include <xxhash.h>
@@ -76,7 +77,8 @@ std::string digest(const Image& image) {
     Hash hash;
     hash.text(format.name);
     hash.word(0, 1);
-    for (const int number : {image.width, image.height, image.samples}) hash.word(static_cast<std::uint32_t>(number), 4);
+    for (const int number : {image.width, image.height, image.samples})
+        hash.word(static_cast<std::uint32_t>(number), 4);
     const int size = code_bytes(format.type);
     for (const std::uint32_t code : image.codes) hash.word(code, size);
     return hash.hexadecimal();

@@ -21,6 +21,7 @@ struct RegionRun {
     int iterations = 0;
     int idle_from = -1;
     bool probed = false;
+    std::size_t idle_layers = 0;
     std::uint64_t fragments = 0;  // of all its runs
     int runs = 0;
 };
@@ -78,6 +79,7 @@ class FrameRun {
         kept.iterations = region.iterations();
         kept.idle_from = region.idle_from();
         kept.probed = region.probed();
+        kept.idle_layers = region.idle_layers();
         kept.fragments += region.fragments_drawn();
         ++kept.runs;
         if (progress_) progress_(static_cast<double>(++finished_) / static_cast<double>(regions_.size()));
@@ -145,9 +147,7 @@ class FrameRun {
         PassCount passes;
         const auto add = [&](const IterationRecord& record) {
             result_.counters += record.counters;
-            passes.geometry += record.passes.geometry;
-            passes.full_screen += record.passes.full_screen;
-            passes.copies += record.passes.copies;
+            passes += record.passes;
         };
         add(r.records.front());
         for (int i = 1; i <= result_.iterations; ++i)
@@ -159,10 +159,7 @@ class FrameRun {
     // A region that stopped early shows its last layer, an empty one, in every further layer of the frame.
     void gather_layers() {
         std::size_t count = 0;
-        for (const RegionRun& r : regions_) {
-            const std::size_t probes = r.probed ? 1 : 0;
-            if (r.layers.size() > probes) count = std::max(count, r.layers.size() - probes);
-        }
+        for (const RegionRun& r : regions_) count = std::max(count, r.layers.size() - r.idle_layers);
         const rasterizer::Rect whole = frame_.rect();
         for (std::size_t layer = 0; layer < count; ++layer) {
             KeptLayer kept;

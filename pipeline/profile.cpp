@@ -1,5 +1,4 @@
-// pipeline/profile.cpp - the built-in devices. Each number's source stands in profile_fields.cpp and is printed by
-// describe().
+// pipeline/profile.cpp - the built-in devices. Each number's source stands in profile_fields.cpp; describe() prints it.
 #include "pipeline/profile.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cassert>
 
+#include "pipeline/check.h"
 #include "pipeline/convert.h"
 #include "pipeline/half.h"
 #include "pipeline/region_scratch.h"
@@ -47,6 +48,7 @@ Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Exte
 Region::~Region() = default;
 
 Target Region::make(Format format, int samples) {
+    if (auto lacking = check_samples(profile(), samples)) throw Refused{profile(), *std::move(lacking)};
     storages_.emplace_back(format, samples, rect_.area());
     return {static_cast<int>(storages_.size()) - 1};
 }

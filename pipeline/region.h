@@ -63,7 +63,8 @@ class Region {
     [[nodiscard]] const DeviceProfile& profile() const noexcept { return *frame_.profile; }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return rect_; }
 
-    [[nodiscard]] Target make(Format format, int samples = 1);  // contents 0; same order in every region
+    // Contents 0; same order in every region. Throws Refused for more samples than the profile has.
+    [[nodiscard]] Target make(Format format, int samples = 1);
     [[nodiscard]] Target make_color() { return make(frame_.color_format); }
     [[nodiscard]] Target make_depth() { return make(target_format(frame_.key_request().format)); }
     // The opaque scene, drawn before the algorithm starts: depth in the form of the algorithm's key, and colour over the
@@ -71,7 +72,7 @@ class Region {
     [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
 
-    // Clears obey the scissor and nothing else here (write masks are pass state).
+    // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
 
@@ -89,7 +90,8 @@ class Region {
     void trace_pixels(Target read, P&& program);
 
     // The frame's answer to "is the count above the limit that --termination sets?".
-    // The last act of an iteration: whatever followed it would be counted by some regions and not by others.
+    // A promise belongs to the query that ends the loop, the last act of its iteration: a region that keeps it may stop there.
+    // A query for a branch within the iteration asks with Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle);
     void begin_iteration();
     // Work after the last iteration that each iteration causes (the compositing of its layer) is counted with it: from now on
@@ -122,6 +124,7 @@ class Region {
     [[nodiscard]] int iterations() const noexcept { return iterations_; }
     [[nodiscard]] bool probed() const noexcept { return probed_; }  // the last iteration was an idle probe
     [[nodiscard]] std::vector<KeptLayer>& layers() noexcept { return layers_; }
+    [[nodiscard]] std::size_t idle_layers() const noexcept { return idle_layers_; }  // the last ones, kept while idle: empty
     [[nodiscard]] std::vector<TraceEntry>& trace() noexcept { return trace_; }
     [[nodiscard]] std::vector<Diagnostic>& diagnostics() noexcept { return diagnostics_; }
     [[nodiscard]] Target published() const noexcept { return published_; }
@@ -153,6 +156,7 @@ class Region {
                       const Lanes<std::uint32_t>& alive, std::uint64_t passed);
     void draw_opaque();
     bool stop_iterating();
+    void join_tail();
 
     [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] const Loads& loads() const noexcept;
@@ -172,6 +176,8 @@ class Region {
     Target opaque_depth_, opaque_color_, published_;
 
     PassKind kind_ = PassKind::geometry;
+    int pass_samples_ = 1;
+    bool samples_textures_ = false;  // somebody looks at the colours of this pass
     std::uint64_t tallied_ = 0;
     bool counts_ = true;          // false during the emulator's own work (opaque priming, capture)
     IterationRecord uncounted_;   // where that work is counted instead
@@ -183,8 +189,10 @@ class Region {
     std::vector<IterationRecord> records_;  // [0] before the first iteration, then one each, at last what follows
     std::vector<Decision> decisions_;
     std::vector<KeptLayer> layers_;
+    std::size_t idle_layers_ = 0;
     std::vector<TraceEntry> trace_;
     std::vector<Diagnostic> diagnostics_;
+    std::vector<bool> has_saturated_;  // pixels whose stencil has met its limit; empty until one does
     std::uint64_t fragments_drawn_ = 0;
 };
 

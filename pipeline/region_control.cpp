@@ -8,12 +8,23 @@
 namespace strata::pipeline {
 
 void Region::begin_iteration() {
+    join_tail();
     counted_record_ = records_.size();
     records_.emplace_back();
     ++iterations_;
 }
 
+// Whatever followed a "no" that did not end the loop belongs to the iteration in which it was said.
+void Region::join_tail() {
+    const auto last = static_cast<std::size_t>(iterations_);
+    if (records_.size() <= last + 1) return;
+    records_[last].counters += records_.back().counters;
+    records_[last].passes += records_.back().passes;
+    records_.pop_back();
+}
+
 bool Region::stop_iterating() {
+    join_tail();
     counted_record_ = records_.size();  // what follows the last iteration
     records_.emplace_back();
     return false;
@@ -35,7 +46,7 @@ bool Region::any(Count count, Idle idle) {
         answer = count.own_ > 0;
     }
     if (finished && index >= script_.size()) {
-        if (idle_from_ < 0) idle_from_ = static_cast<int>(records_.size()) - (idle == Idle::steady ? 1 : 0);
+        if (idle_from_ < 0) idle_from_ = iterations_ + (idle == Idle::steady ? 0 : 1);
         probed_ = probing_;
         answer = idle == Idle::when_zero && !std::exchange(probing_, true);
     }
@@ -51,7 +62,9 @@ bool Region::limit_reached() {
 }
 
 void Region::keep_layer(Target color, Target depth) {
-    if (frame_.keep_layers) layers_.push_back({image(color), image(depth)});
+    if (!frame_.keep_layers) return;
+    layers_.push_back({image(color), image(depth)});
+    if (probing_) ++idle_layers_;
 }
 
 void Region::report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) {

@@ -1,7 +1,7 @@
 // pipeline/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order: texture and MASK,
 // (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. hardware.md 0.
 #include <algorithm>
-#include <cassert>
+#include <stdexcept>
 
 #include "pipeline/alpha_test.h"
 #include "pipeline/blend.h"
@@ -46,6 +46,13 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;
     check_pass(profile(), state, storages_);
+    if (state.depth.enabled && depth_format(at(state.depth_target).format()) != frame_.key_request().format)
+        throw std::logic_error("pass state: the depth target's format is not that of the frame's depth codes");
+    pass_samples_ = 1;
+    for (const Target t : {state.depth_target, state.stencil_target})
+        if (t.exists()) pass_samples_ = at(t).samples();
+    for (const Target t : state.color)
+        if (t.exists()) pass_samples_ = at(t).samples();
     if (kind == PassKind::geometry) {
         ++record().passes.geometry;
         if (counts_) ++geometry_passes_;
@@ -84,6 +91,7 @@ void Region::rasterize(const PreparedDraw& list, const PassState& state, rasteri
     needs.color |= list.needs_color;
     needs.texcoord |= list.needs_texcoord && needs.color;
     if (frame_.effects == Effects::all) needs = {true, true, needs.exact_code, true, true, true};
+    samples_textures_ = needs.color && list.needs_texcoord;
     const auto& geometry = list.geometry;
     const auto triangles =
         extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
@@ -101,7 +109,7 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
     fragments_drawn_ += static_cast<std::uint64_t>(batch.count);
     record().counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
     const MaterialStage& material = list.materials[batch.material];
-    if (material.texture != nullptr && list.needs_texcoord) {
+    if (material.texture != nullptr && samples_textures_) {
         sample(*material.texture, profile().texture_filter, batch.texcoord[0], batch.texcoord[1], scratch_->texel, batch.count);
         for (std::size_t c = 0; c < 4; ++c)
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
@@ -141,10 +149,7 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
                    batch.count);
         record().counters.alpha_killed += before - alive_count(out, batch.count);
     }
-    int samples = 1;
-    for (const Target t : {state.depth_target, state.stencil_target, state.color[0]})
-        if (t.exists()) samples = std::max(samples, at(t).samples());
-    for (int sample = 0; sample < samples; ++sample)
+    for (int sample = 0; sample < pass_samples_; ++sample)
         if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
     drawn.tallied = Count{tallied_};
 }
@@ -225,12 +230,17 @@ void Region::test_depth_and_stencil(const PassState& state, const FragmentBatch&
 
 void Region::report_saturation(const FragmentBatch& batch) {
     const Lanes<std::uint32_t>& saturated = scratch_->saturated;
-    const std::uint64_t lanes = count_lanes(saturated, batch.count);
-    if (lanes == 0) return;
+    if (count_lanes(saturated, batch.count) == 0) return;
+    has_saturated_.resize(rect_.area());
+    std::uint64_t pixels = 0;  // that had not saturated before
     std::uint32_t first = ~0u;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-        if (saturated[i] != 0) first = std::min(first, batch.pixel[i]);
-    report(Fault::stencil_saturated, lanes, first, "INCR or DECR at the end of the 8-bit range");
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+        if (saturated[i] == 0 || has_saturated_[batch.pixel[i]]) continue;
+        has_saturated_[batch.pixel[i]] = true;
+        first = std::min(first, batch.pixel[i]);
+        ++pixels;
+    }
+    report(Fault::stencil_saturated, pixels, first, "INCR or DECR at the end of the 8-bit range");
 }
 
 void Region::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,

@@ -1,10 +1,9 @@
 // pipeline/stencil.h - the stencil test and the operations of an 8-bit stencil buffer.
 //
-// Rule     (ref & func_mask) FUNC (stored & func_mask), the reference on the left. Fails: `fail`, and the fragment is
-// dropped.
-//          Passes: the depth result chooses `depth_fail` (dropped) or `pass`; a depth test that is off counts as
-//          passed. INCR and DECR saturate; REPLACE writes the whole reference; write_mask touches nothing but the
-//          update.
+// Rule     (ref & func_mask) FUNC (stored & func_mask), the reference on the left. Fails: `fail`, and the fragment
+//          is dropped. Passes: the depth result chooses `depth_fail` (dropped) or `pass`; a depth test that is off
+//          counts as passed. INCR and DECR saturate; REPLACE writes the whole reference; write_mask touches nothing
+//          but the update.
 // Source   hardware.md 7 (GL 2.1 4.1.5; EXT_stencil_two_side; EXT_stencil_wrap); measured, nv2a-fragment.md R8.
 // Tests    tests/pipeline/stencil_test.cpp
 #pragma once

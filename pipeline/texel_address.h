@@ -1,15 +1,12 @@
-// pipeline/texel_address.h - from a texture coordinate to texels, one axis at a time. Shared by colour and depth
-// textures.
+// pipeline/texel_address.h - from a texture coordinate to texels, one axis at a time; for colour and depth textures.
 //
-// Rule     u = coordinate * size for 2D textures, the coordinate itself for rectangles, exact. Nearest: texel floor(u),
-// with u
-//          first snapped to 1/256 (nearest even) where the profile says so. Linear: u - 1/2 cut (floored) to 1/256; its
-//          integer part is the first texel, its fraction the second one's weight. Repeat and mirrored repeat wrap the
-//          texels, clamp to edge clamps u to [1/2, size - 1/2]; rectangles always clamp. NaN counts as 0, anything
-//          beyond +-2^31 as +-2^31.
-// Source   decisions.md 1, "Colour filtering"; hardware.md 3 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle). NaN
-// and the
-//          bound are our assumption; floats beyond 2^31 are even integers, so that no wrapping notices it.
+// Rule     u = coordinate * size for 2D textures, the coordinate itself for rectangles, exact. Nearest: texel
+//          floor(u), with u first snapped to 1/256 (nearest even) where the profile says so. Linear: u - 1/2 cut
+//          (floored) to 1/256; its integer part is the first texel, its fraction the second one's weight. Repeat and
+//          mirrored repeat wrap the texels, clamp to edge clamps u to [1/2, size - 1/2]; rectangles always clamp.
+//          NaN counts as 0, anything beyond +-2^31 as +-2^31.
+// Source   decisions.md 1, "Colour filtering"; hardware.md 3 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle).
+//          NaN and the bound are our assumption; floats beyond 2^31 are even integers: no wrapping notices it.
 // Numbers  coordinate * size * 256: 24 + 15 significant bits, below 2^55: exact in binary64 and in 64-bit integers.
 // Tests    tests/pipeline/texture_sample_test.cpp
 #pragma once

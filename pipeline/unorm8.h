@@ -1,9 +1,11 @@
 // pipeline/unorm8.h - 8-bit normalised colour: the code k means k / 255.
 //
-// Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product. From UNORM8: k / 255, rounded
-// once. Source   hardware.md 9 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9). Numbers  255 x has at most 32 significant
-// bits: exact in binary64. Where adding 1/2 rounds, x is far from every half code. Tests
-// tests/pipeline/unorm8_test.cpp: all 256 codes; all 2^32 floats
+// Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product. From UNORM8: k / 255,
+//          rounded once.
+// Source   hardware.md 9 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9).
+// Numbers  255 x has at most 32 significant bits: exact in binary64. Where adding 1/2 rounds, x is far from every
+//          half code.
+// Tests    tests/pipeline/unorm8_test.cpp: all 256 codes; all 2^32 floats
 #pragma once
 #include <algorithm>
 #include <array>
@@ -17,9 +19,8 @@ namespace strata::pipeline {
 inline namespace strict {
 
 [[nodiscard]] constexpr std::uint8_t to_unorm8(float x) noexcept {
-    const auto bits = std::bit_cast<std::int32_t>(x);  // orders like x from +0 to +Inf; negative where x is
-    const std::int32_t number = bits & static_cast<std::int32_t>(mask(bits <= 0x7f800000));  // NaN is 0
-    const std::int32_t clamped = std::min(std::max(number, 0), std::bit_cast<std::int32_t>(1.0f));
+    const std::uint32_t positive = std::bit_cast<std::uint32_t>(x) & mask(x > 0.0f);  // 0 for NaN; orders like x
+    const auto clamped = std::min(static_cast<std::int32_t>(positive), std::bit_cast<std::int32_t>(1.0f));
     return static_cast<std::uint8_t>(static_cast<std::int32_t>(double{std::bit_cast<float>(clamped)} * 255.0 + 0.5));
 }
 

@@ -1,7 +1,8 @@
 // scenes/atomic_file.h - a file that appears under its name only when it is complete.
 //
-// Rule     Written beside its place under ".NAME.PROCESS-NUMBER.tmp", renamed by commit(). What was not committed is removed: by the
-//          destructor, or by remove_unfinished_files() when the process is interrupted. A symbolic link is replaced, not followed.
+// Rule     Written beside its place under ".NAME.PROCESS-NUMBER.tmp", renamed by commit(). What was not committed is
+//          removed: by the destructor, or by remove_unfinished_files() when the process is interrupted. A symbolic link
+//          is replaced, not followed.
 // Tests    tests/scenes/atomic_file_test.cpp
 #pragma once
 #include <cstdint>
@@ -18,7 +19,8 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    // What was written; less than asked after a failure, which commit() reports. Never throws: image libraries call these.
+    // What was written; less than asked after a failure, which commit() reports. Never throws: image libraries call
+    // these.
     std::size_t write(const void* bytes, std::size_t size) noexcept;
     bool seek(std::int64_t position) noexcept;
     [[nodiscard]] std::int64_t position() const noexcept;
@@ -45,8 +47,8 @@ void write_file(const std::string& path, std::string_view bytes);
 // Unlinks every file that is being written. Async-signal-safe.
 void remove_unfinished_files() noexcept;
 
-// On SIGINT, SIGTERM and SIGHUP: remove_unfinished_files(), then _exit(128 + signal), which is 130 for SIGINT. A signal that the
-// process was told to ignore (nohup) stays ignored.
+// On SIGINT, SIGTERM and SIGHUP: remove_unfinished_files(), then _exit(128 + signal), which is 130 for SIGINT. A signal
+// that the process was told to ignore (nohup) stays ignored.
 void remove_unfinished_files_when_interrupted() noexcept;
 
 }  // namespace strata::scenes

@@ -30,7 +30,8 @@ Bounds bounds_of(const pipeline::DrawList& list) {
     Bounds bounds;
     for (const pipeline::Instance& instance : list.instances) {
         const pipeline::Mesh& mesh = list.meshes[instance.mesh];
-        for (const std::uint32_t index : mesh.indices) include(bounds, transformed(instance.model, mesh.positions[index]));
+        for (const std::uint32_t index : mesh.indices)
+            include(bounds, transformed(instance.model, mesh.positions[index]));
     }
     return bounds;
 }

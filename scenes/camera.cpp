@@ -1,8 +1,8 @@
 #include "scenes/camera.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "rasterizer/float_environment.h"
 #include "rasterizer/input_error.h"
@@ -28,7 +28,7 @@ pipeline::Matrix look_at_matrix(const Vector& eye, const Vector& center, const V
     const Vector forward = normalized(difference(center, eye));
     const Vector side = normalized(cross(forward, up));
     const Vector top = cross(side, forward);
-    return {side[0], top[0], -forward[0], 0, side[1], top[1], -forward[1], 0,
+    return {side[0], top[0], -forward[0], 0, side[1],         top[1],         -forward[1],       0,
             side[2], top[2], -forward[2], 0, -dot(side, eye), -dot(top, eye), dot(forward, eye), 1};
 }
 

@@ -1,7 +1,7 @@
 // scenes/camera.h - views: an orbit round a scene's bounds, a camera file, a camera of a glTF scene.
 //
-// Rule     gluLookAt and gluPerspective in binary64 with our own sin and cos; matrices column-major, clip depth in [-1, 1].
-// Source   decisions.md 1 and 2; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (projection matrices, infinite far).
+// Rule     gluLookAt and gluPerspective in binary64 with our own sin, cos; matrices column-major, clip depth -1 to 1.
+// Source   decisions.md 1 and 2; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
 // Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
 #pragma once
 #include <string>
@@ -17,8 +17,9 @@ struct LookAt {  // what a camera file of the first form says
 
 [[nodiscard]] pipeline::View look_at(const LookAt& camera, double aspect) noexcept;
 
-// Sees the whole bounding sphere of the box. |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and below,
-// up is the limit. A box without extent is framed as if its radius were 1, an empty one as if it stood at the origin.
+// Sees the whole bounding sphere of the box. |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and
+// below, up is the limit. A box without extent is framed as if its radius were 1, an empty one as if it stood at the
+// origin.
 [[nodiscard]] pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees,
                                         double aspect);
 

@@ -1,4 +1,7 @@
-// scenes/camera_file.cpp - camera files in and out. Numbers are read and written the same under every locale and rounding mode.
+// scenes/camera_file.cpp - camera files in and out. Numbers are read and written the same under every locale and
+// rounding mode.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -7,8 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
-
-#include <fmt/format.h>
 
 #include "rasterizer/float_environment.h"
 #include "rasterizer/input_error.h"
@@ -51,9 +52,11 @@ std::optional<double> parse_hex_float(std::string_view text) {
     if (negative || text.starts_with('+')) text.remove_prefix(1);
     if (!text.starts_with("0x") && !text.starts_with("0X")) return std::nullopt;
     text.remove_prefix(2);
-    if (text.empty() || !std::isxdigit(static_cast<unsigned char>(text.front()))) return std::nullopt;  // no second sign, no inf
+    if (text.empty() || !std::isxdigit(static_cast<unsigned char>(text.front())))
+        return std::nullopt;  // no second sign, no inf
     double magnitude = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), magnitude, std::chars_format::hex);
+    const auto [end, error] =
+        std::from_chars(text.data(), text.data() + text.size(), magnitude, std::chars_format::hex);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     return negative ? -magnitude : magnitude;
 }
@@ -110,7 +113,8 @@ LookAt parse_look_at(const Place& camera) {
                         .fovy_degrees = number(camera["fovy_degrees"]),
                         .near = number(camera["near"]),
                         .far = number(camera["far"])};
-    if (!(result.fovy_degrees > 0 && result.fovy_degrees < 180)) camera["fovy_degrees"].fail("degrees between 0 and 180");
+    if (!(result.fovy_degrees > 0 && result.fovy_degrees < 180))
+        camera["fovy_degrees"].fail("degrees between 0 and 180");
     if (!(result.near > 0)) camera["near"].fail("a distance above 0");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
     if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
@@ -151,7 +155,8 @@ pipeline::View parse_camera(const std::string& text, const std::string& name, do
     if (!document.is_object()) camera.fail("an object", document.type_name());
     for (const auto& [key, value] : document.items()) {  // a misspelt key must not choose the form
         if (std::ranges::find(all_keys, key) == std::end(all_keys))
-            camera.fail(fmt::format("only the keys {}", fmt::join(all_keys, ", ")), quoted_with_suggestion(key, all_keys));
+            camera.fail(fmt::format("only the keys {}", fmt::join(all_keys, ", ")),
+                        quoted_with_suggestion(key, all_keys));
     }
     if (!document.contains("view") && !document.contains("projection")) return look_at(parse_look_at(camera), aspect);
     check_keys(camera, matrix_keys);

@@ -1,7 +1,7 @@
 // scenes/deep_exr.cpp - a layered depth image: every fragment of every pixel in one deep EXR file.
 //
-// Rule     Channels R G B A (FLOAT, premultiplied), Z (FLOAT), Zbits and id (UINT32: depth code and primitive). Samples stand in the
-//          order of `fragments`, which need not be that of Z.
+// Rule     Channels R G B A (FLOAT, premultiplied), Z (FLOAT), Zbits and id (UINT32: depth code and primitive). Samples
+//          stand in the order of `fragments`, which need not be that of Z.
 #include <OpenImageIO/deepdata.h>
 
 #include <cassert>
@@ -33,7 +33,8 @@ OIIO::ImageSpec deep_spec(const DeepFragments& fragments, const Attributes& attr
 
 void set_sample(OIIO::DeepData& data, std::int64_t pixel, int sample, const DeepFragments& fragments, std::size_t i) {
     const pipeline::Rgba& color = fragments.rgba[i];
-    for (int c = red; c < alpha; ++c) data.set_deep_value(pixel, c, sample, color[static_cast<std::size_t>(c)] * color[3]);
+    for (int c = red; c < alpha; ++c)
+        data.set_deep_value(pixel, c, sample, color[static_cast<std::size_t>(c)] * color[3]);
     data.set_deep_value(pixel, alpha, sample, color[3]);
     data.set_deep_value(pixel, depth, sample, fragments.z[i]);
     data.set_deep_value(pixel, depth_code, sample, fragments.depth_code[i]);
@@ -55,7 +56,8 @@ OIIO::DeepData deep_data(const OIIO::ImageSpec& spec, const DeepFragments& fragm
     data.set_all_samples(fragments.count);
     std::size_t fragment = 0;
     for (std::int64_t pixel = 0; pixel < data.pixels(); ++pixel)
-        for (int sample = 0; sample < data.samples(pixel); ++sample) set_sample(data, pixel, sample, fragments, fragment++);
+        for (int sample = 0; sample < data.samples(pixel); ++sample)
+            set_sample(data, pixel, sample, fragments, fragment++);
     return data;
 }
 
@@ -64,7 +66,8 @@ OIIO::DeepData deep_data(const OIIO::ImageSpec& spec, const DeepFragments& fragm
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes) {
     const FloatEnvironment environment;
     assert(std::accumulate(fragments.count.begin(), fragments.count.end(), std::size_t{0}) == fragments.z.size());
-    if (image_file(path) != ImageFile::exr) throw InputError(path, "name", "a file name that ends in .exr", "another ending");
+    if (image_file(path) != ImageFile::exr)
+        throw InputError(path, "name", "a file name that ends in .exr", "another ending");
     const OIIO::ImageSpec spec = deep_spec(fragments, attributes);
     const OIIO::DeepData data = deep_data(spec, fragments);
     write_exr_by_name(path, [&](OIIO::ImageOutput& output, const std::string& name) {
@@ -74,7 +77,7 @@ void write_deep(const std::string& path, const DeepFragments& fragments, const A
 
 DeepFragments read_deep(const std::string& path) {
     const FloatEnvironment environment;
-    const auto input = open_input("openexr", path);
+    const auto input = open_exr(path);
     const OIIO::ImageSpec spec = input->spec();
     OIIO::DeepData data;
     if (!spec.deep || !input->read_native_deep_image(0, 0, data))
@@ -87,7 +90,8 @@ DeepFragments read_deep(const std::string& path) {
     DeepFragments fragments{.width = spec.width, .height = spec.height};
     for (std::int64_t pixel = 0; pixel < data.pixels(); ++pixel) {
         fragments.count.push_back(static_cast<std::uint32_t>(data.samples(pixel)));
-        for (int sample = 0; sample < data.samples(pixel); ++sample) append_sample(data, pixel, sample, index, fragments);
+        for (int sample = 0; sample < data.samples(pixel); ++sample)
+            append_sample(data, pixel, sample, index, fragments);
     }
     return fragments;
 }

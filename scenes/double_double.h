@@ -1,7 +1,7 @@
 // scenes/double_double.h - an unevaluated sum of two binary64 numbers, about 106 bits, for elementary.cpp.
 //
-// Rule     hi is the sum rounded to nearest. two_sum and two_product are exact; add, mul and div err by a few 2^-104 relative
-//          (add: relative to the larger operand).
+// Rule     hi is the sum rounded to nearest. two_sum and two_product are exact; add, mul and div err by a few 2^-104
+//          relative (add: relative to the larger operand).
 // Source   Dekker 1971 (product by halves, no fused multiply-add), Knuth TAOCP 4.2.2 (sum).
 // Numbers  two_product needs |a|, |b| < 2^995 and no underflow: the callers stay far from both.
 #pragma once

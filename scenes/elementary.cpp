@@ -18,8 +18,9 @@ struct Reduced {
     DoubleDouble rest;  // radians, within pi/4 and a rounding
 };
 
-// x - k pi/2. pi/2 in four parts (Cody and Waite): the first three have at most 33 bits and |k| < 2^20, so that their products
-// are exact; what is cut off is below 2^-132, and no binary64 number up to 10^6 is nearer than 2^-64 to a multiple of pi/2.
+// x - k pi/2. pi/2 in four parts (Cody and Waite): the first three have at most 33 bits and |k| < 2^20, so that their
+// products are exact; what is cut off is below 2^-132, and no binary64 number up to 10^6 is nearer than 2^-64 to a
+// multiple of pi/2.
 Reduced reduce(double x) noexcept {
     constexpr double part[4] = {0x1.921fb544p+0, 0x0.42d18469p-32, 0x0.898cc517p-64, 0x1.b839a252049c1p-104};
     const double k = std::floor(x * 0x1.45f306dc9c883p-1 + 0.5);

@@ -1,17 +1,19 @@
-// scenes/exr.cpp - flat and multi-part EXR: premultiplied colours to look at, and the targets' own codes to compare.
+// scenes/exr.cpp - flat and multi-part EXR: premultiplied colours to look at, the targets' own codes to compare.
 //
-// Rule     R G B A hold premultiplied values. Where the target is premultiplied half or binary32 they are its codes bit for bit, in its
-//          own type; else they are FLOAT, and the codes stand beside them as UINT32 `Rbits Gbits Bbits Abits`.
-//          `Z` is the depth as a FLOAT, `Zbits` its code. All bits survive: OpenImageIO copies native types without looking.
+// Rule     R G B A hold premultiplied values. Where the target is premultiplied half or binary32 they are its codes bit
+//          for bit, in its own type; else they are FLOAT, and the codes stand beside them as UINT32 `Rbits Gbits Bbits
+//          Abits`. `Z` is the depth as a FLOAT, `Zbits` its code. All bits survive: OpenImageIO copies native types
+//          without looking.
 // Cost     Colours of a straight target are stored twice; zip shrinks the smaller codes to little.
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 #include <cassert>
 #include <cstring>
 #include <optional>
 
-#include <fmt/format.h>
-
+#include "rasterizer/float_environment.h"
 #include "rasterizer/input_error.h"
 #include "scenes/image_formats.h"
 
@@ -155,7 +157,8 @@ class PartReader {
         images.push_back({part, "color", target(color_format(), {"R", "G", "B", "A"})});
         if (spec_.channelindex("Zbits") < 0) return;
         const auto depth = format_named(attribute(spec_, "format.depth"));
-        if (!depth || !pipeline::is_depth(*depth)) fail("an attribute strata:format.depth that names a depth format", "none");
+        if (!depth || !pipeline::is_depth(*depth))
+            fail("an attribute strata:format.depth that names a depth format", "none");
         images.push_back({part, "depth", target(*depth, {"Z"})});
     }
 
@@ -215,12 +218,15 @@ void write_exr(const std::string& path, const OutputColor& image) {
 
 void write_layers(const std::string& path, std::span<const OutputColor> layers) {
     assert(!layers.empty() && "a file without parts is none");
-    if (image_file(path) != ImageFile::exr) throw InputError(path, "name", "a file name that ends in .exr", "another ending");
-    write_exr_by_name(path, [&](OIIO::ImageOutput& output, const std::string& name) { return write_parts(output, name, layers); });
+    if (image_file(path) != ImageFile::exr)
+        throw InputError(path, "name", "a file name that ends in .exr", "another ending");
+    const FloatEnvironment environment;
+    write_exr_by_name(
+        path, [&](OIIO::ImageOutput& output, const std::string& name) { return write_parts(output, name, layers); });
 }
 
 std::vector<FileImage> read_exr(const std::string& path) {
-    const auto input = open_input("openexr", path);
+    const auto input = open_exr(path);
     std::vector<FileImage> images;
     for (int part = 0; input->seek_subimage(part, 0); ++part) {
         if (input->spec().deep) throw InputError(path, fmt::format("part {}", part), "a flat image", "a deep one");

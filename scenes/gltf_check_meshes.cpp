@@ -104,11 +104,22 @@ struct MeshChecker {
                                           : texture.value("texCoord", std::uint64_t{0});
     }
 
+    // A file that only uses Draco must bring plain data too; without, the accessors would read as zeros.
+    void check_draco(const JsonAt& primitive, const JsonAt& attributes) const {
+        const auto extensions = primitive.find("extensions");
+        if (!extensions || !extensions->find("KHR_draco_mesh_compression")) return;
+        for (const Json& accessor : attributes.json())
+            if (!root.json()["accessors"][accessor.get<std::size_t>()].contains("bufferView"))
+                extensions->place().fail("UNSUPPORTED_EXTENSION", "plain data beside KHR_draco_mesh_compression",
+                                         "none");
+    }
+
     void check_primitive(const JsonAt& primitive, Warnings& warnings) const {
         const JsonAt attributes = primitive.member("attributes").object();
         std::optional<std::uint64_t> count;
         for (const auto& item : attributes.json().items())
             check_attribute(attributes.member(item.key()), item.key(), count);
+        check_draco(primitive, attributes);
         if (!attributes.has("POSITION"))
             warnings.add(primitive.place().pointer, "a primitive without POSITION is not drawn");
         if (const auto indices = primitive.find("indices")) check_indices(*indices);

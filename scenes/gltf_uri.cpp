@@ -97,8 +97,9 @@ bool is_inside(const fs::path& path, const fs::path& folder) {  // both canonica
 std::vector<std::byte> read_file(const fs::path& path, const Place& place) {
     std::error_code error;
     if (!fs::is_regular_file(path, error))
-        place.fail("FILE_NOT_FOUND", "a file",
-                   fs::is_directory(path, error) ? "a folder" : in_quotes(path.filename().string()) + ", which is none");
+        place.fail(
+            "FILE_NOT_FOUND", "a file",
+            fs::is_directory(path, error) ? "a folder" : in_quotes(path.filename().string()) + ", which is none");
     const std::uintmax_t size = fs::file_size(path, error);
     if (error || size > max_file_bytes)
         place.fail("IO_ERROR", "a file below 4 GiB", error ? error.message() : std::to_string(size));

@@ -30,15 +30,16 @@ class FileProxy : public OIIO::Filesystem::IOProxy {
 // The value of a colour code: k / 255, or the half's or the float's own, whose NaN payload may be lost.
 [[nodiscard]] float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept;
 
-// Writes one file: `body` opens the output, writes and closes; false from it means that OpenImageIO has an error to tell.
+// Writes one file: `body` opens the output, writes and closes; false from it means that OpenImageIO has an error to
+// tell.
 using Body = std::function<bool(OIIO::ImageOutput& output, const std::string& name)>;
 void write_with(const char* format, const std::string& path, const Body& body);
 
 // The same for EXR files of several parts and deep ones, which OpenImageIO 2.4 writes by name, past any proxy.
 void write_exr_by_name(const std::string& path, const Body& body);
 
-// An open file of the named format, with checked size and without conversions; InputError if there is none.
-[[nodiscard]] std::unique_ptr<OIIO::ImageInput> open_input(const char* format, const std::string& path);
+// An open EXR file, the size of each part checked; InputError if there is none.
+[[nodiscard]] std::unique_ptr<OIIO::ImageInput> open_exr(const std::string& path);
 
 // Size, names and attributes, and what keeps OpenImageIO from adding any of its own. Channels are the caller's.
 [[nodiscard]] OIIO::ImageSpec base_spec(int width, int height, const Attributes& attributes);

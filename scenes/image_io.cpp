@@ -28,7 +28,8 @@ bool ends_with(const std::string& path, std::string_view ending) {
 void check_size(const std::string& path, const OIIO::ImageSpec& spec) {
     const bool plain = spec.depth == 1 && spec.nchannels > 0;
     if (plain && spec.width > 0 && spec.height > 0 && spec.width <= max_size && spec.height <= max_size) return;
-    throw InputError(path, "size", "at most 16384x16384", std::to_string(spec.width) + "x" + std::to_string(spec.height));
+    throw InputError(path, "size", "at most 16384x16384",
+                     std::to_string(spec.width) + "x" + std::to_string(spec.height));
 }
 
 // Whether what was written last can be read: OpenEXR does not report what fails when it flushes its last buffer.
@@ -43,8 +44,9 @@ bool has_last_row(const std::string& path) {
     std::vector<std::byte> row(spec.scanline_bytes(true));
     OIIO::DeepData deep;
     const int y = spec.height - 1;
-    return spec.deep ? input->read_native_deep_scanlines(part, 0, y, y + 1, 0, 0, spec.nchannels, deep)
-                     : input->read_scanlines(part, 0, y, y + 1, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, row.data());
+    return spec.deep
+               ? input->read_native_deep_scanlines(part, 0, y, y + 1, 0, 0, spec.nchannels, deep)
+               : input->read_scanlines(part, 0, y, y + 1, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, row.data());
 }
 
 }  // namespace
@@ -83,15 +85,13 @@ void write_exr_by_name(const std::string& path, const Body& body) {
     file.commit();
 }
 
-std::unique_ptr<OIIO::ImageInput> open_input(const char* format, const std::string& path) {
+std::unique_ptr<OIIO::ImageInput> open_exr(const std::string& path) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path, "file", "an image", "no file of that name");
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1);  // PNG: leave the colours alone
-    auto input = OIIO::ImageInput::create(format);
+    if (!std::filesystem::is_regular_file(path, ignored))
+        throw InputError(path, "file", "an image", "no file of that name");
+    auto input = OIIO::ImageInput::create("openexr");
     OIIO::ImageSpec spec;
-    if (input == nullptr || !input->open(path, spec, config))
-        throw InputError(path, "file", std::string{"an image in "} + format + " format", "something else");
+    if (input == nullptr || !input->open(path, spec)) throw InputError(path, "file", "an EXR image", "something else");
     for (int part = 0; input->seek_subimage(part, 0); ++part) check_size(path, input->spec());
     (void)input->geterror();  // the last seek's
     input->seek_subimage(0, 0);

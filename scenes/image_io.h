@@ -1,9 +1,10 @@
 // scenes/image_io.h - finished targets to PNG and EXR files and back, without losing a bit or adding one.
 //
-// Rule     The file's name decides: .png holds 8-bit straight colours, .exr everything. scenes/README.md lists channels, parts,
-//          attributes and the conversion to 8 bits. The same call writes the same bytes: no time, host or path goes in. Written
-//          under a temporary name and renamed: SystemError, and no file, if that fails.
-// Source   decisions.md 5; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files unless told not to.
+// Rule     The file's name decides: .png holds 8-bit straight colours, .exr everything. scenes/README.md lists
+//          channels, parts, attributes and the conversion to 8 bits. The same call writes the same bytes: no time, host
+//          or path goes in. Written under a temporary name and renamed: SystemError, and no file, if that fails.
+// Source   decisions.md 5; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files unless
+//          told not to.
 // Tests    tests/scenes/png_test.cpp, exr_test.cpp, deep_exr_test.cpp
 #pragma once
 #include <cstdint>
@@ -20,11 +21,11 @@ namespace strata::scenes {
 using Attributes = std::map<std::string, std::string>;  // stored as "strata:KEY"
 
 struct OutputColor {
-    pipeline::Image color{};       // one sample, a colour format
-    pipeline::Image depth{};       // of the same size, or empty
-    bool premultiplied = false;    // whether `color` holds colours times alpha
+    pipeline::Image color{};     // one sample, a colour format
+    pipeline::Image depth{};     // of the same size, or empty
+    bool premultiplied = false;  // whether `color` holds colours times alpha
     pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
-    Attributes attributes{};         // formats, digests and colour space are added by the writer
+    Attributes attributes{};  // formats, digests and colour space are added by the writer
 };
 
 enum class ImageFile : std::uint8_t { png, exr };
@@ -43,7 +44,7 @@ struct DeepFragments {
     std::vector<std::uint32_t> count{};       // fragments a pixel
     std::vector<std::uint32_t> depth_code{};  // the others: one entry a fragment
     std::vector<float> z{};
-    std::vector<pipeline::Rgba> rgba{};       // straight
+    std::vector<pipeline::Rgba> rgba{};  // straight
     std::vector<std::uint32_t> primitive{};
     friend bool operator==(const DeepFragments&, const DeepFragments&) = default;
 };

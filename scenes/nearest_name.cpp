@@ -1,9 +1,9 @@
 #include "scenes/nearest_name.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace strata::scenes {
 namespace {

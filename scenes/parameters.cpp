@@ -1,9 +1,9 @@
 #include "scenes/parameters.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
-
-#include <fmt/format.h>
 
 #include "rasterizer/input_error.h"
 #include "scenes/nearest_name.h"

@@ -1,14 +1,19 @@
 // scenes/png.cpp - 8-bit straight colours: the one picture that every program shows.
 //
-// Rule     A target of 8-bit codes in the encoded space goes out byte for byte. Else value / alpha where the target is premultiplied
-//          (0 where alpha is not above 0), then clamp and 255 x rounded half up; in the linear space encode_srgb8 instead.
+// Rule     A target of 8-bit codes in the encoded space goes out byte for byte. Else value / alpha where the target is
+//          premultiplied (0 where alpha is not above 0), then clamp and 255 x rounded half up; in the linear space
+//          encode_srgb8 instead.
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 #include "pipeline/unorm8.h"
+#include "rasterizer/float_environment.h"
 #include "rasterizer/input_error.h"
+#include "scenes/image_decode.h"
 #include "scenes/image_formats.h"
 #include "scenes/srgb_encode.h"
+#include "scenes/text_file.h"
 
 namespace strata::scenes {
 namespace {
@@ -42,6 +47,7 @@ void convert_values(const std::uint32_t* from, std::uint32_t* to, ChannelType ty
 }  // namespace
 
 Image as_straight_rgba8(const OutputColor& image) {
+    const FloatEnvironment environment;
     const Image& color = image.color;
     assert(color.channels() == 4 && color.samples == 1);
     const ChannelType type = pipeline::info(color.format).type;
@@ -71,15 +77,17 @@ void write_png(const std::string& path, const OutputColor& image) {
 }
 
 std::vector<FileImage> read_png(const std::string& path) {
-    const auto input = open_input("png", path);
-    const OIIO::ImageSpec spec = input->spec();
-    if (spec.format != OIIO::TypeDesc::UINT8 || spec.nchannels < 3)
-        throw InputError(path, "format", "8-bit colours", spec.format.c_str() + (" x " + std::to_string(spec.nchannels)));
-    Image image{Format::rgba8, spec.width, spec.height};
-    std::vector<std::uint8_t> bytes(image.codes.size(), 255);  // no alpha: 255
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, bytes.data(), 4))
-        throw InputError(path, "pixels", "a whole image", "a damaged one");
-    image.codes.assign(bytes.begin(), bytes.end());
+    constexpr std::size_t max_bytes = std::size_t{1} << 31;
+    const std::string file = read_text_file(path, max_bytes);
+    const Bytes bytes = std::as_bytes(std::span{file});
+    const Place place{path, ""};
+    const ImageHeader header = read_image_header(bytes, place);  // all chunks whole: libpng says and leaks nothing
+    // PNG 11.2.2: bit depth and colour type, of which bit 1 means colour.
+    if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
+        throw InputError(path, "format", "a PNG with 8-bit colours", "another image");
+    const std::vector<std::uint8_t> codes = decode_image(bytes, header, place);
+    Image image{Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height)};
+    image.codes.assign(codes.begin(), codes.end());
     return {{"", "color", std::move(image)}};
 }
 

@@ -1,7 +1,7 @@
-// scenes/procedural.cpp - scenes that come from a formula: their names, their parameters, and the choice between them and files.
-#include <algorithm>
-
+// scenes/procedural.cpp - scenes that come from a formula: names, parameters, and the choice between them and files.
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "rasterizer/float_environment.h"
 #include "rasterizer/input_error.h"
@@ -57,9 +57,11 @@ bool is_gltf_path(const std::string& spec) {
 const std::vector<ProceduralScene>& procedural_scenes() {
     static const std::vector<ProceduralScene> scenes{
         {"teapot", "tessellation=N",
-         "Utah teapot on a ground plane: outside red, inside green, plane blue; N x N cells a patch (1 to 256, default 16)"},
+         "Utah teapot on a ground plane: outside red, inside green, plane blue; N x N cells a patch (1 to 256, default "
+         "16)"},
         {"volume-beam", "slices=N,order=far|near",
-         "N alpha-modulated planes crossed by a conical shell (1 to 65536, default 32), drawn from the far or the near end"},
+         "N alpha-modulated planes crossed by a conical shell (1 to 65536, default 32), drawn from the far or the near "
+         "end"},
         {"random", "seed=S,triangles=N",
          "triangle soup with exact ties for tests (0 to 10000000, default 1000; seed default 1)"},
     };

@@ -1,9 +1,8 @@
 // scenes/profile_json.h - device profiles as JSON, both ways.
 //
 // Rule     An object with "name", "description" and every key of pipeline/profile_fields.h ("raster" is an object of
-// its own). A file
-//          that names a "base" among the built-in profiles writes only what differs. Unknown keys, values of another
-//          type or outside their range are errors that name the file and the JSON pointer.
+//          its own). A file that names a "base" among the built-in profiles writes only what differs. Unknown keys,
+//          values of another type or outside their range are errors that name the file and the JSON pointer.
 // Tests    tests/scenes/profile_json_test.cpp
 #pragma once
 #include <string>

@@ -100,7 +100,8 @@ Scene make_random_soup(const SceneOptions& options, std::uint64_t seed, std::uin
         for (std::uint32_t k = 0; k < 3; ++k) {
             const auto& [x, y, z] = triangle[k];
             if (k == 0 || color_per_corner) color = from_encoded(next_color(random), options.color_space);
-            mesh.positions.push_back({static_cast<float>(x) / one, static_cast<float>(y) / one, static_cast<float>(z) / one});
+            mesh.positions.push_back(
+                {static_cast<float>(x) / one, static_cast<float>(y) / one, static_cast<float>(z) / one});
             mesh.colors.push_back(color);
             mesh.indices.push_back(3 * i + k);
         }

@@ -13,8 +13,8 @@ namespace {
 using Vector = std::array<double, 3>;
 using Basis = std::array<double, 4>;
 
-// The cubic Bernstein polynomials at t = i / n. t and 1 - t are both quotients, so that walking an edge from its other end gives
-// the same bits: neighbouring patches close without cracks.
+// The cubic Bernstein polynomials at t = i / n. t and 1 - t are both quotients, so that walking an edge from its other
+// end gives the same bits: neighbouring patches close without cracks.
 Basis bernstein(int i, int n) noexcept {
     const double t = static_cast<double>(i) / n, s = static_cast<double>(n - i) / n;
     return {s * s * s, 3 * (s * s) * t, 3 * (t * t) * s, t * t * t};
@@ -47,8 +47,8 @@ pipeline::Vec3 y_up(const Vector& p) noexcept {
     return {static_cast<float>(p[0]), static_cast<float>(p[2]), static_cast<float>(-p[1])};
 }
 
-// d/dv x d/du points outwards on every patch. Where a patch's first row is one point, d/dv is 0 there and its limit has the
-// direction of the mixed derivative.
+// d/dv x d/du points outwards on every patch. Where a patch's first row is one point, d/dv is 0 there and its limit has
+// the direction of the mixed derivative.
 Vector outward_normal(const std::uint16_t (&patch)[16], int i, int j, int n) noexcept {
     const Basis u = bernstein(i, n), v = bernstein(j, n);
     const Basis du = bernstein_derivative(i, n), dv = bernstein_derivative(j, n);
@@ -86,7 +86,7 @@ void add_patch(pipeline::Mesh& mesh, const std::uint16_t (&patch)[16], int n) {
 
 // A square a little below the pot's bottom, which would else touch it in depth ties; the pot's middle is at x = 0.2.
 pipeline::Mesh ground_plane() {
-    constexpr float half = 4.0f, x = 0.2f, y = -0.01f;
+    constexpr float half = 3.6f, x = 0.2f, y = -0.01f;
     pipeline::Mesh mesh;
     mesh.name = "ground";
     mesh.positions = {{x - half, y, half}, {x + half, y, half}, {x + half, y, -half}, {x - half, y, -half}};

@@ -75,10 +75,8 @@ Scene make_volume_beam(const SceneOptions& options, int slices, BeamOrder order)
     scene.name = "volume-beam";
     scene.list.meshes = {planes(slices, order, options.color_space), cone(options.color_space)};
     for (const char* name : {"planes", "cone"}) {
-        scene.list.materials.push_back({.name = name,
-                                        .alpha_mode = pipeline::AlphaMode::blend,
-                                        .double_sided = true,
-                                        .unlit = !options.light});
+        scene.list.materials.push_back(
+            {.name = name, .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = !options.light});
     }
     scene.list.instances = {{.mesh = 0, .material = 0}, {.mesh = 1, .material = 1}};
     scene.bounds = bounds_of(scene.list);

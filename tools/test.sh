@@ -21,14 +21,22 @@ build() {
     fi
 }
 
-sanitized() {
-    step "the fast tests under the address and undefined-behaviour sanitizers"
-    build asan rasterizer_test pipeline_test peeling_test scenes_test
-    ctest --preset asan --label-exclude 'exhaustive|golden|command' --output-on-failure --progress -j "$(nproc)" >build/asan-tests.log 2>&1 || {
-        tail -n 60 build/asan-tests.log >&2
-        echo "tools/test.sh: tests failed under the sanitizers; all of it stands in build/asan-tests.log" >&2
+# quietly LOG COMMAND...: shows the end of its output only if it fails.
+quietly() {
+    local log=build/$1.log
+    shift
+    "$@" >"$log" 2>&1 || {
+        tail -n 60 "$log" >&2
+        echo "tools/test.sh: $1 failed; all of its output stands in $log" >&2
         exit 1
     }
+}
+
+sanitized() {
+    step "the fast tests under the address and undefined-behaviour sanitizers"
+    build asan rasterizer_test pipeline_test peeling_test scenes_test core_digests
+    quietly asan-tests ctest --test-dir build/asan -LE 'exhaustive|golden|command' -E NOT_BUILT --output-on-failure -j "$(nproc)"
+    quietly asan-golden ctest --test-dir build/asan -R 'golden.core_digests.(threads=2|together)' --output-on-failure
 }
 
 fuzz() {
@@ -36,15 +44,9 @@ fuzz() {
         step "no clang++: fuzzing left out"
         return
     fi
-    step "fuzzing glTF bytes for a minute"
-    build fuzz gltf_fuzz
-    mkdir -p build/fuzz/corpus
-    if ! build/fuzz/gltf_fuzz -max_total_time=60 -rss_limit_mb=2048 -timeout=10 -artifact_prefix=build/fuzz/ build/fuzz/corpus \
-        tests/scenes/corpus >build/fuzz/fuzz.log 2>&1; then
-        tail -n 40 build/fuzz/fuzz.log >&2
-        echo "tools/test.sh: the fuzzer found something; see build/fuzz/fuzz.log" >&2
-        exit 1
-    fi
+    step "fuzzing the loader and the renderer with glTF bytes for a minute"
+    build fuzz make_corpus load_render_fuzz
+    quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure
 }
 
 # The digests of tests/golden/core_digests.txt from a core of each compiler at each level of optimisation.

@@ -160,17 +160,3 @@ TEST_CASE(
     keeping.denormals = DenormalRule::keep;
     CHECK(bits_of(blended(both(max_term), denormal, -1.0f, keeping)) == 0x80000123);
 }
-
-TEST_CASE("the order of float bits as integers is the order of the floats") {
-    Random random{3};
-    Tally tally;
-    for (int i = 0; i < 200000; ++i) {
-        const float a = any_float(random), b = any_float(random);
-        if (is_nan(a) || is_nan(b)) continue;
-        const bool expected = a < b || (a == b && std::signbit(a) && !std::signbit(b));
-        tally.expect((order_key(bits_of(a)) < order_key(bits_of(b))) == expected,
-                     [&] { return fmt::format("{:08x} {:08x}", bits_of(a), bits_of(b)); });
-    }
-    INFO("first wrong: " << tally.first());
-    CHECK(tally.wrong() == 0);
-}

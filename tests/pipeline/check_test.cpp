@@ -118,7 +118,7 @@ TEST_CASE("state of the era that no algorithm needs is refused by name on every 
 }
 
 TEST_CASE("depth paths of a later laboratory are refused, the others run everywhere") {
-    using rasterizer::DepthPath;
+    using strata::rasterizer::DepthPath;
     for (const DepthPath path : {DepthPath::window_z, DepthPath::float32, DepthPath::exact})
         CHECK(checked("ideal", path).empty());
     for (const DepthPath path : {DepthPath::perspective_rq, DepthPath::depth_replace, DepthPath::float32_plane})

@@ -5,7 +5,7 @@
 
 namespace strata::pipeline::model {
 
-using Wide = __int128;
+__extension__ typedef __int128 Wide;
 
 // |x| = mantissa * 2^exponent for finite float bits.
 struct Binary {

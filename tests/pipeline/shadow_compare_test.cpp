@@ -29,7 +29,7 @@ double stored(float r, Format format, DepthRounding rounding) {
 }
 
 double meaning(std::uint32_t code, Format format) {
-    return format == Format::d32f ? double{float_of(code)} : double{code};
+    return format == Format::d32f ? double{float_of(code)} : static_cast<double>(code);
 }
 
 Image any_depth_image(Random& random) {

@@ -125,6 +125,39 @@ TEST_CASE("planes that pass through rounding boundaries reach the exact arithmet
     CHECK(tally.wrong_code == 0);
 }
 
+TEST_CASE("values a hair beside a tie go to their own side, whatever the triangle") {
+    // z = base + x step exactly, a tie at every second or every pixel; then one vertex moves by a few units of 2^-52 of
+    // it.
+    constexpr std::uint64_t seed = 24;
+    Random random{seed};
+    Tally floats, codes;
+    for (const int bits : {4, 8, 12})
+        for (int n = 0; n < 60; ++n) {
+            const std::array p = random_corners(random, 24, bits, n % 2 == 0 ? 2 : 30);
+            const auto plane = [&](double base, double step, double hair) {
+                std::array<double, 3> z;
+                for (std::size_t i = 0; i < 3; ++i)
+                    z[i] = base + (p[i].x - (1 << (bits - 1))) * step * (1.0 / (1 << bits));
+                z[static_cast<std::size_t>(n % 3)] += hair * random_int(random, -2, 2);
+                return window_triangle(p, bits, z);
+            };
+            compare(plane(0.75, 0x1p-25, 0x1p-53), {.subpixel_bits = bits}, DepthFormat::d24, 24, floats);
+            compare(plane(0.5 - 12 * 0x1p-10, 0x1p-10, 0.0), {.subpixel_bits = bits},
+                    n % 2 == 0 ? DepthFormat::d16 : DepthFormat::d24, 24,
+                    codes);  // 0.5 lies half way between two codes
+            const DepthRounding rounding = n % 4 < 2 ? DepthRounding::floor : DepthRounding::nearest;
+            const double base = rounding == DepthRounding::floor ? 5000.0 : 5000.5;
+            compare(plane(base, 3.0, 0x1p-40),
+                    {.subpixel_bits = bits, .window_z = WindowZ::buffer_units, .depth_rounding = rounding},
+                    DepthFormat::d24, 24, codes);
+        }
+    INFO("seed " << seed);
+    CHECK(floats.fallbacks > 5000);
+    CHECK(codes.fallbacks > 10000);
+    CHECK(floats.wrong_float + codes.wrong_float == 0);
+    CHECK(floats.wrong_code + codes.wrong_code == 0);
+}
+
 TEST_CASE("complete cancellation gives +0 and almost complete cancellation the right tiny value") {
     Tally tally;
     const int bits = 4, unit = 16, half = 8;

@@ -17,7 +17,8 @@ namespace {
 bool same_bits(const View& a, const View& b) {
     for (std::size_t i = 0; i < 16; ++i) {
         if (std::bit_cast<std::uint64_t>(a.view[i]) != std::bit_cast<std::uint64_t>(b.view[i])) return false;
-        if (std::bit_cast<std::uint64_t>(a.projection[i]) != std::bit_cast<std::uint64_t>(b.projection[i])) return false;
+        if (std::bit_cast<std::uint64_t>(a.projection[i]) != std::bit_cast<std::uint64_t>(b.projection[i]))
+            return false;
     }
     return true;
 }
@@ -103,9 +104,13 @@ TEST_CASE("every fault of a camera file is one sentence that names the place and
     CHECK(message(with(good, "1.9", "0")) == "c: /near: expected a distance above 0, found 0");
     CHECK(message(with(good, "1.9", "7")) ==
           "c: /far: expected a distance beyond near, 7, found \"0x1.0cccccccccccdp+2\"");
-    CHECK(message(with(good, "[0,0.5,3]", "[0,0,0]")) == "c: /center: expected a point that is not the eye, found array");
-    CHECK(message(with(good, "[0,1,0]", "[0,1,6]")) == "c: /up: expected a direction across the line of sight, found array");
-    CHECK(message(with(good, "[0,1,0]", "[0,0,0]")) == "c: /up: expected a direction across the line of sight, found array");
+    CHECK(message(with(good, "[0,0.5,3]", "[0,0,0]")) ==
+          "c: /center: expected a point that is not the eye, found array");
+    CHECK(message(with(good, "[0,1,0]", "[0,1,6]")) ==
+          "c: /up: expected a direction across the line of sight, found array");
+    CHECK(message(with(good, "[0,1,0]", "[0,0,0]")) ==
+          "c: /up: expected a direction across the line of sight, found array");
     CHECK(message("{\"view\":[1]}") == "c: /: expected the key 'projection', found none");
-    CHECK_THAT(message(with(good, "\"far\"", "\"view\"")), Catch::StartsWith("c: /: expected only the keys view, projection"));
+    CHECK_THAT(message(with(good, "\"far\"", "\"view\"")),
+               Catch::StartsWith("c: /: expected only the keys view, projection"));
 }

@@ -1,5 +1,5 @@
-// The models: what gluLookAt and gluPerspective must do to points that one knows (eye, centre, frustum corners), and the orbit's
-// formula of decisions.md 2 in 60 decimal digits.
+// The models: what gluLookAt and gluPerspective must do to points that one knows (eye, centre, frustum corners), and
+// the orbit's formula of decisions.md 2 in 60 decimal digits.
 #include "scenes/camera.h"
 
 #include <boost/math/constants/constants.hpp>
@@ -52,7 +52,8 @@ TEST_CASE("look_at puts the eye at the origin, the centre on -z and up into the 
         for (std::size_t k = 0; k < 3; ++k) distance += std::pow(camera.center[k] - camera.eye[k], 2);
         const Matrix m = look_at(camera, 1).view;
         check_close(m * Point{camera.eye[0], camera.eye[1], camera.eye[2], 1}, {0, 0, 0, 1});
-        check_close(m * Point{camera.center[0], camera.center[1], camera.center[2], 1}, {0, 0, -std::sqrt(distance), 1});
+        check_close(m * Point{camera.center[0], camera.center[1], camera.center[2], 1},
+                    {0, 0, -std::sqrt(distance), 1});
         const Point up = m * Point{camera.up[0], camera.up[1], camera.up[2], 0};
         CHECK(std::abs(up[0]) < 1e-13);
         CHECK(up[1] > 0);
@@ -76,7 +77,8 @@ TEST_CASE("an orbit's eye, depth range and angle are those of decisions.md 2 to 
         for (const double elevation : {20.0, -75.0, 0.0}) {
             const View view = orbit_view(bounds, azimuth, elevation, 1.5);
             const Wide a = Wide{azimuth} * degree, e = Wide{elevation} * degree;
-            const std::array<Wide, 3> eye{2 + Wide{2.5} * radius * cos(e) * sin(a), Wide{1.5} + Wide{2.5} * radius * sin(e),
+            const std::array<Wide, 3> eye{2 + Wide{2.5} * radius * cos(e) * sin(a),
+                                          Wide{1.5} + Wide{2.5} * radius * sin(e),
                                           3 + Wide{2.5} * radius * cos(e) * cos(a)};
             for (std::size_t i = 0; i < 3; ++i) CHECK(abs(eye[i] - Wide{eye_of(view)[i]}) < 1e-13);
             const double n = 1.4 * 3.5, f = 3.6 * 3.5;

@@ -31,7 +31,9 @@ DeepFragments random_fragments(int width, int height, int most) {
 
 }  // namespace
 
-TEST_CASE("every fragment comes back from a deep EXR, in its pixel and order, with code, primitive and premultiplied colour") {
+TEST_CASE(
+    "every fragment comes back from a deep EXR, in its pixel and order, with code, primitive and premultiplied "
+    "colour") {
     const TemporaryFolder folder;
     for (const int most : {0, 1, 40}) {
         const DeepFragments written = random_fragments(37, 23, most);
@@ -46,8 +48,12 @@ TEST_CASE("every fragment comes back from a deep EXR, in its pixel and order, wi
 TEST_CASE("depth codes and primitives of a deep EXR keep all 32 bits, and Z its NaN and signed zero") {
     const TemporaryFolder folder;
     const float nan = std::bit_cast<float>(0x7fc12345u);
-    const DeepFragments written{.width = 1, .height = 1, .count = {3}, .depth_code = {0, 0xffffffff, 0x3f800001},
-                                .z = {-0.0f, nan, 0x1p-149f}, .rgba = {{1, 1, 1, 1}, {0, 0, 0, 0}, {1, 1, 1, 0.5f}},
+    const DeepFragments written{.width = 1,
+                                .height = 1,
+                                .count = {3},
+                                .depth_code = {0, 0xffffffff, 0x3f800001},
+                                .z = {-0.0f, nan, 0x1p-149f},
+                                .rgba = {{1, 1, 1, 1}, {0, 0, 0, 0}, {1, 1, 1, 0.5f}},
                                 .primitive = {0xffffffff, 0, 0x80000000}};
     write_deep(folder / "deep.exr", written, {});
     const DeepFragments read = read_deep(folder / "deep.exr");

@@ -65,7 +65,8 @@ void check_every_limit(const std::string& name, const Write& write) {
 }  // namespace
 
 TEST_CASE("a disk that fills up while an image is written is an error and leaves no file, wherever it happens") {
-    const OutputColor output{.color = wild_image(Format::rgba8, 100, 100, 1), .depth = wild_image(Format::d24, 100, 100, 2)};
+    const OutputColor output{.color = wild_image(Format::rgba8, 100, 100, 1),
+                             .depth = wild_image(Format::d24, 100, 100, 2)};
     const std::vector<OutputColor> layers(4, output);
     DeepFragments deep{.width = 50, .height = 50, .count = std::vector<std::uint32_t>(2500, 2)};
     for (std::uint32_t i = 0; i < 5000; ++i) {

@@ -4,12 +4,11 @@
 #include <bit>
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/mpfr.hpp>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
-
-#include <catch2/catch.hpp>
 
 namespace {
 
@@ -76,7 +75,8 @@ TEST_CASE("pow is within 0.501 ulp wherever the result is a normal number") {
         if (i % 3 == 2) base = 1 + std::ldexp(unit(random) - 0.5, -static_cast<int>(random() % 50));
         if (i % 5 == 0) exponent = std::ldexp(unit(random) - 0.5, static_cast<int>(random() % 60) - 30);
         const Wide exact = pow(Wide{base}, Wide{exponent});
-        if (base == 0 || exact > std::numeric_limits<double>::max() || exact < std::numeric_limits<double>::min()) continue;
+        if (base == 0 || exact > std::numeric_limits<double>::max() || exact < std::numeric_limits<double>::min())
+            continue;
         worst.note(strata::scenes::pow(base, exponent), exact, base, exponent);
         ++normal;
     }

@@ -21,7 +21,8 @@ using strata::test::wild_image;
 
 namespace {
 
-constexpr Format colors[] = {Format::rgba8, Format::rgba16f, Format::rgba32f, Format::r16f, Format::r32f, Format::rg32f};
+constexpr Format colors[] = {Format::rgba8, Format::rgba16f, Format::rgba32f,
+                             Format::r16f,  Format::r32f,    Format::rg32f};
 constexpr Format depths[] = {Format::d16, Format::d24, Format::d24s8, Format::d32f};
 
 std::vector<float> channel(OIIO::ImageInput& input, const std::string& name) {
@@ -105,9 +106,16 @@ TEST_CASE("an EXR carries command, formats, colour space and digests, and neithe
 
 TEST_CASE("the same image written twice, a second later, gives the same EXR bytes, in parts and deep too") {
     const TemporaryFolder folder;
-    const OutputColor output{.color = wild_image(Format::rgba16f, 70, 133, 1), .depth = wild_image(Format::d32f, 70, 133, 2)};
+    const OutputColor output{.color = wild_image(Format::rgba16f, 70, 133, 1),
+                             .depth = wild_image(Format::d32f, 70, 133, 2)};
     const std::vector<OutputColor> layers(3, output);
-    DeepFragments deep{.width = 1, .height = 1, .count = {1}, .depth_code = {7}, .z = {0.5f}, .rgba = {{1, 1, 1, 1}}, .primitive = {3}};
+    DeepFragments deep{.width = 1,
+                       .height = 1,
+                       .count = {1},
+                       .depth_code = {7},
+                       .z = {0.5f},
+                       .rgba = {{1, 1, 1, 1}},
+                       .primitive = {3}};
     for (const char* run : {"1", "2"}) {
         write_image(folder / (run + std::string{"a.exr"}), output);
         write_layers(folder / (run + std::string{"b.exr"}), layers);
@@ -115,7 +123,8 @@ TEST_CASE("the same image written twice, a second later, gives the same EXR byte
         std::this_thread::sleep_for(std::chrono::milliseconds(1100));
     }
     for (const char* name : {"a.exr", "b.exr", "c.exr"})
-        CHECK(strata::test::bytes_of(folder / ("1" + std::string{name})) == strata::test::bytes_of(folder / ("2" + std::string{name})));
+        CHECK(strata::test::bytes_of(folder / ("1" + std::string{name})) ==
+              strata::test::bytes_of(folder / ("2" + std::string{name})));
 }
 
 TEST_CASE("layers are the parts layer.000, layer.001 and so on, each with its own codes and attributes") {
@@ -162,7 +171,8 @@ TEST_CASE("a truncated EXR is an input error at every length tried") {
     const TemporaryFolder folder;
     write_image(folder / "a.exr", {.color = wild_image(Format::rgba8, 64, 64, 2)});
     const std::string bytes = strata::test::bytes_of(folder / "a.exr");
-    for (const std::size_t size : {std::size_t{0}, std::size_t{3}, std::size_t{100}, std::size_t{500}, bytes.size() / 2, bytes.size() - 9}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{3}, std::size_t{100}, std::size_t{500}, bytes.size() / 2, bytes.size() - 9}) {
         std::ofstream(folder / "cut.exr", std::ios::binary) << bytes.substr(0, size);
         INFO("cut after " << size << " of " << bytes.size());
         CHECK_THROWS_AS(read_images(folder / "cut.exr"), strata::InputError);

@@ -90,6 +90,7 @@ const Change changes[]{
 
     {"/meshes/0/primitives", "", "UNDEFINED_PROPERTY", "/meshes/0"},
     {"/meshes/0/primitives/0/attributes", "", "UNDEFINED_PROPERTY", "/meshes/0/primitives/0"},
+    {"/meshes/0/primitives/0/extensions", "{\"KHR_draco_mesh_compression\":{}}", "", ""},
     {"/meshes/0/primitives/0/attributes/POSITION", "77", "UNRESOLVED_REFERENCE",
      "/meshes/0/primitives/0/attributes/POSITION"},
     {"/meshes/0/primitives/0/attributes/POSITION", "\"0\"", "TYPE_MISMATCH",
@@ -179,6 +180,17 @@ const Change changes[]{
 };
 
 }  // namespace
+
+TEST_CASE("Draco's data is not mistaken for zeros") {
+    GltfFile file = everything();
+    file.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    file.json["accessors"][0].erase("bufferView");
+    file.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = Json::object();
+    CHECK(refusal(to_bytes(file.document().dump())) ==
+          "test.gltf: /meshes/0/primitives/0/extensions: expected plain data beside KHR_draco_mesh_compression, found "
+          "none "
+          "[UNSUPPORTED_EXTENSION]");
+}
 
 TEST_CASE("each fault of a glTF document is refused at its JSON pointer with the validator's code") {
     REQUIRE(refusal(to_bytes(everything().document().dump())) == "");

@@ -85,7 +85,8 @@ TEST_CASE("nodes may nest 100,000 deep, and a transform that overflows is refuse
           "test.gltf: /nodes/0: expected a finite world transform, found an overflow [VALUE_NOT_IN_RANGE]");
 }
 
-TEST_CASE("--scene chooses, the file's own scene comes next, then the first; without scenes all nodes are shown") {
+TEST_CASE(
+    "the option --scene chooses, the file's own scene comes next, then the first; without scenes all nodes are shown") {
     GltfFile file = triangle({{"translation", {1, 0, 0}}});
     file.add("nodes", {{"mesh", 0}, {"translation", {2, 0, 0}}});
     file.add("scenes", {{"nodes", {1}}});

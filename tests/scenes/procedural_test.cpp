@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cfenv>
 #include <cmath>
 
 #include "rasterizer/input_error.h"
@@ -62,7 +63,8 @@ TEST_CASE("without light every material of a procedural scene is unlit") {
 
 TEST_CASE("in the linear space a procedural scene's colours are decoded and nothing else changes") {
     for (const char* spec : {"teapot", "volume-beam:slices=3", "random:triangles=50"}) {
-        const Scene a = load_scene(spec, {}), b = load_scene(spec, {.color_space = strata::pipeline::ColorSpace::linear});
+        const Scene a = load_scene(spec, {}),
+                    b = load_scene(spec, {.color_space = strata::pipeline::ColorSpace::linear});
         CHECK(a.list.meshes[0].positions == b.list.meshes[0].positions);
         const auto decode = [](double e) { return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4); };
         for (std::size_t i = 0; i < 4; ++i) {
@@ -77,22 +79,40 @@ TEST_CASE("in the linear space a procedural scene's colours are decoded and noth
 }
 
 TEST_CASE("every fault of a scene's name is one sentence, with the nearest name") {
-    CHECK(message("teapt") == "teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, "
-                              "found 'teapt' (did you mean 'teapot'?)");
+    CHECK(message("teapt") ==
+          "teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, "
+          "found 'teapt' (did you mean 'teapot'?)");
     CHECK_THAT(message("xyz"), Catch::EndsWith("found 'xyz'"));
     CHECK(message("volume-beam:slice=3") ==
           "volume-beam:slice=3: parameters: expected one of slices, order, found 'slice' (did you mean 'slices'?)");
     CHECK(message("volume-beam:slices") == "volume-beam:slices: parameters: expected key=value, found 'slices'");
     CHECK(message("volume-beam:") == "volume-beam:: parameters: expected key=value, found ''");
-    CHECK(message("volume-beam:slices=3,slices=3") == "volume-beam:slices=3,slices=3: slices: expected one value, found two");
+    CHECK(message("volume-beam:slices=3,slices=3") ==
+          "volume-beam:slices=3,slices=3: slices: expected one value, found two");
     for (const char* number : {"0", "65537", "-1", "3.5", "", "0x10", " 3", "99999999999999999999"}) {
-        CHECK_THAT(message("volume-beam:slices=" + std::string{number}),
-                   Catch::EndsWith("slices: expected a whole number from 1 to 65536, found '" + std::string{number} + "'"));
+        CHECK_THAT(
+            message("volume-beam:slices=" + std::string{number}),
+            Catch::EndsWith("slices: expected a whole number from 1 to 65536, found '" + std::string{number} + "'"));
     }
     CHECK_THAT(message("volume-beam:order=nera"), Catch::EndsWith("found 'nera' (did you mean 'near'?)"));
     CHECK_THAT(message("random:triangles=10000001"), Catch::Contains("from 0 to 10000000"));
     CHECK_THAT(message("teapot", {.scene = 1}), Catch::Contains("--scene"));
     CHECK(message("teapot", {.scene = 0}) == "accepted");
+}
+
+TEST_CASE("a procedural scene has the same bits when the host program rounds upwards or toward zero") {
+    for (const char* spec : {"teapot:tessellation=5", "volume-beam:slices=9", "random:triangles=50"}) {
+        const Scene before = load_scene(spec, {});
+        for (const int mode : {FE_UPWARD, FE_TOWARDZERO}) {
+            std::fesetround(mode);
+            const Scene after = load_scene(spec, {});
+            const int mode_after = std::fegetround();
+            std::fesetround(FE_TONEAREST);
+            CHECK(after.list.meshes == before.list.meshes);
+            CHECK(after.list.materials == before.list.materials);
+            CHECK(mode_after == mode);
+        }
+    }
 }
 
 TEST_CASE("procedural scenes and their messages are the same under a locale with decimal commas") {

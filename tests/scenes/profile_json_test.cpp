@@ -34,7 +34,9 @@ TEST_CASE("every built-in profile reads back from its JSON as it was") {
 }
 
 TEST_CASE("a profile with every field at its other end reads back from its JSON as it was") {
-    DeviceProfile profile{.name = "odd \"name\"", .description = "tabs\tand \xc3\xa4"};
+    DeviceProfile profile;
+    profile.name = "odd \"name\"";
+    profile.description = "tabs\tand \xc3\xa4";
     for (const bool highest : {false, true}) {
         for (const ProfileField& field : profile_fields()) field.set(profile, highest ? field.highest : field.lowest);
         CHECK(parse_profile(to_json(profile), "x.json") == profile);

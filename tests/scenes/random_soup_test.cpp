@@ -22,7 +22,9 @@ TEST_CASE("a soup has as many triangles as asked for, in the unit cube, on a gri
         for (const auto& p : mesh.positions)
             for (const float x : p) wrong += x >= -1 && x <= 1 && x * 8192 == std::floor(x * 8192) ? 0 : 1;
         for (const auto& c : mesh.colors)
-            wrong += c[0] >= 0 && c[0] < 1 && c[1] >= 0 && c[1] < 1 && c[2] >= 0 && c[2] < 1 && c[3] > 0 && c[3] <= 1 ? 0 : 1;
+            wrong += c[0] >= 0 && c[0] < 1 && c[1] >= 0 && c[1] < 1 && c[2] >= 0 && c[2] < 1 && c[3] > 0 && c[3] <= 1
+                         ? 0
+                         : 1;
         CHECK(wrong == 0);
     }
 }
@@ -36,10 +38,14 @@ TEST_CASE("a longer soup of the same seed begins with the shorter one, and anoth
 
 TEST_CASE("a soup is this one, today and on every machine") {
     const Mesh mesh = soup(1, 2);
-    // The reference: splitmix64 of seed 1 begins 0x910a2dec89025cc1 (Vigna's splitmix64.c).
-    CHECK(mesh.positions[0] == strata::pipeline::Vec3{0,0,0});
-    CHECK(mesh.positions[5] == strata::pipeline::Vec3{0,0,0});
-    CHECK(mesh.colors[0] == strata::pipeline::Rgba{0,0,0,0});
+    // From a program of 40 lines in another language, written from the rule; its splitmix64 begins 0x910a2dec89025cc1
+    // for seed 1.
+    constexpr int corners[6][3] = {{7740, 4384, 3760},   {6468, 3568, 2884},   {6202, 5890, 3018},
+                                   {-7468, 5820, -5334}, {-7232, 5956, -5246}, {-7492, 6618, -5918}};
+    for (std::size_t v = 0; v < 6; ++v)
+        for (std::size_t i = 0; i < 3; ++i) CHECK(mesh.positions[v][i] * 8192 == static_cast<float>(corners[v][i]));
+    CHECK(mesh.colors[0] == strata::pipeline::Rgba{0x1.56167p-3f, 0x1.4a694cp-1f, 0x1.a175ap-1f, 0x1.c4c632p-1f});
+    CHECK(mesh.colors[5] == strata::pipeline::Rgba{0x1.0f3c5cp-1f, 0x1.165c04p-1f, 0x1.7f18b2p-1f, 1});
 }
 
 TEST_CASE("about one triangle in eight repeats another exactly, in both facings, and others share planes") {

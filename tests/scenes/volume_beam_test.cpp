@@ -66,8 +66,8 @@ TEST_CASE("the cone has 5,000 triangles, 50 segments on each of 51 circles, and 
             const Wide c = cos(two_pi * k / 50), d = sin(two_pi * k / 50);
             const auto& p = mesh.positions[v];
             const auto& n = mesh.normals[v];
-            const bool right = close(p[0], radius * c) && close(p[1], y) && close(p[2], radius * d) && close(n[0], c / length) &&
-                               close(n[1], slope / length) && close(n[2], d / length) &&
+            const bool right = close(p[0], radius * c) && close(p[1], y) && close(p[2], radius * d) &&
+                               close(n[0], c / length) && close(n[1], slope / length) && close(n[2], d / length) &&
                                mesh.colors[v] == strata::pipeline::Rgba{0.9f, 0.8f, 0.3f, 1};
             wrong += right ? 0 : 1;
         }

@@ -45,7 +45,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},
-         "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd16'?)"},
+         "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd24'?)"},
         {{"render", "teapot", "--tile", "33"},
          "strata: --tile: expected 8, 16, 32, 64 or 128, found '33' (did you mean '32'?)"},
         {{"render", "teapot", "--threads", "-1"}, "strata: --threads: expected a whole number from 0, found '-1'"},

@@ -39,7 +39,7 @@ TEST_CASE("every example of every --help runs as printed") {
     }
 }
 
-TEST_CASE("--help and --version succeed and write to standard output alone") {
+TEST_CASE("the options --help and --version succeed and write to standard output alone") {
     const auto word = GENERATE(as<std::string>{}, "--help", "--version");
     const Folder folder;
     const Ended ended = run_strata(folder, {word});

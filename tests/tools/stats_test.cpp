@@ -95,7 +95,7 @@ TEST_CASE("every row of the statistics has every key with its type, and a refuse
     }
 }
 
-TEST_CASE("--stats - is exactly one JSON document, in a pipe without escape codes, and nothing on standard error") {
+TEST_CASE("what --stats - prints is exactly one JSON document, in a pipe without escape codes, and nothing on standard error") {
     const Folder folder;
     const Ended ended =
         run_strata(folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual,weighted_sum", "--stats", "-"});
@@ -105,7 +105,7 @@ TEST_CASE("--stats - is exactly one JSON document, in a pipe without escape code
     CHECK(ended.err.empty());
 }
 
-TEST_CASE("--stats FILE holds the document that --stats - prints, save for the seconds") {
+TEST_CASE("the file of --stats FILE holds the document that --stats - prints, save for the seconds") {
     const Folder folder;
     const std::vector<std::string> words{"render", "teapot", "--size", "16x16", "--algorithm", "dual"};
     auto printed = rows_of(folder, words);

@@ -1,0 +1,187 @@
+// Nothing that a user sees depends on how a frame was executed: literal execution is the definition.
+#include <catch2/catch.hpp>
+
+#include "rendering.h"
+#include "tests/support/host_environment.h"
+#include "tests/support/random_triangles.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::pipeline::Effects;
+using strata::pipeline::Execution;
+using strata::pipeline::Termination;
+using strata::pipeline::TerminationRule;
+
+// What differs between two results, by name; empty if nothing does. `work` may differ.
+std::string difference(const RenderResult& a, const RenderResult& b) {
+    const auto same_layer = [](const auto& x, const auto& y) { return x.color == y.color && x.depth == y.depth; };
+    if (a.outcome != b.outcome || a.refusal != b.refusal) return "outcome";
+    if (a.frame.color != b.frame.color) return "colour";
+    if (a.frame.depth != b.frame.depth) return "depth";
+    if (a.frame.iterations != b.frame.iterations) return "iterations";
+    if (a.frame.passes != b.frame.passes) return "passes";
+    if (a.frame.counters != b.frame.counters) return "counters";
+    if (a.frame.layers.size() != b.frame.layers.size()) return "number of layers";
+    if (!std::ranges::equal(a.frame.layers, b.frame.layers, same_layer)) return "layers";
+    if (a.frame.diagnostics != b.frame.diagnostics) return "diagnostics";
+    return a.audit == b.audit ? "" : "audit";
+}
+
+struct Ending {
+    const char* name;
+    Termination termination;
+    int max_passes;
+};
+
+const std::vector<Ending> endings{{"exact", {}, 0},
+                                  {"paper", {.rule = TerminationRule::paper}, 0},
+                                  {"any", {.rule = TerminationRule::any}, 0},
+                                  {"ratio", {.rule = TerminationRule::ratio, .ratio = 0.125}, 0},
+                                  {"a ratio above the first count", {.rule = TerminationRule::ratio, .ratio = 40}, 0},
+                                  {"fixed", {.rule = TerminationRule::fixed, .passes = 4}, 0},
+                                  {"fixed beyond the last layer", {.rule = TerminationRule::fixed, .passes = 12}, 0},
+                                  {"max_passes", {}, 3}};
+
+struct Way {
+    Execution execution;
+    int tile_size, threads;
+    Effects effects;
+    bool trust_idle;
+};
+
+constexpr std::array<Way, 7> ways{{{Execution::literal, 64, 4, Effects::all, false},
+                                   {Execution::tiled, 8, 1, Effects::needed, true},
+                                   {Execution::tiled, 16, 4, Effects::all, true},
+                                   {Execution::tiled, 16, 2, Effects::needed, false},
+                                   {Execution::tiled, 32, 4, Effects::needed, true},
+                                   {Execution::tiled, 64, 2, Effects::all, false},
+                                   {Execution::tiled, 128, 1, Effects::needed, true}}};
+
+RenderOptions with(RenderOptions options, const Way& way) {
+    options.execution = way.execution;
+    options.tile_size = way.tile_size;
+    options.threads = way.threads;
+    options.effects = way.effects;
+    options.trust_idle = way.trust_idle;
+    return options;
+}
+
+// Every way against literal execution with one thread; the first difference is named.
+void check_all_ways(const TriangleScene& scene, const Machine& machine, RenderOptions options) {
+    options.execution = Execution::literal;
+    options.threads = 1;
+    const RenderResult expected = render(scene.list, scene.view, machine, options);
+    REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+    CHECK(difference(render(scene.list, scene.view, machine, options), expected).empty());  // twice the same
+    for (const Way& way : ways) {
+        const RenderResult found = render(scene.list, scene.view, machine, with(options, way));
+        INFO(machine.algorithm << " on " << machine.profile << ", tile " << way.tile_size << ", threads " << way.threads
+                               << ", literal " << (way.execution == Execution::literal) << ", trusts idle " << way.trust_idle);
+        CHECK(difference(found, expected) == "");
+    }
+}
+
+RenderOptions small_frame() {
+    RenderOptions options;
+    options.width = 76;  // neither is a multiple of a tile
+    options.height = 52;
+    options.background = {0.1f, 0.2f, 0.3f, 1};
+    return options;
+}
+
+const std::vector<Machine> machines{
+    {"geforce3", "unsorted"},        {"geforce3", "painter"},      {"geforce3", "depth_units"}, {"geforce8", "front_to_back"},
+    {"geforce8", "dual"},            {"geforce8_dx101", "dual_independent"}, {"geforce8", "weighted_average"},
+    {"geforce8", "weighted_sum"},    {"ideal", "a_buffer"},        {"ideal", "dual"}};
+
+}  // namespace
+
+TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm, however its queries end it") {
+    const TriangleScene scene = random_triangles(71, 16);
+    for (const Ending& ending : endings)
+        for (const Machine& machine : machines) {
+            RenderOptions options = small_frame();
+            options.termination = ending.termination;
+            options.max_passes = ending.max_passes;
+            INFO("ended by " << ending.name);
+            check_all_ways(scene, machine, options);
+        }
+}
+
+TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute alike") {
+    for (const TriangleScene& scene : {random_triangles(72, 12, 0.25f), random_triangles(73, 0), opaque_only(74, 8)})
+        for (const Machine& machine : machines) {
+            RenderOptions options = small_frame();
+            check_all_ways(scene, machine, options);
+            options.termination.rule = TerminationRule::paper;
+            check_all_ways(scene, machine, options);
+        }
+}
+
+TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts") {
+    const TriangleScene scene = random_triangles(75, 24, 0.4f);
+    for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}}) {
+        RenderOptions options = small_frame();
+        options.keep_layers = true;
+        const int layers = render(scene.list, scene.view, machine, options).audit.layers_max;
+        REQUIRE(layers > 3);
+        for (const int max_passes : {0, 1, layers - 1, layers, layers + 1, layers + 2}) {
+            options.max_passes = max_passes;
+            INFO(layers << " layers, " << max_passes << " passes at most");
+            check_all_ways(scene, machine, options);
+        }
+        options.max_passes = 0;
+        options.termination = {.rule = TerminationRule::ratio, .ratio = 0.05};
+        check_all_ways(scene, machine, options);
+    }
+}
+
+TEST_CASE("a pass that every layer's algorithm keeps has one layer for each distinct depth") {
+    const TriangleScene scene = random_triangles(76, 24);
+    for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}})
+        for (const Execution execution : {Execution::literal, Execution::tiled}) {
+            RenderOptions options = small_frame();
+            options.keep_layers = true;
+            options.execution = execution;
+            const RenderResult result = render(scene.list, scene.view, machine, options);
+            CHECK(result.frame.layers.size() == static_cast<std::size_t>(result.audit.layers_max));
+        }
+}
+
+TEST_CASE("alpha for everything, other formats and the whole state of the rasterizer execute alike") {
+    const TriangleScene scene = random_triangles(77, 30);
+    RenderOptions options = small_frame();
+    options.alpha = 0.375f;
+    options.color_format = strata::pipeline::Format::rgba16f;
+    options.depth = strata::pipeline::DepthFormat::d24;
+    options.raster.scissor = strata::rasterizer::Rect{5, 9, 70, 33};
+    options.raster.polygon_offset = {true, 1.5f, 2.0f};
+    for (const char* algorithm : {"front_to_back", "dual", "dual_independent", "depth_units", "weighted_average"})
+        check_all_ways(scene, {"geforce8_dx101", algorithm}, options);
+}
+
+TEST_CASE("a program's own environment and one with flush-to-zero or another rounding give the same bits") {
+    const TriangleScene scene = random_triangles(78, 30);
+    for (const Machine& machine : machines) {
+        RenderOptions options = small_frame();
+        options.threads = 2;
+        const RenderResult expected = render(scene.list, scene.view, machine, options);
+        for (const unsigned host : host_environments) {
+            const HostEnvironment environment{host};
+            strata::peeling::Renderer renderer{scene.list, scene.view, *strata::pipeline::find_profile(machine.profile), options};
+            const bool kept_by_constructor = environment.is_in_force();
+            const RenderResult found = renderer.render(*strata::peeling::find_algorithm(machine.algorithm));
+            const bool kept_by_render = environment.is_in_force();
+            const std::size_t fragments = renderer.fragments(*strata::peeling::find_algorithm(machine.algorithm)).size();
+            INFO(machine.algorithm << ", host " << std::hex << host);
+            CHECK(kept_by_constructor);
+            CHECK(kept_by_render);
+            CHECK(environment.is_in_force());
+            CHECK(difference(found, expected) == "");
+            CHECK(fragments > 100);
+        }
+    }
+}

@@ -1,0 +1,75 @@
+// tests/peeling/rendering.h - one call from a test's scene to a finished frame, and images against a model.
+#pragma once
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+#include "peeling/render.h"
+#include "tests/support/fragment_scene.h"
+
+namespace strata::testing {
+
+struct Machine {
+    std::string profile, algorithm;
+};
+
+[[nodiscard]] inline peeling::RenderOptions options_for(const FragmentScene& scene) {
+    peeling::RenderOptions options;
+    options.width = scene.width;
+    options.height = scene.height;
+    options.threads = 1;
+    return options;
+}
+
+[[nodiscard]] inline peeling::RenderResult render(const pipeline::DrawList& list, const pipeline::View& view,
+                                                  const Machine& machine, const peeling::RenderOptions& options) {
+    peeling::Renderer renderer{list, view, *pipeline::find_profile(machine.profile), options};
+    return renderer.render(*peeling::find_algorithm(machine.algorithm));
+}
+
+[[nodiscard]] inline peeling::RenderResult render(const FragmentScene& scene, const Machine& machine,
+                                                  const peeling::RenderOptions& options) {
+    return render(draw_list(scene), {}, machine, options);
+}
+
+[[nodiscard]] inline peeling::RenderResult render(const FragmentScene& scene, const Machine& machine) {
+    return render(scene, machine, options_for(scene));
+}
+
+[[nodiscard]] inline std::uint64_t diagnosed(const peeling::RenderResult& result, pipeline::Fault fault) {
+    std::uint64_t pixels = 0;
+    for (const pipeline::Diagnostic& d : result.frame.diagnostics)
+        if (d.fault == fault) pixels += d.pixels;
+    return pixels;
+}
+
+[[nodiscard]] inline bool has_diagnostic(const peeling::RenderResult& result, pipeline::Fault fault) {
+    for (const pipeline::Diagnostic& d : result.frame.diagnostics)
+        if (d.fault == fault) return true;
+    return false;
+}
+
+// How many pixels' codes are not `expected(pixel)`, an Rgba of the codes, and what the first of them holds.
+struct Differences {
+    std::uint64_t pixels = 0;
+    std::string first;
+};
+
+template <class Expected>
+[[nodiscard]] Differences differences(const pipeline::Image& image, Expected&& expected) {
+    Differences found;
+    for (std::size_t p = 0; p < image.codes.size() / 4; ++p) {
+        const std::array<std::uint32_t, 4> wanted = expected(p);
+        if (std::equal(wanted.begin(), wanted.end(), image.codes.begin() + static_cast<std::ptrdiff_t>(4 * p))) continue;
+        if (found.pixels++ != 0) continue;
+        std::ostringstream text;
+        text << std::hex << "pixel 0x" << p << ": found";
+        for (std::size_t c = 0; c < 4; ++c) text << ' ' << image.codes[4 * p + c];
+        text << ", expected";
+        for (const std::uint32_t code : wanted) text << ' ' << code;
+        found.first = text.str();
+    }
+    return found;
+}
+
+}  // namespace strata::testing

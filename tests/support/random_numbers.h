@@ -1,0 +1,38 @@
+// tests/support/random_numbers.h - small helpers over one generator; a test names its seed.
+#pragma once
+#include <cstdint>
+#include <random>
+
+#include "pipeline/draw_list.h"
+
+namespace strata::testing {
+
+using Random = std::mt19937_64;
+
+[[nodiscard]] inline int random_int(Random& random, int low, int high) {  // both included
+    return low + static_cast<int>(random() % (static_cast<std::uint64_t>(high - low) + 1));
+}
+
+[[nodiscard]] inline float random_float(Random& random, float low, float high) {
+    return low + (high - low) * (static_cast<float>(random() >> 40) * 0x1p-24f);
+}
+
+// A channel: an 8-bit code or any binary fraction of 24 digits; 0 and 1 come often.
+[[nodiscard]] inline float random_channel(Random& random) {
+    switch (random_int(random, 0, 7)) {
+        case 0: return 0.0f;
+        case 1: return 1.0f;
+        case 2:
+        case 3:
+        case 4: return static_cast<float>(random_int(random, 0, 255)) / 255.0f;
+        default: return static_cast<float>(random() >> 40) * 0x1p-24f;
+    }
+}
+
+[[nodiscard]] inline pipeline::Rgba random_color(Random& random) {
+    pipeline::Rgba color{};
+    for (float& channel : color) channel = random_channel(random);
+    return color;
+}
+
+}  // namespace strata::testing
