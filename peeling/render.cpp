@@ -138,6 +138,10 @@ struct Renderer::State {
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
         if (auto lacking = check_depth(profile, depth)) return lacking;
         if (auto lacking = check(profile, color_format)) return lacking;
+        if (options.raster.depth_near > options.raster.depth_far)
+            return Refusal{"peeling over a reversed depth range yet", "", "use a depth range with near below far"};
+        if (options.raster.depth_clamp)
+            if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
             return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "", "use depth_units or front_to_back"};
         return peeling::refusal(algorithm, profile);

@@ -49,7 +49,7 @@ void finish(const StencilFace& face, StencilOp op, const Mask& chosen, const Ste
     update(face, op, chosen, lanes);
 }
 
-// One face's test for the lanes in `subject`; `survivors` gathers who passes stencil and depth. Answers how many failed.
+// One face's test for the lanes in `subject`; `survivors` gathers who passes stencil and depth. Answers how many fail.
 int test_face(const StencilFace& face, const Mask& subject, const StencilLanes& lanes, Mask& survivors) noexcept {
     const auto count = static_cast<std::size_t>(lanes.count);
     const std::uint32_t* const depth_pass = lanes.depth_pass;

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/gltf_container.h"
-#include "scenes/gltf_place.h"
+#include "scenes/gltf/container.h"
+#include "scenes/gltf/place.h"
 
 namespace strata::scenes {
 

@@ -9,7 +9,7 @@
 #include "peeling/render.h"
 #include "rasterizer/input_error.h"
 #include "scenes/camera.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 namespace {
 

@@ -79,7 +79,8 @@ void check_all_ways(const TriangleScene& scene, const Machine& machine, RenderOp
     for (const Way& way : ways) {
         const RenderResult found = render(scene.list, scene.view, machine, with(options, way));
         INFO(machine.algorithm << " on " << machine.profile << ", tile " << way.tile_size << ", threads " << way.threads
-                               << ", literal " << (way.execution == Execution::literal) << ", trusts idle " << way.trust_idle);
+                               << ", literal " << (way.execution == Execution::literal) << ", trusts idle "
+                               << way.trust_idle);
         CHECK(difference(found, expected) == "");
     }
 }
@@ -92,10 +93,16 @@ RenderOptions small_frame() {
     return options;
 }
 
-const std::vector<Machine> machines{
-    {"geforce3", "unsorted"},        {"geforce3", "painter"},      {"geforce3", "depth_units"}, {"geforce8", "front_to_back"},
-    {"geforce8", "dual"},            {"geforce8_dx101", "dual_independent"}, {"geforce8", "weighted_average"},
-    {"geforce8", "weighted_sum"},    {"ideal", "a_buffer"},        {"ideal", "dual"}};
+const std::vector<Machine> machines{{"geforce3", "unsorted"},
+                                    {"geforce3", "painter"},
+                                    {"geforce3", "depth_units"},
+                                    {"geforce8", "front_to_back"},
+                                    {"geforce8", "dual"},
+                                    {"geforce8_dx101", "dual_independent"},
+                                    {"geforce8", "weighted_average"},
+                                    {"geforce8", "weighted_sum"},
+                                    {"ideal", "a_buffer"},
+                                    {"ideal", "dual"}};
 
 }  // namespace
 
@@ -171,11 +178,13 @@ TEST_CASE("a program's own environment and one with flush-to-zero or another rou
         const RenderResult expected = render(scene.list, scene.view, machine, options);
         for (const unsigned host : host_environments) {
             const HostEnvironment environment{host};
-            strata::peeling::Renderer renderer{scene.list, scene.view, *strata::pipeline::find_profile(machine.profile), options};
+            strata::peeling::Renderer renderer{scene.list, scene.view, *strata::pipeline::find_profile(machine.profile),
+                                               options};
             const bool kept_by_constructor = environment.is_in_force();
             const RenderResult found = renderer.render(*strata::peeling::find_algorithm(machine.algorithm));
             const bool kept_by_render = environment.is_in_force();
-            const std::size_t fragments = renderer.fragments(*strata::peeling::find_algorithm(machine.algorithm)).size();
+            const std::size_t fragments =
+                renderer.fragments(*strata::peeling::find_algorithm(machine.algorithm)).size();
             INFO(machine.algorithm << ", host " << std::hex << host);
             CHECK(kept_by_constructor);
             CHECK(kept_by_render);

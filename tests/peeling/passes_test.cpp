@@ -71,12 +71,15 @@ std::uint64_t peel_once(const std::vector<GivenFragment>& fragments, float& peel
 TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 layers") {
     for (int n = 0; n <= 9; ++n) {
         const int half = (n + 1) / 2;
-        const std::vector<std::pair<Machine, int>> formulas{
-            {{"geforce3", "unsorted"}, 1},          {{"geforce3", "painter"}, 1},
-            {{"geforce3", "depth_units"}, n + 1},   {{"geforce8", "front_to_back"}, n + 1},
-            {{"geforce8", "dual"}, 1 + std::max(1, half)}, {{"geforce8_dx101", "dual_independent"}, half + 2},
-            {{"geforce8", "weighted_average"}, 1},  {{"geforce8", "weighted_sum"}, 1},
-            {{"geforce8", "a_buffer"}, 1}};
+        const std::vector<std::pair<Machine, int>> formulas{{{"geforce3", "unsorted"}, 1},
+                                                            {{"geforce3", "painter"}, 1},
+                                                            {{"geforce3", "depth_units"}, n + 1},
+                                                            {{"geforce8", "front_to_back"}, n + 1},
+                                                            {{"geforce8", "dual"}, 1 + std::max(1, half)},
+                                                            {{"geforce8_dx101", "dual_independent"}, half + 2},
+                                                            {{"geforce8", "weighted_average"}, 1},
+                                                            {{"geforce8", "weighted_sum"}, 1},
+                                                            {{"geforce8", "a_buffer"}, 1}};
         for (const auto& [machine, passes] : formulas)
             for (const TerminationRule rule : {TerminationRule::exact, TerminationRule::any}) {
                 const RenderResult result = render_with(stairs(n), machine, rule);
@@ -88,7 +91,8 @@ TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 laye
     }
 }
 
-TEST_CASE("the paper's exit of dual peeling costs one pass more for even numbers of layers, and shows the same picture") {
+TEST_CASE(
+    "the paper's exit of dual peeling costs one pass more for even numbers of layers, and shows the same picture") {
     for (int n = 0; n <= 9; ++n) {
         const FragmentScene scene = stairs(n);
         const RenderResult paper = render_with(scene, {"geforce8", "dual"}, TerminationRule::paper);
@@ -212,8 +216,10 @@ TEST_CASE("counters of front_to_back are those of one fragment after another") {
 TEST_CASE("dual peeling of depths .1 .1 .3 .3 mixes each tie by MAX in one pass and loses two fragments") {
     FragmentScene scene{8, 8};
     const float near = 0x1.99999ap-4f - 0x1p-28f, far = 0.3125f;  // 2 near - 1 is exact
-    scene.pixels[9].fragments = {{near, {1, 0, 0.25f, 0.5f}}, {near, {0, 1, 0.5f, 0.25f}},
-                                 {far, {0.5f, 0, 1, 0.75f}}, {far, {0.25f, 1, 0, 0.5f}}};
+    scene.pixels[9].fragments = {{near, {1, 0, 0.25f, 0.5f}},
+                                 {near, {0, 1, 0.5f, 0.25f}},
+                                 {far, {0.5f, 0, 1, 0.75f}},
+                                 {far, {0.25f, 1, 0, 0.5f}}};
     const RenderResult result = render(scene, {"geforce8", "dual"});
     CHECK(result.frame.passes.geometry == 2);
     CHECK(result.audit.layers_max == 2);
@@ -276,7 +282,8 @@ TEST_CASE("depth_units reports the emulator's extension") {
 
 TEST_CASE("the audit is null where an algorithm has no order, and the approximations are exact for equal fragments") {
     FragmentScene scene{4, 4};
-    for (int i = 1; i <= 4; ++i) scene.pixels[3].fragments.push_back({static_cast<float>(i) / 8.0f, {0.75f, 0.5f, 0.25f, 0.5f}});
+    for (int i = 1; i <= 4; ++i)
+        scene.pixels[3].fragments.push_back({static_cast<float>(i) / 8.0f, {0.75f, 0.5f, 0.25f, 0.5f}});
     const RenderResult average = render(scene, {"ideal", "weighted_average"});
     CHECK_FALSE(average.audit.order_errors);
     CHECK(average.audit.max_difference < 1e-4);

@@ -60,7 +60,8 @@ template <class Expected>
     Differences found;
     for (std::size_t p = 0; p < image.codes.size() / 4; ++p) {
         const std::array<std::uint32_t, 4> wanted = expected(p);
-        if (std::equal(wanted.begin(), wanted.end(), image.codes.begin() + static_cast<std::ptrdiff_t>(4 * p))) continue;
+        if (std::equal(wanted.begin(), wanted.end(), image.codes.begin() + static_cast<std::ptrdiff_t>(4 * p)))
+            continue;
         if (found.pixels++ != 0) continue;
         std::ostringstream text;
         text << std::hex << "pixel 0x" << p << ": found";

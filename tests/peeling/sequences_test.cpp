@@ -14,7 +14,8 @@ namespace pipeline = strata::pipeline;
 
 constexpr Rgba background{0.25f, 0.5f, 0.8f, 1};
 
-// All 1 + 5 + 25 + ... + 5^6 = 19,531 sequences of up to 6 fragments on 5 depths, z = 0 among them; colours and alphas are random.
+// All 1 + 5 + 25 + ... + 5^6 = 19,531 sequences of up to 6 fragments on 5 depths, z = 0 among them; colours and alphas
+// are random.
 FragmentScene all_short_sequences(std::uint64_t seed) {
     constexpr std::array<float, 5> depths{0.0f, 0.125f, 0.5f, 0.625f, 1.0f - 0x1p-10f};
     FragmentScene scene{256, 128};
@@ -23,13 +24,14 @@ FragmentScene all_short_sequences(std::uint64_t seed) {
     for (int length = 0, count = 1; length <= 6; ++length, count *= 5)
         for (int number = 0; number < count; ++number, ++pixel)
             for (int place = 0, digits = number; place < length; ++place, digits /= 5)
-                scene.pixels[pixel].fragments.push_back({depths[static_cast<std::size_t>(digits % 5)], random_color(random)});
+                scene.pixels[pixel].fragments.push_back(
+                    {depths[static_cast<std::size_t>(digits % 5)], random_color(random)});
     REQUIRE(pixel == 19531);
     return scene;
 }
 
-// `count` pixels of up to `longest` fragments; depths k / 64 with ties, k = 0 and k = 64 (invisible) among them. Every other
-// pixel has an opaque surface at one of these depths.
+// `count` pixels of up to `longest` fragments; depths k / 64 with ties, k = 0 and k = 64 (invisible) among them. Every
+// other pixel has an opaque surface at one of these depths.
 FragmentScene random_sequences(std::uint64_t seed, std::size_t count, int longest) {
     FragmentScene scene{32, 16};
     Random random{seed};
@@ -59,7 +61,8 @@ Statistics statistics(const FragmentScene& scene) {
     return s;
 }
 
-// What stands behind the transparent fragments, as the target holds it. A surface at depth 1 fails LESS against the clear.
+// What stands behind the transparent fragments, as the target holds it. A surface at depth 1 fails LESS against the
+// clear.
 Rgba behind(const GivenPixel& pixel, const TargetModel& target) {
     const bool opaque = pixel.opaque && pixel.opaque->depth < 1.0f;
     Rgba color = opaque ? pixel.opaque->color : background;
@@ -67,7 +70,8 @@ Rgba behind(const GivenPixel& pixel, const TargetModel& target) {
     return color;
 }
 
-Rgba model(const std::string& algorithm, const TargetModel& target, const DepthGroups& groups, const Rgba& behind_them) {
+Rgba model(const std::string& algorithm, const TargetModel& target, const DepthGroups& groups,
+           const Rgba& behind_them) {
     if (algorithm == "depth_units") return depth_units_model(target, groups, behind_them);
     if (algorithm == "front_to_back") return front_to_back_model(target, groups, behind_them);
     if (algorithm == "dual") return dual_model(target, groups, behind_them);
@@ -109,7 +113,8 @@ void check_accuracy(const FragmentScene& scene, const RenderResult& result) {
         if (groups.size() < fragments.size()) continue;
         const auto truth = exact_composite(groups, behind(scene.pixels[p], target));
         for (std::size_t c = 0; c < 3; ++c)
-            worst = std::max(worst, std::fabs(double{std::bit_cast<float>(result.frame.color.codes[4 * p + c])} - truth[c]));
+            worst = std::max(worst,
+                             std::fabs(double{std::bit_cast<float>(result.frame.color.codes[4 * p + c])} - truth[c]));
     }
     CHECK(worst <= 1.0 / 255.0);
     CHECK(result.audit.max_difference_without_ties <= 1.0);
@@ -151,7 +156,8 @@ TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what 
             check_scene(scene, machine, options_for(scene));
 }
 
-TEST_CASE("deep random sequences, with and without an opaque surface among them, show what the listing's arithmetic gives") {
+TEST_CASE(
+    "deep random sequences, with and without an opaque surface among them, show what the listing's arithmetic gives") {
     const FragmentScene scene = random_sequences(20240602, 400, 64);
     for (const Machine& machine : machines()) check_scene(scene, machine, options_for(scene));
 }
@@ -166,8 +172,10 @@ TEST_CASE("half-float and binary32 targets of a device round every blend as the 
             const RenderResult result = render(scene, {"geforce8_dx101", algorithm}, options);
             const TargetModel target{format};
             const Differences wrong = differences(result.frame.color, [&](std::size_t p) {
-                const Rgba color = model(algorithm, target, groups_of(visible(scene.pixels[p])), behind(scene.pixels[p], target));
-                return std::array{target.code(color[0]), target.code(color[1]), target.code(color[2]), target.code(1.0f)};
+                const Rgba color =
+                    model(algorithm, target, groups_of(visible(scene.pixels[p])), behind(scene.pixels[p], target));
+                return std::array{target.code(color[0]), target.code(color[1]), target.code(color[2]),
+                                  target.code(1.0f)};
             });
             INFO(algorithm << " into " << pipeline::info(format).name << ", " << wrong.first);
             CHECK(wrong.pixels == 0);
@@ -176,7 +184,8 @@ TEST_CASE("half-float and binary32 targets of a device round every blend as the 
 
 TEST_CASE("the depth image holds the nearest visible depth, or the opaque surface's, or 1") {
     const FragmentScene scene = random_sequences(20240604, 400, 12);
-    for (const Machine& machine : {Machine{"geforce8", "dual"}, {"geforce8", "front_to_back"}, {"ideal", "depth_units"}}) {
+    for (const Machine& machine :
+         {Machine{"geforce8", "dual"}, {"geforce8", "front_to_back"}, {"ideal", "depth_units"}}) {
         const RenderResult result = render(scene, machine);
         std::size_t wrong = 0;
         for (std::size_t p = 0; p < scene.pixels.size(); ++p) {

@@ -27,7 +27,6 @@ int model_op(StencilOp op, int s, int ref) {
 struct Outcome {
     bool alive, saturated, stencil_failed;
     std::uint32_t stored;
-    friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
 // One fragment, in the words of GL 2.1 4.1.5 and EXT_stencil_two_side.

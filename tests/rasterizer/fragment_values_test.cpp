@@ -11,11 +11,6 @@ namespace {
 
 using namespace strata::rasterizer;
 
-struct Scene {
-    std::array<SubpixelPoint, 3> p;
-    SetupTriangle triangle;
-};
-
 [[nodiscard]] std::vector<SetupTriangle> random_triangles(Random& random, int count, int size, int bits) {
     std::vector<SetupTriangle> triangles;
     while (static_cast<int>(triangles.size()) < count) {

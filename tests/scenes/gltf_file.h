@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 namespace strata::scenes::test {
 

@@ -1,6 +1,7 @@
 // tests/support/composite_model.h - what each exact algorithm must show at one pixel, one fragment after another.
-// Written from algorithms.md 0 and 2 to 6 with the arithmetic of hardware.md 8 and 9: it shares nothing with the product. The
-// targets' arithmetic is here a number line of its own: integers over 255, or binary32 (and its rounding to 11 bits).
+// Written from algorithms.md 0 and 2 to 6 with the arithmetic of hardware.md 8 and 9: it shares nothing with the
+// product. The targets' arithmetic is here a number line of its own: integers over 255, or binary32 (and its rounding
+// to 11 bits).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -61,7 +62,8 @@ struct TargetModel {
     }
     // (DST_ALPHA, ONE): premultiplied source s behind d, which lets T through.
     [[nodiscard]] float under(float d, float T, float s) const {
-        if (format == Format::rgba8) return from_products(std::min(code_255(s) * code_255(T) + code_255(d) * 255, 65025));
+        if (format == Format::rgba8)
+            return from_products(std::min(code_255(s) * code_255(T) + code_255(d) * 255, 65025));
         const float source = s * T;
         return stored(source + d);
     }
@@ -82,7 +84,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
 }
 
 // algorithms.md 2. UNIQUE; layers are stored straight.
-[[nodiscard]] inline Rgba depth_units_model(const TargetModel& target, const DepthGroups& groups, const Rgba& background) {
+[[nodiscard]] inline Rgba depth_units_model(const TargetModel& target, const DepthGroups& groups,
+                                            const Rgba& background) {
     Rgba result = background;
     for (auto layer = groups.rbegin(); layer != groups.rend(); ++layer) {
         const Rgba& source = layer->second.front();
@@ -93,7 +96,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
 }
 
 // algorithms.md 4. UNIQUE; a layer is stored premultiplied, then blended UNDER.
-[[nodiscard]] inline Rgba front_to_back_model(const TargetModel& target, const DepthGroups& groups, const Rgba& background) {
+[[nodiscard]] inline Rgba front_to_back_model(const TargetModel& target, const DepthGroups& groups,
+                                              const Rgba& background) {
     Rgba front{0, 0, 0, 1};
     for (const auto& [depth, sources] : groups) {
         const Rgba& source = sources.front();
@@ -111,7 +115,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
 }
 
 // algorithms.md 5. MERGED: all fragments of a peeled depth write, component-wise MAX keeps one mixture.
-[[nodiscard]] inline Rgba dual_model(const TargetModel& target, DepthGroups groups, const Rgba& background, int peels = 1 << 20) {
+[[nodiscard]] inline Rgba dual_model(const TargetModel& target, DepthGroups groups, const Rgba& background,
+                                     int peels = 1 << 20) {
     Rgba front{0, 0, 0, 0}, back = background;  // front alpha: 1 - transmittance
     for (; peels > 0 && !groups.empty(); --peels) {
         const float T = 1.0f - front[3];
@@ -144,7 +149,8 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
 }
 
 // algorithms.md 6. Every fragment blends: FIRST in the front half, LAST in the back half.
-[[nodiscard]] inline Rgba dual_independent_model(const TargetModel& target, DepthGroups groups, const Rgba& background) {
+[[nodiscard]] inline Rgba dual_independent_model(const TargetModel& target, DepthGroups groups,
+                                                 const Rgba& background) {
     Rgba front{0, 0, 0, 1}, back = background;
     while (!groups.empty()) {
         for (const Rgba& s : groups.begin()->second) {

@@ -1,6 +1,7 @@
 // tests/support/fragment_scene.h - frames whose pixels get exactly the fragments that a test wants, in its order.
-// Each fragment is a triangle of 1.5 pixels' legs over its pixel's corner: it covers that pixel's centre and no other. Window
-// positions are multiples of half a pixel and depths small binary fractions, so that nothing on the way is rounded.
+// Each fragment is a triangle of 1.5 pixels' legs over its pixel's corner: it covers that pixel's centre and no other.
+// Window positions are multiples of half a pixel and depths small binary fractions, so that nothing on the way is
+// rounded.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -23,15 +24,17 @@ struct GivenPixel {
 };
 
 struct FragmentScene {
-    int width = 1, height = 1;  // powers of two
+    int width = 1, height = 1;       // powers of two
     std::vector<GivenPixel> pixels;  // row by row from the top left
 
-    FragmentScene(int w, int h) : width{w}, height{h}, pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+    FragmentScene(int w, int h)
+        : width{w}, height{h}, pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
 };
 
 inline void add_fragment(pipeline::Mesh& mesh, const FragmentScene& scene, std::size_t pixel, const GivenFragment& f) {
     const auto columns = static_cast<std::size_t>(scene.width);
-    const float pixel_width = 2.0f / static_cast<float>(scene.width), pixel_height = 2.0f / static_cast<float>(scene.height);
+    const float pixel_width = 2.0f / static_cast<float>(scene.width),
+                pixel_height = 2.0f / static_cast<float>(scene.height);
     const float left = static_cast<float>(pixel % columns) * pixel_width - 1.0f;
     const float top = 1.0f - static_cast<float>(pixel / columns) * pixel_height;
     const float z = 2.0f * f.depth - 1.0f;
@@ -42,8 +45,8 @@ inline void add_fragment(pipeline::Mesh& mesh, const FragmentScene& scene, std::
     mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
 }
 
-// Unlit and double-sided, to be drawn with identity matrices. Submission: the first fragments of all pixels, then the second
-// ones, and so on.
+// Unlit and double-sided, to be drawn with identity matrices. Submission: the first fragments of all pixels, then the
+// second ones, and so on.
 [[nodiscard]] inline pipeline::DrawList draw_list(const FragmentScene& scene) {
     pipeline::Mesh transparent, opaque;
     std::size_t deepest = 0;
@@ -55,8 +58,9 @@ inline void add_fragment(pipeline::Mesh& mesh, const FragmentScene& scene, std::
     for (std::size_t p = 0; p < scene.pixels.size(); ++p)
         if (scene.pixels[p].opaque) add_fragment(opaque, scene, p, *scene.pixels[p].opaque);
     pipeline::DrawList list;
-    list.materials = {{.name = "transparent", .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = true},
-                      {.name = "opaque", .double_sided = true, .unlit = true}};
+    list.materials = {
+        {.name = "transparent", .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = true},
+        {.name = "opaque", .double_sided = true, .unlit = true}};
     for (pipeline::Mesh* mesh : {&transparent, &opaque}) {
         const auto number = static_cast<std::uint32_t>(list.meshes.size());
         if (!mesh->indices.empty()) list.instances.push_back({.mesh = number, .material = number});
@@ -65,7 +69,8 @@ inline void add_fragment(pipeline::Mesh& mesh, const FragmentScene& scene, std::
     return list;
 }
 
-// What a fragment-ordering model works on: the visible ones, nearer than the opaque surface (or than the clear value 1).
+// What a fragment-ordering model works on: the visible ones, nearer than the opaque surface (or than the clear value
+// 1).
 [[nodiscard]] inline std::vector<GivenFragment> visible(const GivenPixel& pixel) {
     const float limit = pixel.opaque ? pixel.opaque->depth : 1.0f;
     std::vector<GivenFragment> kept;

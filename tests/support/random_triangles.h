@@ -1,5 +1,5 @@
-// tests/support/random_triangles.h - random triangles under a perspective view: opaque, masked and transparent, lit and unlit,
-// plain and textured, with ties (some triangles come twice).
+// tests/support/random_triangles.h - random triangles under a perspective view: opaque, masked and transparent, lit and
+// unlit, plain and textured, with ties (some triangles come twice).
 #pragma once
 #include "random_numbers.h"
 
@@ -19,10 +19,11 @@ struct TriangleScene {
 // 0: transparent, 1: transparent and textured, 2: masked and textured, 3: opaque, lit, single-sided.
 [[nodiscard]] inline std::vector<pipeline::Material> four_materials() {
     using pipeline::AlphaMode;
-    return {{.name = "glass", .alpha_mode = AlphaMode::blend, .double_sided = true, .unlit = true},
-            {.name = "print", .back = {1, 0.5f, 1, 1}, .alpha_mode = AlphaMode::blend, .texture = 0, .double_sided = true},
-            {.name = "leaf", .alpha_mode = AlphaMode::mask, .alpha_cutoff = 0.375f, .texture = 0, .double_sided = true},
-            {.name = "stone", .back = {0.5f, 1, 1, 1}}};
+    return {
+        {.name = "glass", .alpha_mode = AlphaMode::blend, .double_sided = true, .unlit = true},
+        {.name = "print", .back = {1, 0.5f, 1, 1}, .alpha_mode = AlphaMode::blend, .texture = 0, .double_sided = true},
+        {.name = "leaf", .alpha_mode = AlphaMode::mask, .alpha_cutoff = 0.375f, .texture = 0, .double_sided = true},
+        {.name = "stone", .back = {0.5f, 1, 1, 1}}};
 }
 
 // `reach`: how much of the view the triangles may fill, from its lower left corner. Eye at the origin, looking down -z.
@@ -36,8 +37,10 @@ struct TriangleScene {
         pipeline::Mesh mesh;
         for (int corner = 0; corner < (material < 2 ? 3 : 1) * triangles / 2; ++corner) {
             const float z = random_float(random, 1.1f, 4.8f);
-            mesh.positions.push_back({(random_float(random, 0, 1.2f) * reach - 0.55f) * z, (random_float(random, 0, 1.2f) * reach - 0.55f) * z, -z});
-            mesh.normals.push_back({random_float(random, -1, 1), random_float(random, -1, 1), random_float(random, -1, 1)});
+            mesh.positions.push_back({(random_float(random, 0, 1.2f) * reach - 0.55f) * z,
+                                      (random_float(random, 0, 1.2f) * reach - 0.55f) * z, -z});
+            mesh.normals.push_back(
+                {random_float(random, -1, 1), random_float(random, -1, 1), random_float(random, -1, 1)});
             mesh.colors.push_back(random_color(random));
             mesh.texcoords.push_back({random_float(random, -1, 2), random_float(random, -1, 2)});
         }

@@ -95,7 +95,9 @@ TEST_CASE("every row of the statistics has every key with its type, and a refuse
     }
 }
 
-TEST_CASE("what --stats - prints is exactly one JSON document, in a pipe without escape codes, and nothing on standard error") {
+TEST_CASE(
+    "what --stats - prints is exactly one JSON document, in a pipe without escape codes, and nothing on standard "
+    "error") {
     const Folder folder;
     const Ended ended =
         run_strata(folder, {"render", "teapot", "--size", "16x16", "--algorithm", "dual,weighted_sum", "--stats", "-"});

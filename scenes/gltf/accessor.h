@@ -1,0 +1,55 @@
+// scenes/gltf/accessor.h - reading the elements of a checked accessor, one by one, sparse changes applied.
+//
+// Rule     An accessor without a bufferView is zero everywhere; sparse values replace elements; sparse indices strictly
+// increase. Source   glTF 2.0, 3.6.2. What a component's bits mean: element.h. Tests
+// tests/scenes/gltf_accessor_test.cpp
+#pragma once
+#include <array>
+#include <map>
+
+#include "scenes/gltf/buffers.h"
+#include "scenes/gltf/element.h"
+#include "scenes/gltf/model.h"
+
+namespace strata::scenes {
+
+class AccessorReader {
+  public:
+    AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const Place& place);
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] std::size_t components() const { return components_; }  // 1 to 4: no reader asks for a matrix
+    [[nodiscard]] std::array<float, 4> element(std::size_t i) const;      // what it does not have is 0
+    [[nodiscard]] std::uint32_t index(std::size_t i) const;               // of a scalar of unsigned integers
+    [[nodiscard]] std::uint32_t restart_index() const;                    // the type's largest value: not allowed
+
+  private:
+    [[nodiscard]] const std::byte* at(std::size_t i) const;  // null: zero
+    [[nodiscard]] std::uint32_t sparse_index(std::size_t k) const;
+    void prepare_sparse(const tinygltf::Accessor& accessor, Buffers& buffers, const Place& place);
+
+    std::size_t count_, components_, stride_ = 0, size_;
+    ComponentType type_;
+    bool is_normalized_;
+    Bytes base_;  // empty: zeros
+    std::size_t sparse_count_ = 0;
+    ComponentType sparse_type_ = ComponentType::u8;
+    Bytes sparse_indices_, sparse_values_;
+};
+
+// The readers of a document, made when first asked for.
+class Accessors {
+  public:
+    Accessors(const Document& document, const tinygltf::Model& model, Buffers& buffers)
+        : document_{document}, model_{model}, buffers_{buffers} {}
+
+    const AccessorReader& operator[](int accessor);
+
+  private:
+    const Document& document_;
+    const tinygltf::Model& model_;
+    Buffers& buffers_;
+    std::map<int, AccessorReader> readers_;
+};
+
+}  // namespace strata::scenes

@@ -1,0 +1,91 @@
+// scenes/gltf/check.cpp - the document as a whole: asset, extensions, features that nothing here draws. See
+// check.h.
+#include "scenes/gltf/check.h"
+
+#include <algorithm>
+#include <array>
+
+namespace strata::scenes {
+namespace {
+
+constexpr std::array implemented{"KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
+
+bool is_implemented(const std::string& name) {
+    return std::find(implemented.begin(), implemented.end(), name) != implemented.end();
+}
+
+struct Version {
+    std::uint64_t major = 0, minor = 0;
+};
+
+Version version(const JsonAt& at) {  // ^[0-9]+\.[0-9]+$, in range of an int
+    const std::string text = at.string();
+    const std::size_t dot = text.find('.');
+    const auto is_number = [](const std::string& s) {
+        return !s.empty() && s.size() < 6 &&
+               std::all_of(s.begin(), s.end(), [](char c) { return c >= '0' && c <= '9'; });
+    };
+    if (dot == text.npos || !is_number(text.substr(0, dot)) || !is_number(text.substr(dot + 1)))
+        at.fail("PATTERN_MISMATCH", "a version like 2.0");
+    return {std::stoul(text.substr(0, dot)), std::stoul(text.substr(dot + 1))};
+}
+
+void check_asset(const JsonAt& root) {
+    const JsonAt asset = root.member("asset").object();
+    const JsonAt written = asset.member("version");
+    if (version(written).major != 2) written.fail("UNKNOWN_ASSET_MAJOR_VERSION", "glTF version 2.x");
+    const auto least = asset.find("minVersion");
+    if (!least) return;
+    const Version needed = version(*least);
+    if (needed.major != 2) least->fail("UNKNOWN_ASSET_MAJOR_VERSION", "glTF version 2.x");
+    if (needed.minor > 0) least->fail("UNKNOWN_ASSET_MINOR_VERSION", "a reader of glTF 2.0 to be enough");
+}
+
+void check_every_name(const JsonAt& root) {  // of the objects that reach the scene
+    for (const char* kind : {"accessors", "bufferViews", "buffers", "cameras", "images", "materials", "meshes", "nodes",
+                             "samplers", "scenes", "textures"})
+        for (const JsonAt& object : root.elements(kind))
+            if (const auto name = object.find("name")) (void)name->string();
+}
+
+}  // namespace
+
+bool uses_extension(const JsonAt& root, const char* name) {
+    const auto used = root.elements("extensionsUsed");
+    return std::any_of(used.begin(), used.end(), [&](const JsonAt& e) { return e.json() == name; });
+}
+
+std::optional<std::size_t> check_reference(const JsonAt& owner, const char* key, const JsonAt& root,
+                                           const char* target) {
+    const auto reference = owner.find(key);
+    if (!reference) return std::nullopt;
+    return reference->index(root.size(target));
+}
+
+void check_extensions(const JsonAt& root, Warnings& warnings) {
+    for (const JsonAt& required : root.elements("extensionsRequired"))
+        if (!is_implemented(required.string()))
+            required.fail(
+                "UNSUPPORTED_EXTENSION",
+                "no required extension but KHR_materials_unlit, KHR_mesh_quantization and KHR_texture_transform");
+    for (const JsonAt& used : root.elements("extensionsUsed"))
+        if (!is_implemented(used.string()))
+            warnings.add(used.place().pointer, "extension " + one_line(used.string()) + " is ignored");
+}
+
+void check_document(const JsonAt& root, Warnings& warnings) {
+    (void)root.object();
+    check_asset(root);
+    check_extensions(root, warnings);
+    check_every_name(root);
+    check_buffers(root);
+    check_accessors(root);
+    check_images(root);
+    check_materials(root, warnings);
+    check_meshes(root, warnings);
+    check_cameras(root);
+    check_nodes(root, warnings);
+    if (root.size("animations") > 0) warnings.add("/animations", "animations are ignored: nodes stand as written");
+}
+
+}  // namespace strata::scenes

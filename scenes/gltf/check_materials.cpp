@@ -1,0 +1,106 @@
+// scenes/gltf/check_materials.cpp - images, samplers, textures, materials. See check.h.
+#include <cmath>
+#include <initializer_list>
+
+#include "scenes/elementary.h"
+#include "scenes/gltf/check.h"
+
+namespace strata::scenes {
+namespace {
+
+void check_listed(const JsonAt& owner, const char* key, std::initializer_list<int> list, const char* expected) {
+    const auto value = owner.find(key);
+    if (!value) return;
+    const std::uint64_t code = value->integer(0, max_bytes);
+    for (const int known : list)
+        if (code == static_cast<std::uint64_t>(known)) return;
+    value->fail("VALUE_NOT_IN_LIST", expected);
+}
+
+void check_image(const JsonAt& image, const JsonAt& root) {
+    const bool has_uri = image.has("uri"), has_view = image.has("bufferView");
+    if (has_uri == has_view)
+        image.place().fail("ONE_OF_MISMATCH", "either uri or bufferView", has_uri ? "both" : "neither");
+    if (has_uri) (void)image.member("uri").string();
+    check_reference(image, "bufferView", root, "bufferViews");
+    const auto media_type = image.find("mimeType");
+    if (media_type) (void)media_type->string();
+    if (has_view && !media_type) image.place().fail("UNSATISFIED_DEPENDENCY", "mimeType beside bufferView", "none");
+}
+
+void check_texture_transform(const JsonAt& info) {
+    const auto extensions = info.find("extensions");
+    const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
+    if (!transform) return;
+    if (const auto offset = transform->find("offset")) offset->numbers(2);
+    if (const auto scale = transform->find("scale")) scale->numbers(2);
+    if (const auto rotation = transform->find("rotation"); rotation && !(std::abs(rotation->number()) <= max_angle))
+        rotation->fail("VALUE_NOT_IN_RANGE", "an angle of at most 10^6 radians");
+    if (const auto set = transform->find("texCoord")) (void)set->integer(0, max_bytes);
+}
+
+void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
+    const std::size_t texture = info.member("index").index(root.size("textures"));
+    if (const auto set = info.find("texCoord")) (void)set->integer(0, max_bytes);
+    check_texture_transform(info);
+    if (root.json()["textures"][texture].contains("source")) return;
+    const Place place = root.place().under("textures").under(texture);
+    place.fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source", "none (an extension would have to supply it)");
+}
+
+void check_color(const JsonAt& factor) {
+    factor.numbers(4);
+    for (const JsonAt& channel : factor.elements())
+        if (!(channel.number() >= 0 && channel.number() <= 1))
+            channel.fail("VALUE_NOT_IN_RANGE", "a number from 0 to 1");
+}
+
+void check_metallic_roughness(const JsonAt& pbr, const JsonAt& root, Warnings& warnings) {
+    if (const auto factor = pbr.find("baseColorFactor")) check_color(*factor);
+    if (const auto texture = pbr.find("baseColorTexture")) check_base_color_texture(texture->object(), root);
+    for (const char* key : {"metallicFactor", "roughnessFactor", "metallicRoughnessTexture"})
+        if (const auto ignored = pbr.find(key))
+            warnings.add(ignored->place().pointer, "metallic and roughness are ignored: lighting is diffuse");
+}
+
+void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnings) {
+    if (const auto pbr = material.find("pbrMetallicRoughness")) check_metallic_roughness(pbr->object(), root, warnings);
+    if (const auto mode = material.find("alphaMode")) {
+        const std::string name = mode->string();
+        if (name != "OPAQUE" && name != "MASK" && name != "BLEND")
+            mode->fail("VALUE_NOT_IN_LIST", "OPAQUE, MASK or BLEND");
+    }
+    if (const auto cutoff = material.find("alphaCutoff"); cutoff && !(cutoff->number() >= 0))
+        cutoff->fail("VALUE_NOT_IN_RANGE", "a cutoff that is not negative");
+    if (const auto sides = material.find("doubleSided")) (void)sides->boolean();
+    if (const auto extensions = material.find("extensions")) {
+        const auto unlit = extensions->find("KHR_materials_unlit");
+        if (unlit) (void)unlit->object();
+    }
+    if (const auto it = material.find("normalTexture")) warnings.add(it->place().pointer, "normal maps are ignored");
+    if (const auto it = material.find("occlusionTexture")) warnings.add(it->place().pointer, "occlusion is ignored");
+    for (const char* key : {"emissiveTexture", "emissiveFactor"})
+        if (const auto it = material.find(key)) warnings.add(it->place().pointer, "emission is ignored");
+}
+
+}  // namespace
+
+void check_images(const JsonAt& root) {
+    for (const JsonAt& image : root.elements("images")) check_image(image, root);
+    for (const JsonAt& sampler : root.elements("samplers")) {
+        check_listed(sampler, "magFilter", {9728, 9729}, "9728 or 9729");
+        check_listed(sampler, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987}, "9728, 9729 or 9984 to 9987");
+        check_listed(sampler, "wrapS", {33071, 33648, 10497}, "33071, 33648 or 10497");
+        check_listed(sampler, "wrapT", {33071, 33648, 10497}, "33071, 33648 or 10497");
+    }
+    for (const JsonAt& texture : root.elements("textures")) {
+        check_reference(texture, "sampler", root, "samplers");
+        check_reference(texture, "source", root, "images");
+    }
+}
+
+void check_materials(const JsonAt& root, Warnings& warnings) {
+    for (const JsonAt& material : root.elements("materials")) check_material(material, root, warnings);
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,150 @@
+// scenes/gltf/check_meshes.cpp - primitives: attributes, their formats, indices, modes. See check.h.
+#include "scenes/gltf/check.h"
+#include "scenes/gltf/element.h"
+
+namespace strata::scenes {
+namespace {
+
+struct Format {
+    ElementType type;
+    ComponentType component;
+    bool is_normalized;
+    std::uint64_t count, offset, stride;  // offset: the accessor's; stride 0: not given
+};
+
+Format format(const Json& root, std::size_t accessor) {  // of an accessor that check_accessors has passed
+    const Json& a = root["accessors"][accessor];
+    const bool has_stride =
+        a.contains("bufferView") && root["bufferViews"][a["bufferView"].get<std::size_t>()].contains("byteStride");
+    return {
+        *to_element_type(a["type"].get<std::string>()),
+        *to_component_type(a["componentType"].get<std::uint64_t>()),
+        a.value("normalized", false),
+        a["count"].get<std::uint64_t>(),
+        a.value("byteOffset", std::uint64_t{0}),
+        has_stride ? root["bufferViews"][a["bufferView"].get<std::size_t>()]["byteStride"].get<std::uint64_t>() : 0};
+}
+
+bool is_small_integer(const Format& f) {
+    return f.component != ComponentType::f32 && f.component != ComponentType::u32;
+}
+bool is_signed(const Format& f) { return f.component == ComponentType::i8 || f.component == ComponentType::i16; }
+
+// glTF 2.0, 3.7.2.1, and what KHR_mesh_quantization adds. Attributes that nothing here reads are not looked at.
+bool is_allowed(const std::string& name, const Format& f, bool is_quantized) {
+    const bool is_float = f.component == ComponentType::f32;
+    const bool is_unorm = f.is_normalized && is_small_integer(f) && !is_signed(f);
+    if (name == "POSITION") return f.type == ElementType::vec3 && (is_float || (is_quantized && is_small_integer(f)));
+    if (name == "NORMAL")
+        return f.type == ElementType::vec3 && (is_float || (is_quantized && is_signed(f) && f.is_normalized));
+    if (name.starts_with("TEXCOORD_"))
+        return f.type == ElementType::vec2 && (is_float || is_unorm || (is_quantized && is_small_integer(f)));
+    if (name.starts_with("COLOR_"))
+        return (f.type == ElementType::vec3 || f.type == ElementType::vec4) && (is_float || is_unorm);
+    return true;
+}
+
+// POSITION, NORMAL, TANGENT, NAME_n, or the application's own with an underscore in front.
+bool is_attribute_name(const std::string& name) {
+    if (name.starts_with('_') || name == "POSITION" || name == "NORMAL" || name == "TANGENT") return true;
+    for (const std::string_view set : {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"}) {
+        if (!name.starts_with(set)) continue;
+        const std::string_view digits = std::string_view(name).substr(set.size());
+        const bool is_plain = digits == "0" || (!digits.empty() && digits[0] != '0');
+        return is_plain && digits.size() < 10 && digits.find_first_not_of("0123456789") == digits.npos;
+    }
+    return false;
+}
+
+struct MeshChecker {
+    const JsonAt& root;
+    bool is_quantized;
+    std::size_t accessors, materials;
+
+    void check_attribute(const JsonAt& attribute, const std::string& name, std::optional<std::uint64_t>& count) const {
+        if (!is_attribute_name(name))
+            attribute.place().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE", "a name of glTF's or one that begins with _",
+                                   in_quotes(name));
+        const Format f = format(root.json(), attribute.index(accessors));
+        if (!is_allowed(name, f, is_quantized))
+            attribute.fail("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
+                           is_quantized ? "an accessor of a format for " + name
+                                        : "an accessor of a format for " + name + " without KHR_mesh_quantization");
+        const std::uint64_t step = f.stride ? f.stride : element_bytes(f.type, f.component);
+        if (f.offset % 4 != 0 || step % 4 != 0)
+            attribute.fail("MESH_PRIMITIVE_ACCESSOR_UNALIGNED", "vertices at multiples of 4 bytes");
+        if (count.value_or(f.count) != f.count)
+            attribute.place().fail("MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT",
+                                   "as many elements as the other attributes: " + std::to_string(*count),
+                                   std::to_string(f.count));
+        count = f.count;
+    }
+
+    void check_indices(const JsonAt& indices) const {
+        const Format f = format(root.json(), indices.index(accessors));
+        if (f.type != ElementType::scalar || !is_index_type(f.component) || f.is_normalized)
+            indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "an accessor of unsigned scalars");
+        if (f.stride != 0)
+            indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", "a bufferView without byteStride");
+        if (!root.json()["accessors"][indices.index(accessors)].contains("bufferView"))
+            indices.fail("UNDEFINED_PROPERTY",
+                         "an accessor with a bufferView");  // indices made of zeros: tinygltf has none
+    }
+
+    // The set that the material's texture reads, if it has one.
+    [[nodiscard]] std::optional<std::uint64_t> texcoord_set(const JsonAt& primitive) const {
+        const auto material = primitive.find("material");
+        if (!material) return std::nullopt;
+        const Json& m = root.json()["materials"][material->index(materials)];
+        const Json::json_pointer info{"/pbrMetallicRoughness/baseColorTexture"};
+        if (!m.contains(info)) return std::nullopt;
+        const Json::json_pointer replaced{"/extensions/KHR_texture_transform/texCoord"};
+        const Json& texture = m[info];
+        return texture.contains(replaced) ? texture[replaced].get<std::uint64_t>()
+                                          : texture.value("texCoord", std::uint64_t{0});
+    }
+
+    // A file that only uses Draco must bring plain data too; without, the accessors would read as zeros.
+    void check_draco(const JsonAt& primitive, const JsonAt& attributes) const {
+        const auto extensions = primitive.find("extensions");
+        if (!extensions || !extensions->find("KHR_draco_mesh_compression")) return;
+        for (const Json& accessor : attributes.json())
+            if (!root.json()["accessors"][accessor.get<std::size_t>()].contains("bufferView"))
+                extensions->place().fail("UNSUPPORTED_EXTENSION", "plain data beside KHR_draco_mesh_compression",
+                                         "none");
+    }
+
+    void check_primitive(const JsonAt& primitive, Warnings& warnings) const {
+        const JsonAt attributes = primitive.member("attributes").object();
+        std::optional<std::uint64_t> count;
+        for (const auto& item : attributes.json().items())
+            check_attribute(attributes.member(item.key()), item.key(), count);
+        check_draco(primitive, attributes);
+        if (!attributes.has("POSITION"))
+            warnings.add(primitive.place().pointer, "a primitive without POSITION is not drawn");
+        if (const auto indices = primitive.find("indices")) check_indices(*indices);
+        if (const auto mode = primitive.find("mode")) (void)mode->integer(0, 6);
+        const auto set = texcoord_set(primitive);
+        if (set && attributes.has("POSITION") && !attributes.has("TEXCOORD_" + std::to_string(*set)))
+            primitive.place().fail("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
+                                   "TEXCOORD_" + std::to_string(*set) + " for the material's texture", "none");
+        if (primitive.has("targets"))
+            warnings.add(primitive.place().under("targets").pointer, "morph targets are ignored");
+        for (const auto& item : attributes.json().items())
+            if (item.key().starts_with("COLOR_") && item.key() != "COLOR_0")
+                warnings.add(attributes.place().pointer, "vertex colours beyond COLOR_0 are ignored");
+    }
+};
+
+}  // namespace
+
+void check_meshes(const JsonAt& root, Warnings& warnings) {
+    const MeshChecker checker{root, uses_extension(root, "KHR_mesh_quantization"), root.size("accessors"),
+                              root.size("materials")};
+    for (const JsonAt& mesh : root.elements("meshes")) {
+        (void)mesh.member("primitives");
+        for (const JsonAt& primitive : mesh.elements("primitives")) checker.check_primitive(primitive, warnings);
+    }
+}
+
+}  // namespace strata::scenes

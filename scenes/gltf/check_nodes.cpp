@@ -1,0 +1,127 @@
+// scenes/gltf/check_nodes.cpp - cameras, nodes, scenes: a forest of transforms. See check.h.
+#include <cmath>
+#include <set>
+
+#include "scenes/elementary.h"
+#include "scenes/gltf/check.h"
+
+namespace strata::scenes {
+namespace {
+
+constexpr std::size_t no_parent = static_cast<std::size_t>(-1);
+
+double positive(const JsonAt& at) {
+    if (!(at.number() > 0)) at.fail("VALUE_NOT_IN_RANGE", "a number above 0");
+    return at.number();
+}
+
+void check_perspective(const JsonAt& camera) {
+    const JsonAt yfov = camera.member("yfov");
+    if (positive(yfov) >= pi) yfov.fail("VALUE_NOT_IN_RANGE", "an angle below pi");
+    const double near = positive(camera.member("znear"));
+    if (const auto aspect = camera.find("aspectRatio")) (void)positive(*aspect);
+    if (const auto far = camera.find("zfar"); far && positive(*far) <= near)
+        far->fail("CAMERA_ZFAR_LEQUAL_ZNEAR", "more than znear");
+}
+
+void check_orthographic(const JsonAt& camera) {
+    for (const char* key : {"xmag", "ymag"})
+        if (const JsonAt mag = camera.member(key); mag.number() == 0)
+            mag.fail("CAMERA_XMAG_YMAG_ZERO", "a number that is not 0");
+    const JsonAt near = camera.member("znear"), far = camera.member("zfar");
+    if (!(near.number() >= 0)) near.fail("VALUE_NOT_IN_RANGE", "a number not below 0");
+    if (!(far.number() > near.number())) far.fail("CAMERA_ZFAR_LEQUAL_ZNEAR", "more than znear");
+}
+
+void check_rotation(const JsonAt& rotation) {
+    rotation.numbers(4);
+    double square = 0;
+    for (const JsonAt& part : rotation.elements()) square += part.number() * part.number();
+    constexpr double threshold = 0.00769;  // the validator's: four signed normalised bytes can do no better
+    if (!(std::abs(std::sqrt(square) - 1) <= threshold))
+        rotation.fail("NODE_ROTATION_NON_UNIT", "a quaternion of length 1");
+}
+
+void check_transform(const JsonAt& node) {
+    if (const auto matrix = node.find("matrix")) {
+        matrix->numbers(16);
+        for (const char* key : {"translation", "rotation", "scale"})
+            if (node.has(key))
+                matrix->place().fail("NODE_MATRIX_TRS", "either matrix or translation, rotation and scale", "both");
+        for (const int bottom : {3, 7, 11, 15})
+            if (matrix->json()[bottom].get<double>() != (bottom == 15 ? 1.0 : 0.0))
+                matrix->fail("NODE_MATRIX_NON_TRS", "0 0 0 1 as the bottom row");
+    }
+    if (const auto translation = node.find("translation")) translation->numbers(3);
+    if (const auto scale = node.find("scale")) scale->numbers(3);
+    if (const auto rotation = node.find("rotation")) check_rotation(*rotation);
+}
+
+// Each child once, with one parent.
+void check_children(const JsonAt& node, std::size_t index, std::vector<std::size_t>& parents) {
+    for (const JsonAt& child_at : node.elements("children")) {
+        const std::size_t child = child_at.index(parents.size());
+        if (parents[child] == index) child_at.fail("DUPLICATE_ELEMENTS", "each child once");
+        if (parents[child] != no_parent) child_at.fail("NODE_PARENT_OVERRIDE", "a node without a parent");
+        parents[child] = index;
+    }
+}
+
+// With one parent each, the nodes that the roots do not reach form loops.
+void check_loops(const JsonAt& root, const std::vector<std::size_t>& parents) {
+    enum : char { unknown, on_the_way, rooted };
+    std::vector<char> known(parents.size(), unknown);
+    for (std::size_t start = 0; start < parents.size(); ++start) {
+        std::size_t node = start;
+        for (; node != no_parent && known[node] == unknown; node = parents[node]) known[node] = on_the_way;
+        if (node != no_parent && known[node] == on_the_way)
+            root.place().under("nodes").under(node).fail("NODE_LOOP", "a tree of nodes",
+                                                         "a node that is its own ancestor");
+        for (node = start; node != no_parent && known[node] == on_the_way; node = parents[node]) known[node] = rooted;
+    }
+}
+
+void check_scenes(const JsonAt& root, const std::vector<std::size_t>& parents) {
+    for (const JsonAt& scene : root.elements("scenes")) {
+        std::set<std::size_t> seen;
+        for (const JsonAt& node : scene.elements("nodes")) {
+            const std::size_t index = node.index(parents.size());
+            if (parents[index] != no_parent) node.fail("SCENE_NON_ROOT_NODE", "a node without a parent");
+            if (!seen.insert(index).second) node.fail("DUPLICATE_ELEMENTS", "each node once");
+        }
+    }
+    check_reference(root, "scene", root, "scenes");
+}
+
+}  // namespace
+
+void check_cameras(const JsonAt& root) {
+    for (const JsonAt& camera : root.elements("cameras")) {
+        const JsonAt type = camera.member("type");
+        if (type.string() == "perspective")
+            check_perspective(camera.member("perspective"));
+        else if (type.string() == "orthographic")
+            check_orthographic(camera.member("orthographic"));
+        else
+            type.fail("VALUE_NOT_IN_LIST", "perspective or orthographic");
+    }
+}
+
+void check_nodes(const JsonAt& root, Warnings& warnings) {
+    std::vector<std::size_t> parents(root.size("nodes"), no_parent);
+    std::size_t index = 0;
+    for (const JsonAt& node : root.elements("nodes")) {
+        check_transform(node);
+        check_reference(node, "mesh", root, "meshes");
+        check_reference(node, "camera", root, "cameras");
+        if (check_reference(node, "skin", root, "skins"))
+            warnings.add(node.place().under("skin").pointer,
+                         "skins are ignored: the mesh stands as stored, moved by its node");
+        if (node.has("weights")) warnings.add(node.place().under("weights").pointer, "morph targets are ignored");
+        check_children(node, index++, parents);
+    }
+    check_loops(root, parents);
+    check_scenes(root, parents);
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,168 @@
+// scenes/gltf/gltf.cpp - a glTF file to a scene: container, JSON, check, then meshes, materials, instances and cameras.
+#include "scenes/gltf/gltf.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "rasterizer/float_environment.h"
+#include "scenes/bounds.h"
+#include "scenes/gltf/check.h"
+#include "scenes/gltf/mesh.h"
+#include "scenes/gltf/nodes.h"
+#include "scenes/gltf/uri.h"
+
+namespace strata::scenes {
+namespace {
+
+class SceneBuilder {
+  public:
+    SceneBuilder(const Document& document, const SceneOptions& options, const GltfLimits& limits, Warnings& warnings)
+        : document_{document},
+          options_{options},
+          warnings_{warnings},
+          model_{to_model(document)},
+          budget_{limits.elements, limits.texels},
+          instanced_left_{limits.instanced},
+          buffers_{document, budget_},
+          accessors_{document, model_, buffers_},
+          materials_{{document, model_, buffers_, budget_, warnings, options, scene_.list}} {
+        budget_.allow_elements(16 * document.size);
+    }
+
+    Scene build() {
+        scene_.scene_count = static_cast<int>(model_.scenes.size());
+        const std::vector<int> roots = choose_roots();
+        for (const PlacedNode& placed : place_nodes(model_, roots, document_.file)) {
+            const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(placed.node)];
+            if (node.mesh >= 0) add_instances(node.mesh, placed);
+            if (node.camera >= 0) add_camera(node, placed);
+        }
+        scene_.bounds = bounds_of(scene_.list);
+        return std::move(scene_);
+    }
+
+  private:
+    // --scene N, else the file's own, else 0; a file without scenes shows every root node.
+    std::vector<int> choose_roots() {
+        const int count = scene_.scene_count;
+        scene_.scene_index = options_.scene.value_or(std::max(model_.defaultScene, 0));
+        if (count > 0 && scene_.scene_index >= 0 && scene_.scene_index < count)
+            return model_.scenes[static_cast<std::size_t>(scene_.scene_index)].nodes;
+        if (options_.scene)
+            Place{document_.file, "/scenes"}.fail("UNRESOLVED_REFERENCE", "a scene below " + std::to_string(count),
+                                                  std::to_string(*options_.scene));
+        warnings_.add("/scenes", "the file has no scene: all its nodes are shown");
+        std::vector<char> is_child(model_.nodes.size(), 0);
+        for (const tinygltf::Node& node : model_.nodes)
+            for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = 1;
+        std::vector<int> roots;
+        for (std::size_t i = 0; i < is_child.size(); ++i)
+            if (is_child[i] == 0) roots.push_back(static_cast<int>(i));
+        return roots;
+    }
+
+    struct Drawable {
+        std::uint32_t mesh, material;
+    };
+
+    void add_instances(int mesh, const PlacedNode& placed) {
+        const auto found = drawables_.find(mesh);
+        const std::vector<Drawable>& drawables =
+            found != drawables_.end() ? found->second : (drawables_[mesh] = load_mesh(mesh));
+        for (const Drawable& drawable : drawables) {
+            const std::uint64_t corners = scene_.list.meshes[drawable.mesh].indices.size();
+            if (corners > instanced_left_)
+                Place{document_.file, "/nodes/" + std::to_string(placed.node)}.fail(
+                    "VALUE_NOT_IN_RANGE", "at most 2^31 corners of triangles", "more with this node");
+            instanced_left_ -= corners;
+            scene_.list.instances.push_back({drawable.mesh, drawable.material, placed.world});
+        }
+    }
+
+    std::vector<Drawable> load_mesh(int index) {
+        const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
+        const Place place = document_.at("meshes", static_cast<std::size_t>(index)).place().under("primitives");
+        const std::string name = mesh.name.empty() ? "mesh " + std::to_string(index) : mesh.name;
+        std::vector<Drawable> drawables;
+        for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+            const tinygltf::Primitive& primitive = mesh.primitives[p];
+            const LoadedMaterial& material = materials_[primitive.material];
+            auto loaded = load_primitive(
+                {primitive, place.under(p), material, accessors_, budget_, warnings_, options_.color_space});
+            if (!loaded) continue;
+            loaded->name = mesh.primitives.size() == 1 ? name : name + "/" + std::to_string(p);
+            drawables.push_back({static_cast<std::uint32_t>(scene_.list.meshes.size()), material.index});
+            scene_.list.meshes.push_back(*std::move(loaded));
+        }
+        return drawables;
+    }
+
+    // Names are made unique, so that --camera NAME finds each.
+    void add_camera(const tinygltf::Node& node, const PlacedNode& placed) {
+        const tinygltf::Camera& c = model_.cameras[static_cast<std::size_t>(node.camera)];
+        SceneCamera camera;
+        const std::string written = c.name.empty() ? node.name : c.name;
+        const std::string base = written.empty() ? "camera" : written;
+        const int earlier = camera_names_[base]++;
+        camera.name = earlier == 0 ? base : base + "#" + std::to_string(earlier + 1);
+        camera.view = view_of(placed.world, Place{document_.file, "/nodes/" + std::to_string(placed.node)});
+        camera.perspective = c.type == "perspective";
+        if (camera.perspective) {
+            camera.yfov = c.perspective.yfov, camera.aspect = c.perspective.aspectRatio;
+            camera.znear = c.perspective.znear, camera.zfar = c.perspective.zfar;
+        } else {
+            camera.xmag = c.orthographic.xmag, camera.ymag = c.orthographic.ymag;
+            camera.znear = c.orthographic.znear, camera.zfar = c.orthographic.zfar;
+        }
+        scene_.cameras.push_back(std::move(camera));
+    }
+
+    const Document& document_;
+    const SceneOptions& options_;
+    Warnings& warnings_;
+    Scene scene_;
+    tinygltf::Model model_;
+    Budget budget_;
+    std::uint64_t instanced_left_;
+    Buffers buffers_;
+    Accessors accessors_;
+    Materials materials_;
+    std::map<int, std::vector<Drawable>> drawables_;
+    std::map<std::string, int> camera_names_;
+};
+
+struct Source {
+    Bytes bytes;
+    std::string file, name;
+    std::optional<std::filesystem::path> folder;
+};
+
+Scene load(const Source& source, const SceneOptions& options, const GltfLimits& limits) {
+    const FloatEnvironment environment;
+    const Container container = split_container(source.bytes, source.file);
+    const Document document{source.file, parse_json(container.json, source.file), container.bin, source.folder,
+                            source.bytes.size()};
+    Warnings warnings;
+    check_document(document.root(), warnings);
+    Scene scene = SceneBuilder{document, options, limits, warnings}.build();
+    scene.name = source.name;
+    for (const JsonAt& used : document.root().elements("extensionsUsed")) scene.extensions.push_back(used.string());
+    scene.warnings = warnings.sentences();
+    return scene;
+}
+
+}  // namespace
+
+Scene load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name, const SceneOptions& options,
+                      const GltfLimits& limits) {
+    return load({bytes, name, name, std::nullopt}, options, limits);
+}
+
+Scene load_gltf(const std::string& path, const SceneOptions& options) {
+    const std::filesystem::path file{path};
+    const std::vector<std::byte> bytes = read_file(file, {path, "the file"});
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    return load({bytes, path, file.filename().string(), folder}, options, {});
+}
+
+}  // namespace strata::scenes

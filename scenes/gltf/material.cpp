@@ -1,0 +1,154 @@
+// scenes/gltf/material.cpp - see material.h.
+#include "scenes/gltf/material.h"
+
+#include <algorithm>
+
+#include "rasterizer/numerics.h"
+#include "scenes/elementary.h"
+#include "scenes/gltf/uri.h"
+#include "scenes/image_decode.h"
+#include "scenes/srgb_encode.h"
+
+namespace strata::scenes {
+namespace {
+
+using pipeline::AlphaMode;
+
+AlphaMode alpha_mode(const std::string& name) {
+    if (name == "MASK") return AlphaMode::mask;
+    return name == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+}
+
+pipeline::TextureWrap wrap(int code) {
+    if (code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return pipeline::TextureWrap::clamp_to_edge;
+    return code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? pipeline::TextureWrap::mirrored_repeat
+                                                         : pipeline::TextureWrap::repeat;
+}
+
+// From the checked JSON: tinygltf keeps whole numbers of extensions as int, which would cut large ones.
+std::optional<TextureTransform> texture_transform(const JsonAt& info) {
+    const auto extensions = info.find("extensions");
+    const auto at = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
+    if (!at) return std::nullopt;
+    TextureTransform t;
+    if (const auto offset = at->find("offset")) t.offset_u = offset->json()[0], t.offset_v = offset->json()[1];
+    if (const auto scale = at->find("scale")) t.scale_u = scale->json()[0], t.scale_v = scale->json()[1];
+    if (const auto rotation = at->find("rotation"))
+        t.cosine = cos(rotation->number()), t.sine = sin(rotation->number());
+    return t;
+}
+
+int texcoord_set(const JsonAt& info, int written) {
+    const auto extensions = info.find("extensions");
+    const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
+    const auto replaced = transform ? transform->find("texCoord") : std::nullopt;
+    return replaced ? replaced->json().get<int>() : written;
+}
+
+void make_opaque(std::vector<std::uint8_t>& texels) {
+    for (std::size_t i = 3; i < texels.size(); i += 4) texels[i] = 255;
+}
+
+}  // namespace
+
+pipeline::Vec2 TextureTransform::apply(pipeline::Vec2 uv) const noexcept {
+    const double u = scale_u * double{uv[0]}, v = scale_v * double{uv[1]};
+    return {static_cast<float>(offset_u + (cosine * u + sine * v)),
+            static_cast<float>(offset_v + (cosine * v - sine * u))};
+}
+
+pipeline::Rgba frame_color(const pipeline::Rgba& linear, pipeline::ColorSpace space) {
+    pipeline::Rgba color = linear;
+    for (float& channel : color) channel = std::clamp(channel, 0.0f, 1.0f);
+    return from_linear(color, space);
+}
+
+const LoadedMaterial& Materials::operator[](int material) {
+    const auto found = materials_.find(material);
+    return found != materials_.end() ? found->second : materials_.emplace(material, load(material)).first->second;
+}
+
+LoadedMaterial Materials::load(int material) {
+    LoadedMaterial loaded;
+    pipeline::Material made;
+    made.name = "default";
+    if (material >= 0) read(static_cast<std::size_t>(material), made, loaded);
+    loaded.is_opaque = made.alpha_mode == AlphaMode::opaque;
+    if (loaded.is_opaque) made.front[3] = 1;
+    made.front = made.back = frame_color(made.front, c_.options.color_space);
+    loaded.is_unlit = made.unlit = made.unlit || !c_.options.light;
+    loaded.index = static_cast<std::uint32_t>(c_.list.materials.size());
+    c_.list.materials.push_back(std::move(made));
+    return loaded;
+}
+
+void Materials::read(std::size_t material, pipeline::Material& made, LoadedMaterial& loaded) {
+    const tinygltf::Material& m = c_.model.materials[material];
+    made.name = m.name.empty() ? "material " + std::to_string(material) : m.name;
+    made.alpha_mode = alpha_mode(m.alphaMode);
+    made.alpha_cutoff = static_cast<float>(std::min(m.alphaCutoff, 2.0));  // above 1 nothing passes
+    made.double_sided = m.doubleSided;
+    const auto& factor = m.pbrMetallicRoughness.baseColorFactor;
+    for (std::size_t i = 0; i < 4; ++i) made.front[i] = static_cast<float>(factor[i]);
+    const JsonAt at = c_.document.at("materials", material);
+    const float least = made.alpha_mode == AlphaMode::mask ? made.alpha_cutoff : 0x1p-149f;
+    if (made.alpha_mode != AlphaMode::opaque && made.front[3] < least)
+        c_.warnings.add(at.place().pointer, "its alpha is 0 or below its cutoff: nothing of it is drawn");
+    const auto extensions = at.find("extensions");
+    made.unlit = extensions && extensions->has("KHR_materials_unlit");
+    const tinygltf::TextureInfo& info = m.pbrMetallicRoughness.baseColorTexture;
+    if (info.index < 0) return;
+    const JsonAt info_at = at.member("pbrMetallicRoughness").member("baseColorTexture");
+    made.texture = texture(info.index, made.alpha_mode == AlphaMode::opaque);
+    loaded.texcoord_set = texcoord_set(info_at, info.texCoord);
+    loaded.transform = texture_transform(info_at);
+}
+
+int Materials::texture(int texture, bool is_opaque) {
+    const auto [known, is_new] =
+        textures_.emplace(std::pair{texture, is_opaque}, static_cast<int>(c_.list.textures.size()));
+    if (is_new)
+        c_.list.textures.push_back(load_texture(c_.model.textures[static_cast<std::size_t>(texture)], is_opaque));
+    return known->second;
+}
+
+pipeline::Texture Materials::load_texture(const tinygltf::Texture& texture, bool is_opaque) {
+    pipeline::Texture made;
+    made.name = texture.name;
+    if (texture.sampler >= 0) {
+        const tinygltf::Sampler& s = c_.model.samplers[static_cast<std::size_t>(texture.sampler)];
+        made.wrap_s = wrap(s.wrapS);
+        made.wrap_t = wrap(s.wrapT);
+        if (s.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) made.filter = pipeline::TextureFilter::nearest;
+        if (s.minFilter > TINYGLTF_TEXTURE_FILTER_LINEAR)
+            c_.warnings.add("/samplers/" + std::to_string(texture.sampler) + "/minFilter",
+                            "mip levels are not emulated: magFilter is used");
+    }
+    made.decode_srgb = c_.options.color_space == pipeline::ColorSpace::linear;
+    made.texels = load_image(texture.source, made);
+    if (is_opaque) make_opaque(made.texels);
+    return made;
+}
+
+std::vector<std::uint8_t> Materials::load_image(int image, pipeline::Texture& into) {
+    const JsonAt at = c_.document.at("images", static_cast<std::size_t>(image));
+    if (const auto name = at.find("name"); name && into.name.empty()) into.name = name->string();
+    const auto uri = at.find("uri");
+    const Resource held =
+        uri ? read_uri(uri->json().get_ref<const std::string&>(), c_.document.folder, uri->place()) : Resource{};
+    const Bytes bytes =
+        uri ? Bytes{held.bytes} : c_.buffers.view(at.member("bufferView").index(c_.model.bufferViews.size()));
+    const Place place = uri ? uri->place() : at.place();
+    const ImageHeader header = read_image_header(bytes, place);
+    const std::string found = header.kind == ImageKind::png ? "image/png" : "image/jpeg";
+    const auto media_type = at.find("mimeType");
+    for (const std::string& said :
+         {media_type ? media_type->string() : found, held.media_type.empty() ? found : held.media_type})
+        if (said != found) place.fail("IMAGE_MIME_TYPE_INVALID", "data of type " + in_quotes(said), found);
+    c_.budget.pay_texels(std::uint64_t{header.width} * header.height, place);
+    into.width = static_cast<int>(header.width);
+    into.height = static_cast<int>(header.height);
+    return decode_image(bytes, header, place);
+}
+
+}  // namespace strata::scenes

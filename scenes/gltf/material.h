@@ -1,0 +1,68 @@
+// scenes/gltf/material.h - glTF materials and textures to the machine's, in the frame's colour space.
+//
+// Rule     Factors are linear in glTF: r g b are encoded to sRGB once (encoded) or kept (linear); alpha is never
+// encoded.
+//          Texture codes stay as they are; the frame decodes them (linear) or not.
+//          OPAQUE means alpha 1 in factor, vertex colour and every texel, whatever the file stores there.
+//          Unlit if the material or SceneOptions says so. Wrap modes and the magnification filter come from the sampler
+//          (default: repeat, linear); the minification filter counts for nothing.
+// Source   glTF 2.0, 3.8.4 (samplers), 3.9.2, 3.9.4 (alpha coverage); KHR_materials_unlit; decisions.md 1.
+// Tests    tests/scenes/gltf_material_test.cpp
+#pragma once
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "scenes/gltf/buffers.h"
+#include "scenes/gltf/model.h"
+#include "scenes/gltf/warnings.h"
+#include "scenes/scene.h"
+
+namespace strata::scenes {
+
+// KHR_texture_transform: u' = ou + (cos (su u) + sin (sv v)), v' = ov + (cos (sv v) - sin (su u)): counter-clockwise as
+// seen with v downwards, as the extension's worked example and Khronos' viewer have it (the matrix printed in its
+// README is the transpose).
+struct TextureTransform {
+    double offset_u = 0, offset_v = 0, cosine = 1, sine = 0, scale_u = 1, scale_v = 1;
+    [[nodiscard]] pipeline::Vec2 apply(pipeline::Vec2 uv) const noexcept;
+};
+
+struct LoadedMaterial {
+    std::uint32_t index = 0;  // in DrawList::materials
+    bool is_opaque = true, is_unlit = false;
+    std::optional<int> texcoord_set;            // of the base colour texture, if there is one
+    std::optional<TextureTransform> transform;  // of the same
+};
+
+class Materials {
+  public:
+    struct Context {
+        const Document& document;
+        const tinygltf::Model& model;
+        Buffers& buffers;
+        Budget& budget;
+        Warnings& warnings;
+        const SceneOptions& options;
+        pipeline::DrawList& list;
+    };
+    explicit Materials(const Context& context) : c_{context} {}
+
+    const LoadedMaterial& operator[](int material);  // -1: glTF's default material
+
+  private:
+    [[nodiscard]] LoadedMaterial load(int material);
+    void read(std::size_t material, pipeline::Material& made, LoadedMaterial& loaded);
+    int texture(int texture, bool is_opaque);
+    [[nodiscard]] pipeline::Texture load_texture(const tinygltf::Texture& texture, bool is_opaque);
+    [[nodiscard]] std::vector<std::uint8_t> load_image(int image, pipeline::Texture& into);
+
+    Context c_;
+    std::map<int, LoadedMaterial> materials_;
+    std::map<std::pair<int, bool>, int> textures_;
+};
+
+// Linear r g b of the file in the frame's colour space, clamped to [0, 1].
+[[nodiscard]] pipeline::Rgba frame_color(const pipeline::Rgba& linear, pipeline::ColorSpace space);
+
+}  // namespace strata::scenes

@@ -1,0 +1,172 @@
+// scenes/gltf/mesh.cpp - see mesh.h.
+#include "scenes/gltf/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "rasterizer/numerics.h"
+
+namespace strata::scenes {
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+using pipeline::Vec3;
+
+// The vertices in drawing order: the index accessor's elements, or 0, 1, 2 ...
+Indices drawing_order(const PrimitiveSource& s, std::size_t vertex_count) {
+    if (s.primitive.indices < 0) {
+        s.budget.pay_elements(vertex_count, s.place);
+        Indices order(vertex_count);
+        std::iota(order.begin(), order.end(), 0u);
+        return order;
+    }
+    const AccessorReader& reader = s.accessors[s.primitive.indices];
+    s.budget.pay_elements(reader.count(), s.place);
+    Indices order(reader.count());
+    const Place place{s.place.file, "/accessors/" + std::to_string(s.primitive.indices)};
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::uint32_t index = order[i] = reader.index(i);
+        if (index < vertex_count && index != reader.restart_index()) continue;
+        const std::string found = std::to_string(index) + " at element " + std::to_string(i);
+        if (index == reader.restart_index())
+            place.fail("ACCESSOR_INDEX_PRIMITIVE_RESTART", "indices below the type's largest value", found);
+        place.fail("ACCESSOR_INDEX_OOB", "indices below " + std::to_string(vertex_count), found);
+    }
+    return order;
+}
+
+// Three corners a triangle. Vertices left over are ignored, as glTF asks.
+Indices corners(const Indices& order, int mode, const PrimitiveSource& s) {
+    const std::size_t n = order.size();
+    const bool is_list = mode == TINYGLTF_MODE_TRIANGLES;
+    if (n < 3 || (is_list && n % 3 != 0))
+        s.warnings.add(s.place.pointer, "vertices that make no whole triangle are ignored");
+    if (is_list) return {order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n - n % 3)};
+    Indices all;
+    if (n < 3) return all;
+    all.reserve(3 * (n - 2));
+    for (std::size_t i = 0; i + 2 < n; ++i) {
+        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+            all.insert(all.end(), {order[i + 1], order[i + 2], order[0]});
+        else
+            all.insert(all.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
+    }
+    return all;
+}
+
+// The vertices to read, and the corners as indices into them.
+struct Selection {
+    Indices vertices, indices;
+};
+
+Selection select_used(Indices corners) {
+    Indices used = corners;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (std::uint32_t& corner : corners)
+        corner = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), corner) - used.begin());
+    return {std::move(used), std::move(corners)};
+}
+
+Selection select_unshared(Indices corners) {
+    Indices indices(corners.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    return {std::move(corners), std::move(indices)};
+}
+
+Vec3 flat_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+    std::array<double, 3> u{}, v{};
+    for (std::size_t i = 0; i < 3; ++i) u[i] = double{b[i]} - double{a[i]}, v[i] = double{c[i]} - double{a[i]};
+    const std::array<double, 3> n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double length = std::sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
+    if (!(length > 0) || !std::isfinite(length)) return {0, 0, 1};
+    return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length), static_cast<float>(n[2] / length)};
+}
+
+std::vector<Vec3> flat_normals(const std::vector<Vec3>& positions) {  // unshared: three a triangle
+    std::vector<Vec3> normals;
+    normals.reserve(positions.size());
+    for (std::size_t i = 0; i < positions.size(); i += 3)
+        normals.insert(normals.end(), 3, flat_normal(positions[i], positions[i + 1], positions[i + 2]));
+    return normals;
+}
+
+// Calls take(vertex) for each selected vertex of the attribute and refuses what is not finite.
+template <class Take>
+void read_finite(const PrimitiveSource& s, const std::string& name, const Indices& vertices, Take&& take) {
+    const int accessor = s.primitive.attributes.at(name);
+    const AccessorReader& reader = s.accessors[accessor];
+    for (const std::uint32_t vertex : vertices) {
+        const std::array<float, 4> value = reader.element(vertex);
+        if (!std::all_of(value.begin(), value.end(), [](float f) { return std::isfinite(f); }))
+            Place{s.place.file, "/accessors/" + std::to_string(accessor)}.fail(
+                "ACCESSOR_INVALID_FLOAT", "finite numbers for " + name,
+                "NaN or infinity at element " + std::to_string(vertex));
+        take(value, reader.components());
+    }
+}
+
+std::vector<pipeline::Rgba> read_colors(const PrimitiveSource& s, const Indices& vertices) {
+    std::vector<pipeline::Rgba> colors;
+    colors.reserve(vertices.size());
+    bool is_clamped = false;
+    read_finite(s, "COLOR_0", vertices, [&](std::array<float, 4> value, std::size_t components) {
+        if (components == 3 || s.material.is_opaque) value[3] = 1;
+        is_clamped |= std::any_of(value.begin(), value.end(), [](float f) { return f < 0 || f > 1; });
+        colors.push_back(frame_color(value, s.color_space));
+    });
+    if (is_clamped) s.warnings.add(s.place.pointer, "vertex colours outside 0 to 1 are clamped");
+    return colors;
+}
+
+std::vector<pipeline::Vec2> read_texcoords(const PrimitiveSource& s, const Indices& vertices) {
+    std::vector<pipeline::Vec2> texcoords;
+    texcoords.reserve(vertices.size());
+    read_finite(s, "TEXCOORD_" + std::to_string(*s.material.texcoord_set), vertices,
+                [&](const std::array<float, 4>& value, std::size_t) {
+                    const pipeline::Vec2 written{value[0], value[1]};
+                    const pipeline::Vec2 uv = s.material.transform ? s.material.transform->apply(written) : written;
+                    if (!std::isfinite(uv[0]) || !std::isfinite(uv[1]))
+                        s.place.fail("VALUE_NOT_IN_RANGE", "transformed texture coordinates in range of binary32",
+                                     "some beyond it");
+                    texcoords.push_back(uv);
+                });
+    return texcoords;
+}
+
+}  // namespace
+
+std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
+    const int mode = s.primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : s.primitive.mode;
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        s.warnings.add(s.place.pointer, "points and lines are not drawn");
+        return std::nullopt;
+    }
+    const auto& attributes = s.primitive.attributes;
+    if (!attributes.contains("POSITION")) return std::nullopt;  // check.h has warned
+    const AccessorReader& positions = s.accessors[attributes.at("POSITION")];
+    Indices all = corners(drawing_order(s, positions.count()), mode, s);
+    if (all.empty()) return std::nullopt;
+
+    const bool is_flat = !s.material.is_unlit && !attributes.contains("NORMAL");
+    Selection selection = is_flat ? select_unshared(std::move(all)) : select_used(std::move(all));
+    pipeline::Mesh mesh;
+    mesh.indices = std::move(selection.indices);
+    mesh.positions.reserve(selection.vertices.size());
+    for (const std::uint32_t vertex : selection.vertices) {
+        const std::array<float, 4> p = positions.element(vertex);
+        mesh.positions.push_back({p[0], p[1], p[2]});
+    }
+    if (is_flat)
+        mesh.normals = flat_normals(mesh.positions);
+    else if (!s.material.is_unlit)
+        read_finite(s, "NORMAL", selection.vertices, [&](const std::array<float, 4>& n, std::size_t) {
+            mesh.normals.push_back({n[0], n[1], n[2]});
+        });
+    if (attributes.contains("COLOR_0")) mesh.colors = read_colors(s, selection.vertices);
+    if (s.material.texcoord_set) mesh.texcoords = read_texcoords(s, selection.vertices);
+    return mesh;
+}
+
+}  // namespace strata::scenes

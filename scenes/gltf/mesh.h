@@ -1,0 +1,31 @@
+// scenes/gltf/mesh.h - a glTF primitive to a mesh of triangles.
+//
+// Rule     Triangles take their corners in the order of glTF 3.7.2.1: strips (i, i+1+i%2, i+2-i%2), fans (i+1, i+2, 0).
+//          Vertices that no triangle names are left out; the others keep their order.
+//          Without NORMAL a lit primitive is flat: each triangle has vertices of its own, and their normal is the cross
+//          product of its sides, in binary64, normalised, rounded once. A triangle without area gets (0, 0, 1).
+//          Positions may be NaN or infinite (the rasterizer counts and drops them); other attributes may not.
+// Source   glTF 2.0, 3.7.2; KHR_mesh_quantization.
+// Tests    tests/scenes/gltf_mesh_test.cpp
+#pragma once
+#include <optional>
+
+#include "scenes/gltf/accessor.h"
+#include "scenes/gltf/material.h"
+
+namespace strata::scenes {
+
+struct PrimitiveSource {
+    const tinygltf::Primitive& primitive;
+    Place place;
+    const LoadedMaterial& material;
+    Accessors& accessors;
+    Budget& budget;
+    Warnings& warnings;
+    pipeline::ColorSpace color_space;
+};
+
+// Nothing if it holds no triangle.
+[[nodiscard]] std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& source);
+
+}  // namespace strata::scenes

@@ -1,0 +1,55 @@
+// scenes/gltf/model.cpp - see model.h.
+#include "scenes/gltf/model.h"
+
+namespace strata::scenes {
+namespace {
+
+void erase(Json& object, std::initializer_list<const char*> keys) {
+    for (const char* key : keys) object.erase(key);
+}
+
+void reduce_material(Json& material) {
+    erase(material, {"extras", "extensions", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"});
+    if (!material.contains("pbrMetallicRoughness")) return;
+    Json& pbr = material["pbrMetallicRoughness"];
+    erase(pbr, {"extras", "extensions", "metallicFactor", "roughnessFactor", "metallicRoughnessTexture"});
+    if (pbr.contains("baseColorTexture")) erase(pbr["baseColorTexture"], {"extras", "extensions"});
+}
+
+Json reduced(const Json& document) {
+    Json kept{{"asset", {{"version", "2.0"}}}};
+    for (const char* kind :
+         {"accessors", "bufferViews", "cameras", "materials", "meshes", "nodes", "samplers", "scenes", "textures"}) {
+        if (!document.contains(kind)) continue;
+        kept[kind] = document[kind];
+        for (Json& object : kept[kind]) {
+            if (kind == std::string_view("materials"))
+                reduce_material(object);
+            else
+                erase(object, {"extras", "extensions", "min", "max", "skin", "weights"});
+        }
+    }
+    if (kept.contains("meshes"))
+        for (Json& mesh : kept["meshes"])
+            for (Json& primitive : mesh["primitives"]) erase(primitive, {"extras", "extensions", "targets"});
+    if (kept.contains("cameras"))
+        for (Json& camera : kept["cameras"])
+            for (const char* type : {"perspective", "orthographic"})
+                if (camera.contains(type) && camera[type].is_object()) erase(camera[type], {"extras", "extensions"});
+    if (document.contains("scene")) kept["scene"] = document["scene"];
+    return kept;
+}
+
+}  // namespace
+
+tinygltf::Model to_model(const Document& document) {
+    const std::string text = reduced(document.json).dump();
+    tinygltf::Model model;
+    tinygltf::TinyGLTF parser;
+    std::string error, warning;
+    if (!parser.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned int>(text.size()), ""))
+        Place{document.file, ""}.fail("INVALID_JSON", "a document that tinygltf reads", in_quotes(error));
+    return model;
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,191 @@
+// Who runs what: the table of decisions.md 4, row by row, and the sentence of every refusal.
+#include <catch2/catch.hpp>
+
+#include "rasterizer/input_error.h"
+#include "rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::peeling::Outcome;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+
+FragmentScene one_fragment() {
+    FragmentScene scene{4, 4};
+    scene.pixels[5] = {{{0.25f, {1, 0, 0, 0.5f}}}, GivenFragment{0.5f, {0, 1, 0, 1}}};
+    return scene;
+}
+
+// The sentence of a refused run; empty if it ran.
+std::string sentence(const Machine& machine, const RenderOptions& options) {
+    const RenderResult result = render(one_fragment(), machine, options);
+    CHECK((result.outcome == Outcome::refused) == result.refusal.has_value());
+    if (!result.refusal) return "";
+    CHECK(result.frame.color.codes.empty());  // nothing half-made
+    return result.refusal->sentence(*find_profile(machine.profile));
+}
+
+std::string sentence(const Machine& machine) { return sentence(machine, options_for(one_fragment())); }
+
+const std::string no_float =
+    "profile geforce3 has no float render targets that blend (ARB_color_buffer_float); "
+    "use geforce8, geforce8_dx101 or ideal";
+const std::string no_programs =
+    "profile geforce3 has no fragment programs that discard after a compare (ARB_fragment_program); "
+    "use geforce8, geforce8_dx101 or ideal";
+
+}  // namespace
+
+TEST_CASE("the table of algorithms and profiles is that of decisions.md 4") {
+    const std::vector<std::string> geforce3{"unsorted", "painter", "depth_units", "a_buffer"};
+    const std::vector<std::string> geforce8{"unsorted", "painter",          "depth_units",  "front_to_back",
+                                            "dual",     "weighted_average", "weighted_sum", "a_buffer"};
+    for (const DeviceProfile& profile : builtin_profiles())
+        for (const auto& algorithm : strata::peeling::algorithms()) {
+            const auto& runs = profile.name == "geforce3" ? geforce3 : geforce8;
+            const bool everything = profile.name == "geforce8_dx101" || profile.name == "ideal";
+            const bool expected = everything || std::ranges::find(runs, algorithm.name) != runs.end();
+            INFO(algorithm.name << " on " << profile.name);
+            CHECK(sentence({profile.name, algorithm.name}).empty() == expected);
+        }
+}
+
+TEST_CASE("a refused algorithm names the first feature that is missing, its extension and who has it") {
+    CHECK(sentence({"geforce3", "front_to_back"}) == no_programs);
+    CHECK(sentence({"geforce3", "dual"}) == no_float);
+    CHECK(sentence({"geforce3", "weighted_average"}) == no_float);
+    CHECK(sentence({"geforce3", "weighted_sum"}) == no_float);
+    for (const std::string profile : {"geforce3", "geforce8"})
+        CHECK(sentence({profile, "dual_independent"}) ==
+              "profile " + profile +
+                  " has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101 or ideal");
+}
+
+TEST_CASE("depth formats that a device lacks are refused for every algorithm") {
+    const auto with_depth = [](const Machine& machine, DepthFormat format) {
+        RenderOptions options = options_for(one_fragment());
+        options.depth = format;
+        return sentence(machine, options);
+    };
+    const std::string d16 = " has no 16-bit depth buffers; use geforce3 or ideal";
+    for (const std::string profile : {"geforce8", "geforce8_dx101"})
+        for (const char* algorithm : {"unsorted", "front_to_back", "dual", "a_buffer"}) {
+            CHECK(with_depth({profile, algorithm}, DepthFormat::d16) == "profile " + profile + d16);
+            CHECK(with_depth({profile, algorithm}, DepthFormat::d24).empty());
+            CHECK(with_depth({profile, algorithm}, DepthFormat::d32f).empty());
+        }
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
+        CHECK(with_depth({"geforce3", "depth_units"}, format).empty());
+        CHECK(with_depth({"ideal", "dual"}, format).empty());
+    }
+    CHECK(
+        with_depth({"geforce3", "unsorted"}, DepthFormat::d32f) ==
+        "profile geforce3 has no float depth buffers (ARB_depth_buffer_float); use geforce8, geforce8_dx101 or ideal");
+}
+
+TEST_CASE("float colour on geforce3 is refused") {
+    RenderOptions options = options_for(one_fragment());
+    for (const Format format : {Format::rgba16f, Format::rgba32f}) {
+        options.color_format = format;
+        CHECK(sentence({"geforce3", "unsorted"}, options) == no_float);
+        CHECK(sentence({"geforce8", "unsorted"}, options).empty());
+    }
+}
+
+TEST_CASE("depth paths run where their machine exists, and those of a later issue are refused by name") {
+    using strata::rasterizer::DepthPath;
+    const auto with_path = [](const Machine& machine, DepthPath path) {
+        RenderOptions options = options_for(one_fragment());
+        options.depth_path = path;
+        return sentence(machine, options);
+    };
+    for (const char* profile : {"geforce3", "geforce8", "ideal"})
+        for (const DepthPath path : {DepthPath::float32, DepthPath::exact})
+            CHECK(with_path({profile, "depth_units"}, path).empty());
+    CHECK(with_path({"geforce3", "depth_units"}, DepthPath::window_z).empty());
+    for (const std::string profile : {"geforce8", "ideal"})
+        CHECK(with_path({profile, "depth_units"}, DepthPath::window_z) ==
+              "profile " + profile +
+                  " has no GeForce3's depth interpolator window_z; use --profile geforce3 with --depth d16 or d24");
+    CHECK(with_path({"geforce8", "dual"}, DepthPath::perspective_rq) ==
+          "profile geforce8 has no depth path perspective_rq yet; use window_z, float32 or exact");
+    CHECK(with_path({"geforce3", "depth_units"}, DepthPath::depth_replace) ==
+          "profile geforce3 has no depth path depth_replace yet (NV_texture_shader); use window_z, float32 or exact");
+    CHECK(with_path({"geforce8", "dual"}, DepthPath::float32_plane) ==
+          "profile geforce8 has no depth path float32_plane yet; use window_z, float32 or exact");
+}
+
+TEST_CASE("a viewport beyond the device's limit is refused before anything of its size is made") {
+    const auto with_size = [](const Machine& machine, int width, int height) {
+        RenderOptions options = options_for(one_fragment());
+        options.width = width;
+        options.height = height;
+        options.audit = options.nearest_depth = false;
+        return sentence(machine, options);
+    };
+    CHECK(with_size({"geforce3", "unsorted"}, 4096, 1).empty());
+    CHECK(with_size({"geforce3", "unsorted"}, 4097, 1) ==
+          "profile geforce3 has no viewport of 4097 x 1 pixels; use geforce8, geforce8_dx101 or ideal");
+    CHECK(with_size({"geforce8", "dual"}, 1, 8192).empty());
+    CHECK(with_size({"geforce8", "dual"}, 3, 8193) == "profile geforce8 has no viewport of 3 x 8193 pixels; use ideal");
+    CHECK(with_size({"ideal", "unsorted"}, 16384, 1).empty());
+}
+
+TEST_CASE("layers of an algorithm that composites on the fly are refused") {
+    RenderOptions options = options_for(one_fragment());
+    options.keep_layers = true;
+    CHECK(sentence({"geforce8", "dual"}, options) ==
+          "profile geforce8 has no layers in dual, which composites on the fly; use depth_units or front_to_back");
+    CHECK(sentence({"geforce8", "front_to_back"}, options).empty());
+    CHECK(sentence({"geforce3", "depth_units"}, options).empty());
+}
+
+TEST_CASE("a reversed depth range is refused by name, and depth clamping where the device has none") {
+    RenderOptions options = options_for(one_fragment());
+    options.raster.depth_clamp = true;
+    CHECK(sentence({"geforce8", "dual"}, options).empty());
+    DeviceProfile without = *find_profile("geforce8");
+    without.has_depth_clamp = false;
+    const DrawList list = draw_list(one_fragment());
+    strata::peeling::Renderer renderer{list, {}, without, options};
+    CHECK(renderer.render(*strata::peeling::find_algorithm("dual")).refusal->extension == "ARB_depth_clamp");
+    options.raster.depth_near = 1;
+    options.raster.depth_far = 0;
+    for (const auto& algorithm : strata::peeling::algorithms())
+        CHECK(sentence({"ideal", algorithm.name}, options) ==
+              "profile ideal has no peeling over a reversed depth range yet; use a depth range with near below far");
+}
+
+TEST_CASE("fragments of a refused run are refused with the same sentence") {
+    const DrawList list = draw_list(one_fragment());
+    strata::peeling::Renderer renderer{list, {}, *find_profile("geforce3"), options_for(one_fragment())};
+    CHECK(renderer.fragments(*strata::peeling::find_algorithm("unsorted")).size() == 1);
+    CHECK_THROWS_WITH(renderer.fragments(*strata::peeling::find_algorithm("dual")), no_float);
+}
+
+TEST_CASE("options that no profile could mean are input errors that name the option, what it takes and what it got") {
+    const auto message = [](auto change) -> std::string {
+        RenderOptions options = options_for(one_fragment());
+        change(options);
+        try {
+            static_cast<void>(render(one_fragment(), {"geforce8", "dual"}, options));
+        } catch (const strata::InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    CHECK(message([](RenderOptions& o) { o.width = 0; }) == "strata: --size: width: expected 1 to 16384, found 0");
+    CHECK(message([](RenderOptions& o) { o.height = 16385; }) ==
+          "strata: --size: height: expected 1 to 16384, found 16385");
+    CHECK(message([](RenderOptions& o) { o.tile_size = 24; }) ==
+          "strata: --tile: expected 8, 16, 32, 64 or 128, found 24");
+    CHECK(message([](RenderOptions& o) { o.threads = -1; }) == "strata: --threads: expected 0 to 1024, found -1");
+    CHECK(message([](RenderOptions& o) { o.max_passes = -1; }) ==
+          "strata: --max-passes: expected 0 to 1000000, found -1");
+    CHECK(message([](RenderOptions& o) { o.termination = {.rule = TerminationRule::fixed}; }) ==
+          "strata: --termination fixed: expected 1 to 1000000, found 0");  // it would never end
+    CHECK(message([](RenderOptions& o) { o.termination = {.rule = TerminationRule::ratio, .ratio = -0.5}; }) ==
+          "strata: --termination ratio: expected a number of at least 0, found -0.500000");
+}

@@ -1,0 +1,265 @@
+// The vertex stage against binary32 written out operation by operation, and what a frame's lists hold.
+#include "pipeline/prepare.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "frames.h"
+#include "tests/support/random_triangles.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::rasterizer::ClipVertex;
+
+// Multiples of 2^-10 below 4: products of three and their sums are exact in binary64, but not in binary32.
+Matrix random_matrix(Random& random) {
+    Matrix m{};
+    for (double& x : m) x = random_int(random, -4095, 4095) / 1024.0;
+    return m;
+}
+
+// Entry (row, column) of projection * view * model; exact in any order.
+double product(const View& view, const Matrix& model, std::size_t row, std::size_t column) {
+    double sum = 0;
+    for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t k = 0; k < 4; ++k)
+            sum += view.projection[4 * j + row] * view.view[4 * k + j] * model[4 * column + k];
+    return sum;
+}
+
+// clip[r] = ((m[r] x + m[4 + r] y) + m[8 + r] z) + m[12 + r], every operation rounded.
+float clip_coordinate(const View& view, const Matrix& model, std::size_t r, const Vec3& p) {
+    std::array<float, 4> m{};
+    for (std::size_t column = 0; column < 4; ++column) m[column] = static_cast<float>(product(view, model, r, column));
+    const float x = m[0] * p[0];
+    const float y = m[1] * p[1];
+    const float z = m[2] * p[2];
+    const float xy = x + y;
+    const float xyz = xy + z;
+    return xyz + m[3];
+}
+
+bool same(const ClipVertex& a, const ClipVertex& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w && a.front == b.front && a.back == b.back &&
+           a.texcoord == b.texcoord;
+}
+
+bool same(const strata::rasterizer::SetupTriangle& a, const strata::rasterizer::SetupTriangle& b) {
+    bool points = true;
+    for (std::size_t i = 0; i < 3; ++i) points = points && a.p[i].x == b.p[i].x && a.p[i].y == b.p[i].y;
+    return points && a.unsnapped == b.unsnapped && a.z == b.z && a.inverse_w == b.inverse_w &&
+           a.attribute == b.attribute && a.primitive == b.primitive && a.material == b.material &&
+           a.front_facing == b.front_facing;
+}
+
+// One triangle in the plane z = 0, counter-clockwise for a viewer at +z.
+DrawList one_triangle(const Material& material, const Matrix& model = identity) {
+    DrawList list;
+    list.meshes = {{.name = "",
+                    .positions = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0, 0.5f, 0}},
+                    .normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
+                    .colors = {},
+                    .texcoords = {},
+                    .indices = {0, 1, 2}}};
+    list.materials = {material};
+    list.instances = {{.mesh = 0, .material = 0, .model = model}};
+    return list;
+}
+
+// The light factor of a normal under a model and a view, in binary64.
+double light_factor(const Vec3& n, const Matrix& m, const Matrix& view) {
+    // Inverse transpose by Cramer's rule, up to the determinant: columns of cofactors.
+    std::array<double, 3> world{};
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+            world[r] += (m[4 * c1 + r1] * m[4 * c2 + r2] - m[4 * c2 + r1] * m[4 * c1 + r2]) * n[c];
+        }
+    const double length = std::sqrt(world[0] * world[0] + world[1] * world[1] + world[2] * world[2]);
+    const double towards = std::sqrt(view[2] * view[2] + view[6] * view[6] + view[10] * view[10]);
+    return 0.25 +
+           0.75 * std::fabs((world[0] * view[2] + world[1] * view[6] + world[2] * view[10]) / (length * towards));
+}
+
+}  // namespace
+
+TEST_CASE("vertices are multiplied by the matrix product, rounded once, with every operation rounded") {
+    Random random{501};
+    std::size_t wrong = 0;
+    for (int round = 0; round < 500; ++round) {
+        DrawList list = one_triangle({.name = "", .unlit = true}, random_matrix(random));
+        const View view{random_matrix(random), random_matrix(random)};
+        for (Vec3& p : list.meshes[0].positions)
+            for (float& x : p) x = random_float(random, -3, 3);
+        const auto soup = transform(list, view, {});
+        for (std::size_t i = 0; i < 3; ++i) {
+            const ClipVertex& v = soup.vertices[i];
+            const std::array found{v.x, v.y, v.z, v.w};
+            for (std::size_t r = 0; r < 4; ++r)
+                wrong +=
+                    found[r] != clip_coordinate(view, list.instances[0].model, r, list.meshes[0].positions[i]) ? 1 : 0;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("lighting is 1/4 + 3/4 |N.L| towards the eye, under any model matrix, and leaves alpha alone") {
+    Random random{502};
+    double worst = 0;
+    for (int round = 0; round < 500; ++round) {
+        DrawList list =
+            one_triangle({.name = "", .front = {1, 0.5f, 0, 0.75f}, .back = {0, 0, 1, 0.25f}}, random_matrix(random));
+        const View view{random_matrix(random), identity};
+        const Vec3 normal{random_float(random, -2, 2), random_float(random, -2, 2), random_float(random, -2, 2)};
+        list.meshes[0].normals.assign(3, normal);
+        const ClipVertex v = transform(list, view, {}).vertices[1];
+        const double expected = light_factor(normal, list.instances[0].model, view.view);
+        worst = std::max({worst, std::fabs(v.front[0] - expected), std::fabs(v.front[1] - 0.5 * expected),
+                          std::fabs(v.back[2] - expected)});
+        CHECK(std::array{v.front[2], v.front[3], v.back[0], v.back[3]} == std::array{0.0f, 0.75f, 0.0f, 0.25f});
+    }
+    CHECK(worst < 1e-5);
+}
+
+TEST_CASE(
+    "a surface that faces the eye or turns its back is fully lit, one seen edge-on a quarter, an unlit one not at "
+    "all") {
+    const auto red = [](const Vec3& normal, bool unlit) {
+        DrawList list = one_triangle({.name = "", .unlit = unlit});
+        list.meshes[0].normals.assign(3, normal);
+        return transform(list, {}, {}).vertices[0].front[0];
+    };
+    CHECK(red({0, 0, 3}, false) == 1.0f);
+    CHECK(red({0, 0, -0.5f}, false) == 1.0f);
+    CHECK(red({1, 2, 0}, false) == 0.25f);
+    CHECK(red({0, 0, 0}, false) == 0.25f);
+    CHECK(red({1, 0, 0}, true) == 1.0f);
+}
+
+TEST_CASE("vertex colours multiply the material's") {
+    DrawList list = one_triangle({.name = "", .front = {0.5f, 1, 0.25f, 0.5f}, .unlit = true});
+    list.meshes[0].colors = {{0.5f, 0.25f, 1, 0.5f}, {1, 1, 1, 1}, {0, 0, 0, 0}};
+    const auto soup = transform(list, {}, {});
+    CHECK(soup.vertices[0].front == Rgba{0.25f, 0.25f, 0.25f, 0.25f});
+    CHECK(soup.vertices[0].back == Rgba{0.5f, 0.25f, 1, 0.5f});
+}
+
+TEST_CASE("a mirrored instance turns its winding, and its front stays its front") {
+    const auto prepared = [](double x_scale, double y_scale) {
+        Matrix model = identity;
+        model[0] = x_scale;
+        model[5] = y_scale;
+        const DrawList list = one_triangle({.name = ""}, model);
+        strata::rasterizer::RasterState raster;  // culls back faces
+        raster.viewport = {0, 0, 16, 16};
+        return prepare(list, {}, raster, *find_profile("geforce8"), {});
+    };
+    for (const double y : {1.0, -1.0})
+        for (const double x : {1.0, -1.0}) {
+            const PreparedDraw draw = prepared(x, y);
+            REQUIRE(draw.geometry.triangles.size() == 1);
+            CHECK(draw.geometry.triangles[0].front_facing);
+        }
+}
+
+TEST_CASE("painter's order is by the sum of clip z, far first, ties in submission order, whatever is not a number") {
+    Random random{503};
+    for (int round = 0; round < 50; ++round) {
+        strata::rasterizer::TriangleSoup soup;
+        for (std::uint32_t i = 0; i < 60; ++i) {
+            soup.vertices.push_back({.z = static_cast<float>(random_int(random, -3, 3))});
+            soup.indices.push_back(i);
+        }
+        const auto sum = [&](std::uint32_t t) {
+            return soup.vertices[3 * t].z + soup.vertices[3 * t + 1].z + soup.vertices[3 * t + 2].z;
+        };
+        const auto order = back_to_front_order(soup);
+        REQUIRE(order.size() == 20);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            std::size_t before = 0;  // those that must come earlier
+            for (std::uint32_t t = 0; t < 20; ++t)
+                before += sum(t) > sum(order[i]) || (sum(t) == sum(order[i]) && t < order[i]) ? 1 : 0;
+            wrong += before != i ? 1 : 0;
+        }
+        CHECK(wrong == 0);
+        soup.vertices[7].z = std::numeric_limits<float>::quiet_NaN();
+        soup.vertices[20].z = -std::numeric_limits<float>::infinity();
+        auto all = back_to_front_order(soup);
+        std::ranges::sort(all);
+        for (std::uint32_t t = 0; t < 20; ++t) CHECK(all[t] == t);
+    }
+}
+
+TEST_CASE("opaque and masked materials go to the opaque list, blended ones to the transparent") {
+    const TriangleScene scene = random_triangles(504, 8);  // materials: blend, blend, mask, opaque
+    const auto materials = [&](Selection selection) {
+        std::vector<std::uint32_t> found;
+        for (const auto& run : transform(scene.list, scene.view, {.selection = selection}).runs)
+            found.push_back(run.material);
+        return found;
+    };
+    CHECK(materials(Selection::all) == std::vector<std::uint32_t>{0, 1, 2, 3});
+    CHECK(materials(Selection::opaque) == std::vector<std::uint32_t>{2, 3});
+    CHECK(materials(Selection::transparent) == std::vector<std::uint32_t>{0, 1});
+}
+
+TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
+    for (const float scale : {1.0f, 0.5f, 0.25f})
+        for (const float alpha : {0.25f, 0.375f, 0.5f, 0.75f}) {
+            FragmentScene scene{4, 4};
+            scene.pixels[5].fragments = {{0.5f, {1, 1, 1, alpha}}};
+            DrawList list = draw_list(scene);
+            list.materials[0].alpha_mode = AlphaMode::mask;
+            list.materials[0].alpha_cutoff = 0.375f;
+            strata::rasterizer::RasterState raster;
+            raster.viewport = {0, 0, 4, 4};
+            const PreparedDraw draw =
+                prepare(list, {}, raster, *find_profile("ideal"), {.alpha_scale = scale, .tile_size = 8});
+            TestFrame test{scene, "ideal"};
+            test.frame.transparent = &draw;
+            test.frame.color_format = Format::rgba32f;
+            Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+            const auto fragments = region.capture(Bookkeeping::counted);
+            CHECK(fragments.size() == (alpha >= 0.375f ? 1 : 0));
+            for (const CapturedFragment& f : fragments) CHECK(f.color[3] == alpha * scale);
+        }
+}
+
+TEST_CASE("lists know whether a pass must shade: textures, and alphas that MASK tests") {
+    const auto needs = [](Selection selection) {
+        const TriangleScene scene = random_triangles(505, 8);
+        strata::rasterizer::RasterState raster;
+        raster.viewport = {0, 0, 16, 16};
+        const PreparedDraw draw =
+            prepare(scene.list, scene.view, raster, *find_profile("geforce8"), {.selection = selection});
+        return std::pair{draw.needs_texcoord, draw.needs_color};
+    };
+    CHECK(needs(Selection::opaque) == std::pair{true, true});
+    CHECK(needs(Selection::transparent) == std::pair{true, false});
+}
+
+TEST_CASE("vertices, triangles and bins do not depend on the number of threads") {
+    TriangleScene scene = random_triangles(506, 6000);  // several chunks of vertices
+    strata::rasterizer::RasterState raster;
+    raster.viewport = {0, 0, 64, 64};
+    const auto prepared = [&](int threads) {
+        return prepare(scene.list, scene.view, raster, *find_profile("geforce8"),
+                       {.sort_back_to_front = true, .threads = threads});
+    };
+    const PreparedDraw one = prepared(1);
+    REQUIRE(one.geometry.triangles.size() > 5000);
+    const auto vertices = transform(scene.list, scene.view, {.threads = 1}).vertices;
+    for (const int threads : {2, 4, 0}) {
+        const PreparedDraw other = prepared(threads);
+        CHECK(std::ranges::equal(transform(scene.list, scene.view, {.threads = threads}).vertices, vertices,
+                                 [](const ClipVertex& a, const ClipVertex& b) { return same(a, b); }));
+        CHECK(std::ranges::equal(other.geometry.triangles, one.geometry.triangles,
+                                 [](const auto& a, const auto& b) { return same(a, b); }));
+        CHECK(other.geometry.bin_triangles == one.geometry.bin_triangles);
+        CHECK(other.geometry.counters == one.geometry.counters);
+    }
+}
