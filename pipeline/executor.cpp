@@ -82,7 +82,8 @@ class FrameRun {
         kept.idle_layers = region.idle_layers();
         kept.fragments += region.fragments_drawn();
         ++kept.runs;
-        if (progress_) progress_(static_cast<double>(++finished_) / static_cast<double>(regions_.size()));
+        if (progress_)  // runs again count as well: never more than the whole
+            progress_(std::min(1.0, static_cast<double>(++finished_) / static_cast<double>(regions_.size())));
     }
 
     void run(const std::vector<std::size_t>& which, const std::vector<bool>& script) {

@@ -103,7 +103,8 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
     const VertexStage stage{mesh, material, to_binary32(multiply(multiply(view.projection, view.view), instance.model)),
-                            normal_matrix(instance.model), light_direction(view.view), options.alpha_scale};
+                            normal_matrix(instance.model), light_direction(view.view),
+                            material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
     const std::size_t base = soup.vertices.size();
     soup.vertices.resize(base + mesh.positions.size());
     constexpr std::size_t chunk = 4096;
@@ -123,8 +124,9 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
     MaterialStage stage;
     if (material.texture >= 0) stage.texture = &list.textures[static_cast<std::size_t>(material.texture)];
-    if (material.alpha_mode == AlphaMode::mask)
-        stage.mask = {.enabled = true, .func = CompareFunc::gequal, .ref = material.alpha_cutoff * alpha_scale};
+    if (material.alpha_mode != AlphaMode::mask) return stage;
+    stage.mask = {.enabled = true, .func = CompareFunc::gequal, .ref = material.alpha_cutoff};
+    stage.alpha_scale = alpha_scale;
     return stage;
 }
 

@@ -21,6 +21,7 @@ namespace strata::pipeline {
 struct MaterialStage {
     const Texture* texture = nullptr;  // into the draw list, which must outlive this
     AlphaTest mask;                    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha
+    float alpha_scale = 1.0f;          // of what MASK keeps: after the test, so that it cuts at the material's own alpha
 };
 
 struct PreparedDraw {
@@ -34,7 +35,7 @@ enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: al
 
 struct PrepareOptions {
     Selection selection = Selection::all;
-    float alpha_scale = 1.0f;     // --alpha: every alpha times this; cutoffs too, so that MASK cuts at the material's own alpha
+    float alpha_scale = 1.0f;     // --alpha: every alpha times this, at the vertex; a MASK material's after its test
     bool sort_back_to_front = false;  // painter: triangles by centroid, far first, ties in submission order
     int tile_size = 32;
     int threads = 0;

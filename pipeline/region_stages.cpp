@@ -119,6 +119,7 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
     const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
     alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
     record().counters.alpha_killed += static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.color[3][i] *= material.alpha_scale;
 }
 
 void Region::load(const PassState& state, const FragmentBatch& batch) {

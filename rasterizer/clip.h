@@ -1,13 +1,12 @@
 // rasterizer/clip.h - homogeneous clipping of a triangle to what can be projected and what the state keeps.
 //
 // Rule     Planes in this order: w >= 2^-64; near and far (not with depth clamp or per-fragment z clip); the guard band
-// in x and
-//          y; the user's planes. A side that crosses a plane gets one new corner, computed from its inside end I to its
-//          outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64, each
-//          component rounded once to binary32. So two triangles that share a side share its new corners to the bit, and
-//          equal values stay equal.
+//          in x and y; the user's planes. A side that crosses a plane gets one new corner, computed from its inside end
+//          I to its outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64,
+//          each component rounded once to binary32. So two triangles that share a side share its new corners to the
+//          bit, and equal values stay equal.
 // Source   Sutherland and Hodgman 1974; GL 2.1 2.12; hardware.md 1. The w bound is ours [A]: 1 / w and u / w stay
-// finite. Tests    tests/rasterizer/clip_test.cpp
+//          finite. Tests    tests/rasterizer/clip_test.cpp
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,11 +1,10 @@
 // rasterizer/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
 //
 // Rule     Vertex colours to 8 bits first (nearest, a half up). Weights b as in cut_weight.h; the vertex whose b has
-// the largest
-//          exponent takes the remainder 1 - (the two others), exactly; ties {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all
-//          -> v2. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2 c2 + 128) >>
-//          8, over 255 in binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2))
-//          in binary64, cut to 24 bits.
+//          the largest exponent takes the remainder 1 - (the two others), exactly; ties {0,1} -> v0, {0,2} -> v2, {1,2}
+//          -> v1, all -> v2. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2
+//          c2 + 128) >> 8, over 255 in binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0
+//          + p1) + p2)) in binary64, cut to 24 bits.
 // Source   nv2a-fragment.md R5, R6; nv2a-depth.md section 3.
 // Tests    tests/rasterizer/color_weights_test.cpp
 #pragma once

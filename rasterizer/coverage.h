@@ -2,7 +2,7 @@
 //
 // Rule     edge.h at every pixel centre; a row's covered pixels are one span because the triangle is convex.
 // Numbers  All integers: |E| <= 2^57 inside the guard band, a row of 2^16 pixels adds at most 2^16 * 2^28 * 2^12 =
-// 2^56. Tests    tests/rasterizer/coverage_test.cpp
+//          2^56. Tests    tests/rasterizer/coverage_test.cpp
 #pragma once
 #include <algorithm>
 #include <array>

@@ -1,43 +1,19 @@
-// rasterizer/exact_sum.h - sums of products of binary64 numbers without any rounding, for the rare fragment that needs
-// it.
+// rasterizer/exact_sum.h - sums of products of binary64 numbers without any rounding, for the rare fragment that needs it.
 //
-// Rule     An expansion: terms that do not overlap, smallest first; its sign is the sign of the last term that is not
-// zero. Source   Shewchuk 1997, "Adaptive precision floating-point arithmetic", 2.2-2.4; Dekker 1971 for the split
-// product. Numbers  Exact while no product overflows (|a b| < 2^996) and every product is a multiple of 2^-1074: one
-// factor is an integer. Tests    tests/rasterizer/exact_sum_test.cpp
+// Rule     An expansion: terms that do not overlap, smallest first; its sign is the sign of the last term that is not zero.
+// Source   Shewchuk 1997, "Adaptive precision floating-point arithmetic", 2.2-2.4.
+// Numbers  Exact while no product overflows (|a b| < 2^996) and every product is a multiple of 2^-1074: one factor is an
+//          integer.
+// Tests    tests/rasterizer/exact_sum_test.cpp
 #pragma once
 #include <array>
 #include <cassert>
 #include <cstdint>
 
-#include "rasterizer/numerics.h"
+#include "rasterizer/two_terms.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
-
-struct TwoTerms {
-    double high, low;  // high + low is the exact result, high its rounding
-};
-
-[[nodiscard]] constexpr TwoTerms two_sum(double a, double b) noexcept {
-    const double sum = a + b;
-    const double b_seen = sum - a;
-    const double a_seen = sum - b_seen;
-    return {sum, (a - a_seen) + (b - b_seen)};
-}
-
-[[nodiscard]] constexpr TwoTerms split(double a) noexcept {
-    const double c = 0x1.0000002p27 * a;
-    const double high = c - (c - a);
-    return {high, a - high};
-}
-
-[[nodiscard]] constexpr TwoTerms two_product(double a, double b) noexcept {
-    const double product = a * b;
-    const TwoTerms x = split(a), y = split(b);
-    const double rest = ((x.high * y.high - product) + x.high * y.low) + x.low * y.high;
-    return {product, rest + x.low * y.low};
-}
 
 // An integer as one binary64 number if it fits, else as two.
 [[nodiscard]] constexpr TwoTerms as_terms(std::int64_t value) noexcept {

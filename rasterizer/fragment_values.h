@@ -1,11 +1,10 @@
 // rasterizer/fragment_values.h - fills the arrays of a batch for the fragments of one triangle.
 //
 // Rule     Depth: shader_z is the exact plane in [0,1] units, rounded once, not clamped; code by the requested path,
-// clamped to the
-//          depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded once, divided by
-//          the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the same bits are that
-//          constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions, evaluated in binary64 and
-//          rounded once.
+//          clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded
+//          once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the
+//          same bits are that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions,
+//          evaluated in binary64 and rounded once.
 // Source   decisions.md 1; hardware.md 2 and 3.
 // Tests    tests/rasterizer/fragment_values_test.cpp
 #pragma once

@@ -2,8 +2,7 @@
 // includes this one.
 //
 // Rule     IEEE 754 binary32 and binary64, round to nearest even, each operation rounded once: no contraction into
-// fused
-//          multiply-add, no excess precision, no reassociation. Headers with inline arithmetic live in the inline
+//          fused multiply-add, no excess precision, no reassociation. Headers with inline arithmetic live in the inline
 //          namespace `strict`, so that a program compiled with other rules cannot silently share their code at link
 //          time.
 // Source   decisions.md 1 and 6; ISO C++ <cfenv>; the build carries the flags as strata::numerics.

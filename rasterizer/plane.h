@@ -4,13 +4,12 @@
 //          floor(V) or floor(V + 1/2). e_i edge values, A their sum; N and D turn one depth unit into another.
 // Source   decisions.md 1; design.md "Depth paths". The filter is that of exact geometric predicates (Shewchuk 1997).
 // Numbers  Filter: b_i = e_i r with r = 1/A, v = w0 + (b1 (w1 - w0) + b2 (w2 - w0)), w_i = v_i N / D, all in binary64.
-// With u = 2^-53
-//          and M = max |w_i|: w_i is within 2u M; a difference within 6u M and at most 2M; b_i within 4u b_i (rounded
-//          e, A, 1/A, product) plus, for A > 2^53, 4u absolute (e is stepped along the span in binary64); b1 + b2 <= 1.
-//          So the products are within 4u 2M + u 2M + 6u M + 8u 2M = 32u M, their sum adds 2u M, the last sum with w0's
-//          own error 3u M, together less than 40u M; terms of second order stay below u M. The filter takes 64u M =
-//          2^-47 M, and 2^-1000 for underflow. Where V - error and V + error round alike, V does too; otherwise
-//          exact_float and exact_code decide.
+//          With u = 2^-53 and M = max |w_i|: w_i is within 2u M; a difference within 6u M and at most 2M; b_i within 4u
+//          b_i (rounded e, A, 1/A, product) plus, for A > 2^53, 4u absolute (e is stepped along the span in binary64);
+//          b1 + b2 <= 1. So the products are within 4u 2M + u 2M + 6u M + 8u 2M = 32u M, their sum adds 2u M, the last
+//          sum with w0's own error 3u M, together less than 40u M; terms of second order stay below u M. The filter
+//          takes 64u M = 2^-47 M, and 2^-1000 for underflow. Where V - error and V + error round alike, V does too;
+//          otherwise exact_float and exact_code decide.
 // Tests    tests/rasterizer/plane_test.cpp
 #pragma once
 #include <algorithm>

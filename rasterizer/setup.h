@@ -1,10 +1,9 @@
 // rasterizer/setup.h - one source triangle becomes set-up triangles, or is dropped and counted.
 //
 // Rule     In this order: a vertex that is not finite drops the triangle, and so does a window position, 1 / w or u / w
-// that is not
-//          (non_finite); clipping (clipped, outside); per piece: zero area after snapping (degenerate), facing by the
-//          sign of the snapped area (culled), no pixel centre of the viewport in its bounding box (outside, if all its
-//          pieces go that way).
+//          that is not (non_finite); clipping (clipped, outside); per piece: zero area after snapping (degenerate),
+//          facing by the sign of the snapped area (culled), no pixel centre of the viewport in its bounding box
+//          (outside, if all its pieces go that way).
 // Source   hardware.md 1 and 13; D3D 11.3 15.11 (facing after snapping).
 // Tests    tests/rasterizer/setup_test.cpp
 #pragma once

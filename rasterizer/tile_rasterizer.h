@@ -1,8 +1,7 @@
 // rasterizer/tile_rasterizer.h - walks set-up triangles over a region and hands out batches of fragments.
 //
 // Rule     Fragments come in submission order per pixel; coverage and values are a function of the set-up triangle and
-// the
-//          pixel alone, never of the region, the tile size or the walk.
+//          the pixel alone, never of the region, the tile size or the walk.
 // Tests    tests/rasterizer/tile_rasterizer_test.cpp
 #pragma once
 #include <span>

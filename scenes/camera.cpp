@@ -12,20 +12,10 @@
 namespace strata::scenes {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-Vector difference(const Vector& a, const Vector& b) noexcept { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) noexcept { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) noexcept {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector normalized(const Vector& a) noexcept {
-    const double length = std::sqrt(dot(a, a));
-    return {a[0] / length, a[1] / length, a[2] / length};
-}
+Vector normalized(const Vector& a) noexcept { return a / std::sqrt(dot(a, a)); }
 
 pipeline::Matrix look_at_matrix(const Vector& eye, const Vector& center, const Vector& up) noexcept {
-    const Vector forward = normalized(difference(center, eye));
+    const Vector forward = normalized(center - eye);
     const Vector side = normalized(cross(forward, up));
     const Vector top = cross(side, forward);
     return {side[0], top[0], -forward[0], 0, side[1],         top[1],         -forward[1],       0,
@@ -73,8 +63,9 @@ struct Sphere {
 Sphere bounding_sphere(const Bounds& bounds) noexcept {
     if (bounds.is_empty()) return {};
     Sphere sphere;
-    for (std::size_t i = 0; i < 3; ++i) sphere.center[i] = (bounds.lo[i] + bounds.hi[i]) * 0.5;
-    const Vector half = difference(bounds.hi, sphere.center);
+    const Vector lo{bounds.lo[0], bounds.lo[1], bounds.lo[2]}, hi{bounds.hi[0], bounds.hi[1], bounds.hi[2]};
+    sphere.center = (lo + hi) * 0.5;
+    const Vector half = hi - sphere.center;
     sphere.radius = std::sqrt(dot(half, half));
     if (sphere.radius == 0) sphere.radius = 1;
     return sphere;
@@ -96,8 +87,7 @@ pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double e
     const Vector outward{cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth)};
     const auto [center, radius] = bounding_sphere(bounds);
 
-    LookAt camera{.center = center, .near = 1.4 * radius, .far = 3.6 * radius};
-    for (std::size_t i = 0; i < 3; ++i) camera.eye[i] = center[i] + 2.5 * radius * outward[i];
+    LookAt camera{.eye = center + 2.5 * radius * outward, .center = center, .near = 1.4 * radius, .far = 3.6 * radius};
     if (std::abs(outward[1]) > 0x1.ffffffffffp-1) {  // within 10^-6 radians of a pole: +y is the line of sight
         const double sign = outward[1] > 0 ? -1 : 1;
         camera.up = {sign * sin(azimuth), 0, sign * cos(azimuth)};

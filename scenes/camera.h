@@ -7,11 +7,12 @@
 #include <string>
 
 #include "scenes/scene.h"
+#include "scenes/vector.h"
 
 namespace strata::scenes {
 
 struct LookAt {  // what a camera file of the first form says
-    std::array<double, 3> eye{0, 0, 1}, center{0, 0, 0}, up{0, 1, 0};
+    Vector eye{0, 0, 1}, center{0, 0, 0}, up{0, 1, 0};
     double fovy_degrees = 45, near = 0.1, far = 100;
 };
 

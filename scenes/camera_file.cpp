@@ -91,25 +91,23 @@ void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
     }
 }
 
-// |forward x up| relative to both lengths, squared.
-double squared_sine(const std::array<double, 3>& a, const std::array<double, 3>& b) noexcept {
-    double aa = 0, bb = 0, ab = 0;
-    std::array<double, 3> cross{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        aa += a[i] * a[i];
-        bb += b[i] * b[i];
-        cross[i] = a[j] * b[k] - a[k] * b[j];
-    }
-    for (std::size_t i = 0; i < 3; ++i) ab += cross[i] * cross[i];
-    return aa > 0 && bb > 0 ? ab / aa / bb : 0;
+// |a x b| relative to both lengths, squared.
+double squared_sine(const Vector& a, const Vector& b) noexcept {
+    const double aa = dot(a, a), bb = dot(b, b);
+    const Vector c = cross(a, b);
+    return aa > 0 && bb > 0 ? dot(c, c) / aa / bb : 0;
+}
+
+Vector vector(const Place& place) {
+    const auto [x, y, z] = numbers<3>(place);
+    return {x, y, z};
 }
 
 LookAt parse_look_at(const Place& camera) {
     check_keys(camera, look_at_keys);
-    const LookAt result{.eye = numbers<3>(camera["eye"]),
-                        .center = numbers<3>(camera["center"]),
-                        .up = numbers<3>(camera["up"]),
+    const LookAt result{.eye = vector(camera["eye"]),
+                        .center = vector(camera["center"]),
+                        .up = vector(camera["up"]),
                         .fovy_degrees = number(camera["fovy_degrees"]),
                         .near = number(camera["near"]),
                         .far = number(camera["far"])};
@@ -118,9 +116,7 @@ LookAt parse_look_at(const Place& camera) {
     if (!(result.near > 0)) camera["near"].fail("a distance above 0");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
     if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
-    std::array<double, 3> forward{};
-    for (std::size_t i = 0; i < 3; ++i) forward[i] = result.center[i] - result.eye[i];
-    if (!(squared_sine(forward, result.up) > 1e-24)) camera["up"].fail("a direction across the line of sight");
+    if (!(squared_sine(result.center - result.eye, result.up) > 1e-24)) camera["up"].fail("a direction across the line of sight");
     return result;
 }
 

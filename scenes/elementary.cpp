@@ -74,13 +74,13 @@ DoubleDouble logarithm(double x) noexcept {
         power = mul(power, square);
         sum = add(sum, div(power, {static_cast<double>(n), 0}));
     }
-    return add(mul(ln2, {static_cast<double>(exponent), 0}), {2 * sum.hi, 2 * sum.lo});
+    return add(mul(ln2, {static_cast<double>(exponent), 0}), {2 * sum.high, 2 * sum.low});
 }
 
 double exponential(DoubleDouble x) noexcept {
-    if (x.hi > 709.79) return infinity;
-    if (x.hi < -745.2) return 0;
-    const double k = std::floor(x.hi * 0x1.71547652b82fep+0 + 0.5);
+    if (x.high > 709.79) return infinity;
+    if (x.high < -745.2) return 0;
+    const double k = std::floor(x.high * 0x1.71547652b82fep+0 + 0.5);
     const DoubleDouble rest = add(x, negated(mul(ln2, {k, 0})));
     DoubleDouble term{1, 0}, sum{1, 0};
     for (int n = 1; n <= 25; ++n) {  // 0.35^26 / 26! < 2^-126
@@ -88,23 +88,23 @@ double exponential(DoubleDouble x) noexcept {
         sum = add(sum, term);
     }
     const int exponent = static_cast<int>(k), half = exponent / 2;
-    return sum.hi * power_of_two(half) * power_of_two(exponent - half);
+    return sum.high * power_of_two(half) * power_of_two(exponent - half);
 }
 
 }  // namespace
 
 double sin(double radians) noexcept {
     if (radians == 0) return radians;  // keeps the sign of zero
-    return in_range(radians) ? sine(reduce(radians)).hi : nan;
+    return in_range(radians) ? sine(reduce(radians)).high : nan;
 }
 
-double cos(double radians) noexcept { return in_range(radians) ? cosine(reduce(radians)).hi : nan; }
+double cos(double radians) noexcept { return in_range(radians) ? cosine(reduce(radians)).high : nan; }
 
 double tan(double radians) noexcept {
     if (radians == 0) return radians;
     if (!in_range(radians)) return nan;
     const Reduced angle = reduce(radians);
-    return div(sine(angle), cosine(angle)).hi;
+    return div(sine(angle), cosine(angle)).high;
 }
 
 double pow(double base, double exponent) noexcept {
@@ -112,8 +112,8 @@ double pow(double base, double exponent) noexcept {
     if (exponent == 0 || base == 1) return 1;
     if (base == 0) return exponent > 0 ? 0 : infinity;
     const DoubleDouble log = logarithm(base);
-    if (exponent * log.hi > 710) return infinity;  // before the exact product, which must not overflow
-    if (exponent * log.hi < -746) return 0;
+    if (exponent * log.high > 710) return infinity;  // before the exact product, which must not overflow
+    if (exponent * log.high < -746) return 0;
     return exponential(mul(log, {exponent, 0}));
 }
 

@@ -1,13 +1,12 @@
 // scenes/image_decode.h - a PNG or JPEG in memory to 8-bit RGBA.
 //
 // Rule     PNG by OpenImageIO's reader "png", JPEG by "jpeg", never by a guess; alpha stays straight, colour profiles
-// and gamma
-//          chunks change nothing. 16-bit PNG codes become the nearest 8-bit ones: (c + 128) / 257 rounded down. Grey is
-//          copied to r, g, b; missing alpha is 255. The header is read here first: a side is at most 16384 texels, and
-//          the data must be long enough for the size that the header claims (deflate packs at most 1032 to 1; a JPEG
-//          block takes at least one bit).
+//          and gamma chunks change nothing. 16-bit PNG codes become the nearest 8-bit ones: (c + 128) / 257 rounded
+//          down. Grey is copied to r, g, b; missing alpha is 255. The header is read here first: a side is at most
+//          16384 texels, and the data must be long enough for the size that the header claims (deflate packs at most
+//          1032 to 1; a JPEG block takes at least one bit).
 // Source   glTF 2.0, 3.8.3; PNG 11.2.2; JPEG: ITU T.81, B.2. JPEG's own arithmetic is libjpeg-turbo's (integer, slow
-// but exact). Tests    tests/scenes/gltf_image_test.cpp
+//          but exact). Tests    tests/scenes/gltf_image_test.cpp
 #pragma once
 #include <cstdint>
 #include <string>

@@ -2,15 +2,14 @@
 
 #include <cmath>
 
-#include "rasterizer/numerics.h"
 #include "scenes/bounds.h"
 #include "scenes/srgb_encode.h"
 #include "scenes/teapot_patches.h"
+#include "scenes/vector.h"
 
 namespace strata::scenes {
 namespace {
 
-using Vector = std::array<double, 3>;
 using Basis = std::array<double, 4>;
 
 // The cubic Bernstein polynomials at t = i / n. t and 1 - t are both quotients, so that walking an edge from its other
@@ -32,7 +31,7 @@ double weighted_sum(const Basis& w, double a, double b, double c, double d) noex
 
 Vector evaluate(const std::uint16_t (&patch)[16], const Basis& u, const Basis& v) noexcept {
     Vector result{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
         double row[4];
         for (std::size_t r = 0; r < 4; ++r) {
             row[r] = weighted_sum(v, teapot_points[patch[4 * r]][axis], teapot_points[patch[4 * r + 1]][axis],
@@ -54,10 +53,9 @@ Vector outward_normal(const std::uint16_t (&patch)[16], int i, int j, int n) noe
     const Basis du = bernstein_derivative(i, n), dv = bernstein_derivative(j, n);
     const Vector a = evaluate(patch, du, v);
     Vector b = evaluate(patch, u, dv);
-    if (b[0] * b[0] + b[1] * b[1] + b[2] * b[2] < 1e-20) b = evaluate(patch, du, dv);
-    const Vector c{b[1] * a[2] - b[2] * a[1], b[2] * a[0] - b[0] * a[2], b[0] * a[1] - b[1] * a[0]};
-    const double length = std::sqrt((c[0] * c[0] + c[1] * c[1]) + c[2] * c[2]);
-    return {c[0] / length, c[1] / length, c[2] / length};
+    if (dot(b, b) < 1e-20) b = evaluate(patch, du, dv);
+    const Vector c = cross(b, a);
+    return c / std::sqrt(dot(c, c));
 }
 
 void add_triangle(pipeline::Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -1,8 +1,8 @@
 // scenes/gltf/container.h - the outermost layer of a file: .glb chunks, or JSON text alone.
 //
 // Rule     A file that begins with "glTF" is a .glb: a 12-byte header, then chunks of which the first is JSON and the
-// second
-//          may be BIN; other chunks are passed over. Every length is compared with what is there before it is used.
+//          second may be BIN; other chunks are passed over. Every length is compared with what is there before it is
+//          used.
 // Source   glTF 2.0, 4.4 (GLB file format).
 // Tests    tests/scenes/gltf_bad_container_test.cpp: a small file cut at every length
 #pragma once

@@ -1,11 +1,10 @@
 // scenes/gltf/material.h - glTF materials and textures to the machine's, in the frame's colour space.
 //
 // Rule     Factors are linear in glTF: r g b are encoded to sRGB once (encoded) or kept (linear); alpha is never
-// encoded.
-//          Texture codes stay as they are; the frame decodes them (linear) or not.
-//          OPAQUE means alpha 1 in factor, vertex colour and every texel, whatever the file stores there.
-//          Unlit if the material or SceneOptions says so. Wrap modes and the magnification filter come from the sampler
-//          (default: repeat, linear); the minification filter counts for nothing.
+//          encoded. Texture codes stay as they are; the frame decodes them (linear) or not. OPAQUE means alpha 1 in
+//          factor, vertex colour and every texel, whatever the file stores there. Unlit if the material or SceneOptions
+//          says so. Wrap modes and the magnification filter come from the sampler (default: repeat, linear); the
+//          minification filter counts for nothing.
 // Source   glTF 2.0, 3.8.4 (samplers), 3.9.2, 3.9.4 (alpha coverage); KHR_materials_unlit; decisions.md 1.
 // Tests    tests/scenes/gltf_material_test.cpp
 #pragma once

@@ -4,35 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rasterizer/numerics.h"
+#include "scenes/vector.h"
 
 namespace strata::scenes {
 namespace {
 
 using pipeline::Matrix;
-using Vec = std::array<double, 3>;
+Vector column(const Matrix& m, std::size_t c) { return {m[4 * c], m[4 * c + 1], m[4 * c + 2]}; }
 
-Vec column(const Matrix& m, std::size_t c) { return {m[4 * c], m[4 * c + 1], m[4 * c + 2]}; }
-double dot(const Vec& a, const Vec& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-Vec cross(const Vec& a, const Vec& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vec unit(const Vec& v, const Place& place) {
+Vector unit(const Vector& v, const Place& place) {
     const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    const Vec scaled{v[0] / largest, v[1] / largest, v[2] / largest};  // so that no square over- or underflows
+    const Vector scaled = v / largest;  // so that no square over- or underflows
     const double length = std::sqrt(dot(scaled, scaled));
     if (!(largest > 0) || !std::isfinite(length))
         place.fail("VALUE_NOT_IN_RANGE", "a camera with a direction", "a transform that flattens it");
-    return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
+    return scaled / length;
 }
 
 // The quaternion x y z w as it is written: the check has allowed it to be off unit length by little.
-Matrix from_parts(const Vec& t, const std::array<double, 4>& q, const Vec& s) {
+Matrix from_parts(const std::array<double, 3>& t, const std::array<double, 4>& q, const std::array<double, 3>& s) {
     const auto [x, y, z, w] = q;
-    const Vec c0{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
-    const Vec c1{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
-    const Vec c2{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
+    const Vector c0{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
+    const Vector c1{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
+    const Vector c2{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
     return {c0[0] * s[0], c0[1] * s[0], c0[2] * s[0], 0, c1[0] * s[1], c1[1] * s[1], c1[2] * s[1], 0,
             c2[0] * s[2], c2[1] * s[2], c2[2] * s[2], 0, t[0],         t[1],         t[2],         1};
 }
@@ -80,11 +74,11 @@ std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<cons
 }
 
 Matrix view_of(const Matrix& world, const Place& place) {
-    const Vec z = unit(column(world, 2), place);
-    const Vec right = unit(column(world, 0), place);
+    const Vector z = unit(column(world, 2), place);
+    const Vector right = unit(column(world, 0), place);
     const double along = dot(right, z);
-    const Vec x = unit({right[0] - along * z[0], right[1] - along * z[1], right[2] - along * z[2]}, place);
-    const Vec y = cross(z, x), eye = column(world, 3);
+    const Vector x = unit(right - along * z, place);
+    const Vector y = cross(z, x), eye = column(world, 3);
     return {x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, -dot(x, eye), -dot(y, eye), -dot(z, eye), 1};
 }
 

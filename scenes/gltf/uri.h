@@ -2,9 +2,8 @@
 // folder.
 //
 // Rule     No scheme but data:, no absolute path, no "..", no backslash, no query; what is left is percent-decoded,
-// links are
-//          followed, and the file at their end must be a regular one inside the folder of the scene.
-//          data: must be base64. Nothing is opened, and nothing allocated, before all this holds.
+//          links are followed, and the file at their end must be a regular one inside the folder of the scene. data:
+//          must be base64. Nothing is opened, and nothing allocated, before all this holds.
 // Source   glTF 2.0, 2.8 (URIs), 3.6.1.1; RFC 2397, RFC 3986, RFC 4648.
 // Tests    tests/scenes/gltf_bad_uri_test.cpp
 #pragma once

@@ -125,6 +125,24 @@ TEST_CASE("E14: a pass whose back layers all have alpha 0 ends the paper's loop 
     CHECK_FALSE(has_diagnostic(exact, Fault::early_end));
 }
 
+TEST_CASE("E14 spares a tile whose back layers have alpha 0 while another tile's have not") {
+    FragmentScene scene{16, 16};  // four tiles of 8 x 8
+    const Rgba white{1, 1, 1, 0.5f};
+    scene.pixels[0].fragments = {{0.125f, white}, {0.25f, {1, 0, 0, 0.5f}}, {0.5f, {1, 1, 1, 0}}};
+    scene.pixels[255].fragments = {{0.125f, white}, {0.25f, white}, {0.375f, white}, {0.5f, white}};
+    RenderOptions options = options_for(scene);
+    options.tile_size = 8;
+    const RenderResult exact = render(scene, {"geforce8", "dual"}, options);
+    options.termination.rule = TerminationRule::paper;
+    for (const auto execution : {strata::pipeline::Execution::literal, strata::pipeline::Execution::tiled}) {
+        options.execution = execution;
+        const RenderResult paper = render(scene, {"geforce8", "dual"}, options);
+        CHECK(paper.frame.color == exact.frame.color);
+        CHECK(paper.frame.passes.geometry == 4);
+        CHECK(paper.audit.order_errors == 0u);
+    }
+}
+
 TEST_CASE("front_to_back stopped by max_passes shows exactly the nearest layers and says that it is truncated") {
     const FragmentScene scene = stairs(7);
     for (int k = 1; k <= 9; ++k) {

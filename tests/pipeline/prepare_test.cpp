@@ -208,8 +208,8 @@ TEST_CASE("opaque and masked materials go to the opaque list, blended ones to th
 }
 
 TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
-    for (const float scale : {1.0f, 0.5f, 0.25f})
-        for (const float alpha : {0.25f, 0.375f, 0.5f, 0.75f}) {
+    for (const float scale : {1.0f, 0.5f, 0.1f})
+        for (const float alpha : {0.25f, 0.374f, 0.375f, 0.5f, 0.75f}) {  // .374 and .375 are codes 95 and 96
             FragmentScene scene{4, 4};
             scene.pixels[5].fragments = {{0.5f, {1, 1, 1, alpha}}};
             DrawList list = draw_list(scene);
@@ -221,11 +221,13 @@ TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
                 prepare(list, {}, raster, *find_profile("ideal"), {.alpha_scale = scale, .tile_size = 8});
             TestFrame test{scene, "ideal"};
             test.frame.transparent = &draw;
-            test.frame.color_format = Format::rgba32f;
-            Region region{test.frame, test.frame.rect(), 0, Extent::frame};
-            const auto fragments = region.capture(Bookkeeping::counted);
-            CHECK(fragments.size() == (alpha >= 0.375f ? 1 : 0));
-            for (const CapturedFragment& f : fragments) CHECK(f.color[3] == alpha * scale);
+            for (const Format format : {Format::rgba8, Format::rgba32f}) {
+                test.frame.color_format = format;
+                Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+                const auto fragments = region.capture(Bookkeeping::counted);
+                CHECK(fragments.size() == (alpha >= 0.375f ? 1 : 0));
+                for (const CapturedFragment& f : fragments) CHECK(f.color[3] == alpha * scale);
+            }
         }
 }
 

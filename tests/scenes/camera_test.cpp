@@ -47,9 +47,9 @@ TEST_CASE("look_at puts the eye at the origin, the centre on -z and up into the 
     for (int i = 0; i < 200; ++i) {
         LookAt camera;
         for (auto* v : {&camera.eye, &camera.center, &camera.up})
-            for (double& x : *v) x = unit(random);
+            for (int k = 0; k < 3; ++k) (*v)[k] = unit(random);
         double distance = 0;
-        for (std::size_t k = 0; k < 3; ++k) distance += std::pow(camera.center[k] - camera.eye[k], 2);
+        for (int k = 0; k < 3; ++k) distance += std::pow(camera.center[k] - camera.eye[k], 2);
         const Matrix m = look_at(camera, 1).view;
         check_close(m * Point{camera.eye[0], camera.eye[1], camera.eye[2], 1}, {0, 0, 0, 1});
         check_close(m * Point{camera.center[0], camera.center[1], camera.center[2], 1},

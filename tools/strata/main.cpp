@@ -1,7 +1,7 @@
 // tools/strata/main.cpp - the command: which subcommand runs, and what every failure looks like from outside.
 //
 // Rule     One line "strata: ..." on standard error and the exit status: 2 bad input or usage, 3 the system failed, 130
-// interrupted. Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
+//          interrupted. Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
 #include <cstdio>
 #include <filesystem>
 #include <ios>
