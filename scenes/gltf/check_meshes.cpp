@@ -86,7 +86,8 @@ struct MeshChecker {
             indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "an accessor of unsigned scalars");
         if (f.stride != 0)
             indices.fail("MESH_PRIMITIVE_INDICES_ACCESSOR_WITH_BYTESTRIDE", "a bufferView without byteStride");
-        if (!root.json()["accessors"][indices.index(accessors)].contains("bufferView"))
+        const std::size_t index = indices.index(accessors);
+        if (!root.json()["accessors"][index].contains("bufferView"))
             indices.fail("UNDEFINED_PROPERTY",
                          "an accessor with a bufferView");  // indices made of zeros: tinygltf has none
     }
@@ -95,7 +96,8 @@ struct MeshChecker {
     [[nodiscard]] std::optional<std::uint64_t> texcoord_set(const JsonAt& primitive) const {
         const auto material = primitive.find("material");
         if (!material) return std::nullopt;
-        const Json& m = root.json()["materials"][material->index(materials)];
+        const std::size_t index = material->index(materials);  // first: without it there may be no such key
+        const Json& m = root.json()["materials"][index];
         const Json::json_pointer info{"/pbrMetallicRoughness/baseColorTexture"};
         if (!m.contains(info)) return std::nullopt;
         const Json::json_pointer replaced{"/extensions/KHR_texture_transform/texCoord"};
