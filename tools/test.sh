@@ -32,20 +32,23 @@ quietly() {
     }
 }
 
+# The fast tests under the sanitizers, and a minute of fuzzing: one build by clang++, or by g++ without the fuzzing.
 sanitized() {
-    step "the fast tests under the address and undefined-behaviour sanitizers"
-    build asan rasterizer_test pipeline_test peeling_test scenes_test core_digests
-    quietly asan-tests ctest --test-dir build/asan -LE 'exhaustive|golden|command' -E NOT_BUILT --output-on-failure -j "$(nproc)"
-    quietly asan-golden ctest --test-dir build/asan -R 'golden.core_digests.(threads=2|together)' --output-on-failure
-}
-
-fuzz() {
-    if ! command -v clang++ >/dev/null; then
+    local preset=asan targets=(rasterizer_test pipeline_test peeling_test scenes_test core_digests)
+    local slow='NOT_BUILT|all 19,531 sequences|tiles, threads, effects and mistrust'  # a minute each under instrumentation
+    if command -v clang++ >/dev/null; then
+        preset=fuzz
+        targets+=(make_corpus load_render_fuzz)
+    fi
+    step "the fast tests under the address and undefined-behaviour sanitizers (preset $preset)"
+    build "$preset" "${targets[@]}"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz' -E "$slow" --output-on-failure -j "$(nproc)"
+    quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure
+    if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
     fi
     step "fuzzing the loader and the renderer with glTF bytes for a minute"
-    build fuzz make_corpus load_render_fuzz
     quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure
 }
 
@@ -85,6 +88,5 @@ tools/setup.sh
 step "building"
 build release
 sanitized
-fuzz
 step "all unit and golden tests"
 ctest --preset release -j "$(nproc)"
