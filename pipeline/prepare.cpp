@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "pipeline/matrix.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/numerics.h"
 #include "rasterizer/parallel.h"
@@ -11,17 +12,6 @@
 namespace strata::pipeline {
 
 namespace {
-
-Matrix multiply(const Matrix& a, const Matrix& b) {
-    Matrix product{};
-    for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 4; ++row) {
-            double sum = 0;
-            for (std::size_t k = 0; k < 4; ++k) sum += a[4 * k + row] * b[4 * column + k];
-            product[4 * column + row] = sum;
-        }
-    return product;
-}
 
 std::array<float, 16> to_binary32(const Matrix& m) {
     std::array<float, 16> rounded{};
@@ -102,7 +92,7 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
             rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
-    const VertexStage stage{mesh, material, to_binary32(multiply(multiply(view.projection, view.view), instance.model)),
+    const VertexStage stage{mesh, material, to_binary32(product(product(view.projection, view.view), instance.model)),
                             normal_matrix(instance.model), light_direction(view.view),
                             material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
     const std::size_t base = soup.vertices.size();

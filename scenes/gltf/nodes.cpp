@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipeline/matrix.h"
 #include "scenes/vector.h"
 
 namespace strata::scenes {
@@ -40,15 +41,6 @@ std::array<double, n> values_or(const std::vector<double>& given, const std::arr
 
 }  // namespace
 
-Matrix product(const Matrix& a, const Matrix& b) noexcept {
-    Matrix m{};
-    for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t r = 0; r < 4; ++r)
-            m[4 * c + r] =
-                ((a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1]) + a[8 + r] * b[4 * c + 2]) + a[12 + r] * b[4 * c + 3];
-    return m;
-}
-
 Matrix local_transform(const tinygltf::Node& node) noexcept {
     if (node.matrix.size() == 16) return values_or<16>(node.matrix, pipeline::identity);
     return from_parts(values_or<3>(node.translation, {0, 0, 0}), values_or<4>(node.rotation, {0, 0, 0, 1}),
@@ -62,7 +54,7 @@ std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<cons
         PlacedNode next = waiting.back();  // `world` is still the parent's
         waiting.pop_back();
         const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(next.node)];
-        next.world = product(next.world, local_transform(node));
+        next.world = pipeline::product(next.world, local_transform(node));
         if (!std::all_of(next.world.begin(), next.world.end(), [](double v) { return std::isfinite(v); }))
             Place{file, "/nodes/" + std::to_string(next.node)}.fail("VALUE_NOT_IN_RANGE", "a finite world transform",
                                                                     "an overflow");

@@ -22,7 +22,6 @@ struct PlacedNode {
 [[nodiscard]] std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<const int> roots,
                                                   const std::string& file);
 
-[[nodiscard]] pipeline::Matrix product(const pipeline::Matrix& a, const pipeline::Matrix& b) noexcept;
 [[nodiscard]] pipeline::Matrix local_transform(const tinygltf::Node& node) noexcept;
 
 // The rigid inverse of a camera node's world transform; InputError if it has no direction left.
