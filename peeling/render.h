@@ -22,7 +22,8 @@ struct RenderOptions {
     pipeline::Rgba background{0, 0, 0, 1};
     pipeline::Termination termination;
     int max_passes = 0;
-    pipeline::Execution execution = pipeline::Execution::tiled;
+    pipeline::Execution execution = pipeline::Execution::replay;
+    std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments
     int tile_size = 32;
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;

@@ -8,7 +8,7 @@
 
 namespace strata::pipeline {
 
-enum class Execution : std::uint8_t { literal, tiled };  // replay takes its place here
+enum class Execution : std::uint8_t { literal, tiled, replay };
 
 // How occlusion queries end a peel (decisions.md 3).
 enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };

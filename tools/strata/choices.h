@@ -32,7 +32,8 @@ inline const std::vector<Choice<pipeline::ColorSpace>> color_spaces{{"encoded", 
                                                                     {"linear", pipeline::ColorSpace::linear}};
 
 inline const std::vector<Choice<pipeline::Execution>> executions{{"literal", pipeline::Execution::literal},
-                                                                 {"tiled", pipeline::Execution::tiled}};
+                                                                 {"tiled", pipeline::Execution::tiled},
+                                                                 {"replay", pipeline::Execution::replay}};
 
 inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
                                                             {"all", pipeline::Effects::all}};
