@@ -3,6 +3,7 @@
 #pragma once
 #include <mutex>
 
+#include "pipeline/arena.h"
 #include "pipeline/fragment_store.h"
 #include "pipeline/region.h"
 
@@ -22,6 +23,7 @@ struct Region::Scratch {
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     FragmentStore store;
+    Arena arena;
 };
 
 // Free sets; as many as regions ever ran at once. A set carries no values from one region to the next.
@@ -33,6 +35,7 @@ class Region::ScratchPool {
         std::unique_ptr<Scratch> scratch = std::move(free_.back());
         free_.pop_back();
         scratch->store.forget();
+        scratch->arena.reset();
         return scratch;
     }
     void give(std::unique_ptr<Scratch> scratch) {
