@@ -4,6 +4,7 @@
 
 #include "peeling/programs.h"
 #include "pipeline/arena.h"
+#include "pipeline/lane_mask.h"
 
 namespace strata::peeling {
 
@@ -99,7 +100,7 @@ class Bands {
         const auto coverage = rows(band.y0, band.y1);
         std::size_t slots = 0;
         for (std::size_t b = 0; b < columns_.blocks.size(); ++b) {
-            columns_.blocks[b] = {slots, 0};
+            columns_.blocks[b] = {slots, 0, false};
             slots += slots_of(coverage.subspan(b * block_lanes, std::min(block_lanes, coverage.size() - b * block_lanes)));
         }
         for (auto* const pixels : {&columns_.visible, &columns_.alive, &columns_.at_surface}) {
@@ -112,28 +113,59 @@ class Bands {
         const rasterizer::FragmentNeeds needs{by_shader_z_, !by_shader_z_, false, true, false, false};
         const std::size_t first = static_cast<std::size_t>(columns_.band.y0 - region_.rect().y0) *
                                   static_cast<std::size_t>(region_.rect().width());
-        const std::uint32_t* const opaque = region_.storage(region_.opaque_depth()).depth(0) + first;
+        opaque_ = region_.storage(region_.opaque_depth()).depth(0) + first;
         region_.look(needs, columns_.band, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
             fragments.rasterized += lanes(in);
             Lanes<std::uint32_t> key, is_visible;
-            if (by_shader_z_) key_of_shader_z(in, opaque, key, is_visible);
-            else key_of_code(in, opaque, key, is_visible);
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                if (out.alive[i] == 0) {
-                    ++fragments.masked;
+            if (by_shader_z_) key_of_shader_z(in, opaque_, key, is_visible);
+            else key_of_code(in, opaque_, key, is_visible);
+            for (std::size_t i = 0; i < lanes(in);) {
+                if (place_row(in, i, key, is_visible, out.alive)) {
+                    i += block_lanes;
                     continue;
                 }
-                const std::uint32_t pixel = in.pixel[i];
-                ++columns_.alive[pixel];
-                if (is_visible[i] == 0) {
-                    columns_.at_surface[pixel] += !by_shader_z_ && key[i] == opaque[pixel] ? 1 : 0;
-                    continue;
-                }
-                const std::size_t slot = columns_.slot(pixel, columns_.visible[pixel]++);
-                columns_.key[slot] = key[i];
-                for (std::size_t c = 0; c < 4; ++c) columns_.color[c][slot] = in.color[c][i];
+                fragments.masked += out.alive[i] == 0 ? 1 : 0;
+                if (out.alive[i] != 0) place_one(in, i, key[i], is_visible[i] != 0);
+                ++i;
             }
         });
+    }
+
+    void place_one(const FragmentBatch& in, std::size_t i, std::uint32_t key, bool is_visible) {
+        const std::uint32_t pixel = in.pixel[i];
+        ++columns_.alive[pixel];
+        if (!is_visible) {
+            columns_.at_surface[pixel] += !by_shader_z_ && key == opaque_[pixel] ? 1 : 0;
+            return;
+        }
+        const std::size_t slot = columns_.slot(pixel, columns_.visible[pixel]++);
+        columns_.key[slot] = key;
+        for (std::size_t c = 0; c < 4; ++c) columns_.color[c][slot] = in.color[c][i];
+    }
+
+    // A whole row of a block at once, where the fragments from `i` on are its sixteen pixels and each is visible and its column's
+    // k-th: what large triangles mostly bring.
+    [[nodiscard]] bool place_row(const FragmentBatch& in, std::size_t i, const Lanes<std::uint32_t>& key,
+                                 const Lanes<std::uint32_t>& is_visible, const Lanes<std::uint32_t>& alive) {
+        const std::uint32_t pixel = in.pixel[i];
+        if (pixel % block_lanes != 0 || i + block_lanes > lanes(in) || in.pixel[i + block_lanes - 1] != pixel + block_lanes - 1)
+            return false;
+        std::uint32_t* const visible = &columns_.visible[pixel];
+        const std::uint32_t k = visible[0];
+        std::uint32_t all = ~0u, other = 0;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            all &= is_visible[i + lane] & alive[i + lane];
+            other |= (visible[lane] ^ k) | (in.pixel[i + lane] - pixel - static_cast<std::uint32_t>(lane));
+        }
+        if (all == 0 || other != 0) return false;
+        const std::size_t slot = columns_.slot(pixel, k);
+        std::copy_n(&key[i], block_lanes, &columns_.key[slot]);
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(&in.color[c][i], block_lanes, &columns_.color[c][slot]);
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            ++visible[lane];
+            ++columns_.alive[pixel + lane];
+        }
+        return true;
     }
 
     static void key_of_shader_z(const FragmentBatch& in, const std::uint32_t* opaque, Lanes<std::uint32_t>& key,
@@ -157,23 +189,29 @@ class Bands {
         const std::uint32_t* const visible = &columns_.visible[b * block_lanes];
         block.depth = *std::max_element(visible, visible + block_lanes);
         std::uint32_t* const key = columns_.key.data() + block.first;
-        std::uint16_t* const order = columns_.order.data() + block.first;
         for (std::uint32_t k = 0; k < block.depth; ++k)
             for (std::size_t lane = 0; lane < block_lanes; ++lane) {
                 const std::size_t i = k * block_lanes + lane;
-                sorting_[i] = k < visible[lane] ? std::uint64_t{key[i]} << 32 | k : ~std::uint64_t{0};
+                const std::uint64_t beyond = k < visible[lane] ? 0 : ~std::uint64_t{0};
+                sorting_[i] = (std::uint64_t{key[i]} << 32 | k) | beyond;
             }
         sort_columns(sorting_.data(), block.depth);
+        std::uint16_t* const order = columns_.order.data() + block.first;
+        std::uint32_t ties = 0;
         for (std::size_t i = 0; i < block.depth * block_lanes; ++i) {
             key[i] = static_cast<std::uint32_t>(sorting_[i] >> 32);
             order[i] = static_cast<std::uint16_t>(sorting_[i]);
         }
+        for (std::size_t i = block_lanes; i < block.depth * block_lanes; ++i)
+            ties |= pipeline::mask(key[i] == key[i - block_lanes]) & pipeline::mask(key[i] != ~0u);
+        block.has_ties = ties != 0;
     }
 
     Region& region_;
     const std::function<void(const Columns&)>& body_;
     std::span<std::uint32_t> coverage_;
     bool by_shader_z_;
+    const std::uint32_t* opaque_ = nullptr;  // of the present band
     std::vector<rasterizer::Rect> bands_;
     std::size_t most_slots_ = 0;
     Columns all_, columns_;  // the memory, and the part of it that the present band uses

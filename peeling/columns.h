@@ -21,6 +21,7 @@ inline constexpr std::size_t block_lanes = 16;
 struct ColumnBlock {
     std::size_t first = 0;    // slot of row 0, lane 0
     std::uint32_t depth = 0;  // rows in use
+    bool has_ties = false;    // some column holds a depth twice
 };
 
 // Slot first + k * block_lanes + lane of a block: the k-th arrival of its pixel in `color`, its k-th nearest fragment in `key` and

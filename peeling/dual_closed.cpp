@@ -8,6 +8,7 @@
 
 #include "peeling/closed_form.h"
 #include "peeling/dual_blend.h"
+#include "peeling/dual_pass.h"
 #include "pipeline/arena.h"
 #include "pipeline/blend.h"
 #include "pipeline/convert.h"
@@ -188,15 +189,62 @@ struct Course {
     void run(Region& region, const Columns& columns) {
         declined |= has_foreign_depths(columns, region.profile());
         if (declined) return;
-        for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) tally(pixels_by_depths, distinct(columns, pixel));
+        for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) {
+            const bool has_ties = columns.blocks[pixel / block_lanes].has_ties;
+            tally(pixels_by_depths, has_ties ? distinct(columns, pixel) : columns.visible[pixel]);
+        }
         const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
                                   static_cast<std::size_t>(region.rect().width());
-        for_each_group(columns, [&](const PixelGroup& group) {
-            GroupPeel peel{region, columns, group, above + group.first};
-            while (peel.pass()) {}
-            transfer(peel.front(), above + group.first, group.count, front);
-            transfer(peel.back(), above + group.first, group.count, back);
-        });
+        for (std::size_t b = 0; b < columns.blocks.size(); ++b) {
+            const std::size_t first = b * block_lanes;
+            const PixelGroup group{first, static_cast<int>(std::min(columns.pixels() - first, block_lanes))};
+            if (columns.blocks[b].has_ties) peel_group(region, columns, group, above + first);
+            else peel_block(region, columns, group, above + first);
+        }
+    }
+
+    void peel_group(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first) {
+        GroupPeel peel{region, columns, group, first};
+        while (peel.pass()) {}
+        transfer(peel.front(), first, group.count, front);
+        transfer(peel.back(), first, group.count, back);
+    }
+
+    void peel_block(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first) {
+        const ColumnBlock& place = columns.blocks[group.first / block_lanes];
+        DualBlock block;
+        block.order = &columns.order[place.first];
+        for (std::size_t c = 0; c < 4; ++c) block.color[c] = &columns.color[c][place.first];
+        std::copy_n(&columns.visible[group.first], block_lanes, block.visible.begin());
+        std::copy_n(&columns.alive[group.first], block_lanes, block.alive.begin());
+        block.depth = place.depth;
+        ColorCodes opaque;
+        region.load_pixels(region.opaque_color(), static_cast<std::uint32_t>(first), group.count, opaque);
+        for (std::size_t c = 0; c < 4; ++c) {
+            block.front[c].fill(0);
+            std::copy_n(opaque[c].begin(), block_lanes, block.back[c].begin());
+        }
+        peel_dual_block(block, region.profile().blend_rounding);
+        for (std::size_t c = 0; c < 4; ++c) {
+            std::copy_n(block.front[c].begin(), group.count, &front.channel[c][first]);
+            std::copy_n(block.back[c].begin(), group.count, &back.channel[c][first]);
+        }
+        if (region.frame().trace) trace_block(region, columns, group, first);
+    }
+
+    // Pass by pass, the front before the back.
+    static void trace_block(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(group.count); ++i) {
+            const std::uint32_t n = columns.visible[group.first + i];
+            const auto add = [&](std::uint32_t k, Side side) {
+                const std::uint32_t key = columns.key[columns.slot(group.first + i, k)];
+                region.trace({static_cast<std::uint32_t>(first + i), key, 0, side, false});
+            };
+            for (std::uint32_t pass = 0; 2 * pass < n; ++pass) {
+                add(pass, Side::front);
+                if (2 * pass + 1 < n) add(n - 1 - pass, Side::back);
+            }
+        }
     }
 
     // Pixels that have something left after `passes` peels.
