@@ -10,7 +10,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
 
-void sort(std::uint64_t* rows, std::size_t depth) { merge_exchange(rows, depth); }
+void sort(std::uint64_t* rows, std::size_t depth) { sort_rows(rows, depth); }
 
 }  // namespace strata::peeling::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -20,7 +20,7 @@ namespace strata::peeling {
 HWY_EXPORT(sort);
 
 void sort_columns(std::uint64_t* rows, std::size_t depth) {
-    if (simd_is_scalar()) return merge_exchange(rows, depth);
+    if (simd_is_scalar()) return sort_rows(rows, depth);
     HWY_DYNAMIC_DISPATCH(sort)(rows, depth);
 }
 
