@@ -1,15 +1,16 @@
-#include "pipeline/blend.h"
-
+// pipeline/blend_lanes.h - the loops of blend.h, compiled once an instruction set. Included by blend_simd.cpp alone.
+#pragma once
 #include <bit>
 
+#include "pipeline/blend.h"
 #include "pipeline/blend_float.h"
 #include "pipeline/blend_kernels.h"
 #include "pipeline/blend_unorm8.h"
 #include "pipeline/convert.h"
-#include "pipeline/unorm8.h"
 
 namespace strata::pipeline {
-namespace {
+inline namespace strict {
+namespace scalar {
 
 using rasterizer::Lanes;
 using ColorLanes = std::array<Lanes<float>, 4>;
@@ -37,7 +38,7 @@ void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto
 template <class Arithmetic>
 void blend_channels(const Job& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
                     auto store) noexcept {
-    Lanes<float> out;
+    alignas(64) Lanes<float> out;
     for (int channel = 0; channel < 4; ++channel) {
         if (!job.writes(channel)) continue;
         const auto c = static_cast<std::size_t>(channel);
@@ -50,7 +51,7 @@ void blend_channels(const Job& job, const std::array<float, 4>& constant, const 
 
 template <BlendRounding rounding>
 void blend_unorm8(const Job& job) noexcept {
-    ColorLanes s, d;
+    alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
     for (int channel = 0; channel < 4; ++channel) {
         const auto c = static_cast<std::size_t>(channel);
@@ -71,8 +72,7 @@ void blend_unorm8(const Job& job) noexcept {
 template <DenormalRule denormals, MinMaxNan nan_rule>
 void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexcept {
     const auto flush = [](float x) { return flushed<denormals>(x); };
-    const int count = static_cast<int>(job.count);
-    ColorLanes s, d;
+    alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
     for (int channel = 0; channel < 4; ++channel) {
         const auto c = static_cast<std::size_t>(channel);
@@ -82,16 +82,16 @@ void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexce
         if (type == ChannelType::single) {
             load(job.codes[c], d[c], job.count, [&](std::uint32_t code) { return flush(std::bit_cast<float>(code)); });
         } else {
-            decode(type, job.codes[c], d[c], count);  // widened halves are never denormal
+            decode(type, job.codes[c].data(), d[c].data(), job.count);  // widened halves are never denormal
         }
     }
     if (job.channels < 4) d[3].fill(1.0f);
     blend_channels<FloatArithmetic<denormals, nan_rule>>(
         job, constant, s, d,
-        [&](std::size_t c, const Lanes<float>& out) { encode(type, rounding, out, job.codes[c], count); });
+        [&](std::size_t c, const Lanes<float>& out) { encode(type, rounding, out.data(), job.codes[c].data(), job.count); });
 }
 
-void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile) noexcept {
+inline void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile) noexcept {
     using enum DenormalRule;
     using enum MinMaxNan;
     const bool flushes = profile.denormals == flush, propagates = profile.min_max_nan == propagate;
@@ -101,14 +101,12 @@ void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile)
     return blend_float<keep, propagate>(job, type, profile.half_rounding);
 }
 
-}  // namespace
-
-void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
-           ColorCodes& codes, int count) noexcept {
-    const Job job{state, channels, src, codes, static_cast<std::size_t>(count)};
+inline void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
+                  const ColorLanes& src, ColorCodes& codes, std::size_t count) noexcept {
+    const Job job{state, channels, src, codes, count};
     if (!state.enabled) {
         for (std::size_t c = 0; c < 4; ++c)
-            if (job.writes(static_cast<int>(c))) encode(type, profile.half_rounding, src[c], codes[c], count);
+            if (job.writes(static_cast<int>(c))) encode(type, profile.half_rounding, src[c].data(), codes[c].data(), count);
     } else if (type != ChannelType::unorm8) {
         blend_float(job, type, profile);
     } else if (profile.blend_rounding == BlendRounding::nearest) {
@@ -118,4 +116,6 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
     }
 }
 
+}  // namespace scalar
+}  // namespace strict
 }  // namespace strata::pipeline
