@@ -36,19 +36,7 @@ Drawn peel(Region& region, const DualTargets& t) {
         PeelLanes place;
         classify(in, own.color(0), own.depth(2), place);
         write_min_max(in, place.is_between, out.color[0]);
-        const ColorLanes& front = own.color(1);
-        const ColorLanes& color = in.color;
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                const float under = front[c][i] + (1.0f - front[3][i]) * (color[3][i] * color[c][i]);
-                out.color[1][c][i] = place.is_near[i] != 0 ? under : front[c][i];
-                out.color[2][c][i] = place.is_far[i] != 0 ? color[c][i] : 0.0f;
-            }
-        for (std::size_t i = 0; i < lanes(in); ++i) {
-            const float covered = 1.0f - (1.0f - front[3][i]) * (1.0f - color[3][i]);
-            out.color[1][3][i] = place.is_near[i] != 0 ? covered : front[3][i];
-            out.color[2][3][i] = place.is_far[i] != 0 ? color[3][i] : 0.0f;
-        }
+        write_layers(in, own.color(1), place, out.color[1], out.color[2]);
     });
 }
 

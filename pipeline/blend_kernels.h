@@ -79,9 +79,10 @@ void with_equation(BlendEquation equation, Body&& body) {
 // Both factors compiled in: one loop.
 template <class Arithmetic, BlendEquation equation, BlendFactor src, BlendFactor dst>
 void blend_fused(const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
+    constexpr bool keeps_s = src == BlendFactor::one, keeps_d = dst == BlendFactor::one;
     for (std::size_t i = 0; i < count; ++i)
-        out[i] = Arithmetic::template combine<equation>(in.s[i], factor<Arithmetic, src>(in, i), in.d[i],
-                                                        factor<Arithmetic, dst>(in, i));
+        out[i] = Arithmetic::template combine<equation, keeps_s, keeps_d>(in.s[i], factor<Arithmetic, src>(in, i),
+                                                                          in.d[i], factor<Arithmetic, dst>(in, i));
 }
 
 template <class Arithmetic>

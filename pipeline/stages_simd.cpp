@@ -7,6 +7,9 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include "pipeline/alpha_test.h"
 #include "pipeline/convert.h"
 #include "pipeline/lane_words.h"
@@ -31,6 +34,11 @@ HWY_INLINE WordVec counting(Word first) {
     return hn::Add(hn::Set(d, first), hn::Iota(d, 0));
 }
 
+HWY_INLINE WordMask first_lanes(std::size_t count) {
+    const Words d;
+    return hn::Lt(hn::Iota(d, 0), hn::Set(d, static_cast<Word>(count)));
+}
+
 // One vector of lanes: where they lie in a plane, and whether that is one run of neighbours.
 struct Group {
     WordMask in_batch;
@@ -41,7 +49,7 @@ struct Group {
 
 HWY_INLINE Group group_at(const PixelLanes& at, std::size_t i) {
     const Words d;
-    const WordMask in_batch = hn::FirstN(d, at.count - i);
+    const WordMask in_batch = first_lanes(at.count - i);
     const WordVec pixel = hn::LoadU(d, at.pixel + i);
     const WordVec run = counting(at.pixel[i]);
     const bool is_run = hn::AllTrue(d, hn::Or(hn::Eq(pixel, run), hn::Not(in_batch)));
@@ -75,44 +83,77 @@ std::uint64_t count_set(const Word* alive, std::size_t count) {
     const Words d;
     std::uint64_t living = 0;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d))
-        living += hn::CountTrue(d, hn::And(is_set(alive + i), hn::FirstN(d, count - i)));
+        living += hn::CountTrue(d, hn::And(is_set(alive + i), first_lanes(count - i)));
     return living;
 }
 
-void gather(const Texels& from, const PixelLanes& at, CodeLanes* codes) {
+// How many channels a word holds, and the mask of the lowest.
+template <int channels, int bits>
+constexpr int per_word = std::min(channels, 32 / bits);
+template <int bits>
+constexpr Word low_bits = ~0u >> (32 - bits);
+
+// Calls body(channels, bits) with the layout of `texels` as constants.
+template <class Body>
+HWY_INLINE void with_layout(const Texels& texels, Body&& body) {
+    constexpr auto of = [](int channels, int bits) { return channels * 64 + bits; };
+    const auto as = [&]<int channels, int bits>() { body.template operator()<channels, bits>(); };
+    switch (of(texels.channels, texels.bits_per_channel)) {
+        case of(4, 8): return as.template operator()<4, 8>();
+        case of(4, 16): return as.template operator()<4, 16>();
+        case of(4, 32): return as.template operator()<4, 32>();
+        case of(2, 32): return as.template operator()<2, 32>();
+        case of(1, 32): return as.template operator()<1, 32>();
+        case of(1, 16): return as.template operator()<1, 16>();
+        case of(1, 8): return as.template operator()<1, 8>();
+    }
+    assert(!"every format has one of these layouts");
+}
+
+template <int channels, int bits>
+HWY_INLINE void gather_word(Plane plane, const PixelLanes& at, CodeLanes* codes) {
     const Words d;
-    for (std::size_t word = 0; word < from.words(); ++word) {
-        const Plane plane = from.plane(word);
-        for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
-            const WordVec stored = load(plane, group_at(at, i));
-            for (int c = 0; c < from.channels; ++c)
-                if (const Field f = from.field(c); f.word == word)
-                    hn::StoreU(hn::And(hn::ShiftRightSame(stored, f.shift), hn::Set(d, f.bits)), d, &codes[c][i]);
+    for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
+        const WordVec stored = load(plane, group_at(at, i));
+        for (int k = 0; k < per_word<channels, bits>; ++k) {
+            const WordVec code = hn::And(hn::ShiftRightSame(stored, k * bits), hn::Set(d, low_bits<bits>));
+            hn::StoreU(code, d, &codes[k][i]);
         }
     }
 }
 
-// Replaces the word `word` of the living pixels. Where every channel that it holds is written, nobody looks at the old.
-void scatter_word(const Texels& to, std::size_t word, const PixelLanes& at, const Word* alive, unsigned mask,
-                  const CodeLanes* codes) {
+void gather(const Texels& from, const PixelLanes& at, CodeLanes* codes) {
+    with_layout(from, [&]<int channels, int bits>() {
+        for (std::size_t word = 0; word < from.words(); ++word)
+            gather_word<channels, bits>(from.plane(word), at, codes + word * per_word<channels, bits>);
+    });
+}
+
+// `written`: which channels of this word are replaced. If all, nobody looks at the old ones.
+template <int channels, int bits>
+HWY_INLINE void scatter_word(Plane plane, const PixelLanes& at, const Word* alive, unsigned written,
+                             const CodeLanes* codes) {
     const Words d;
-    const Plane plane = to.plane(word);
     Word kept = 0;
-    for (int c = 0; c < to.channels; ++c)
-        if (const Field f = to.field(c); f.word == word && (mask >> c & 1u) == 0) kept |= f.bits << f.shift;
+    for (int k = 0; k < per_word<channels, bits>; ++k)
+        if ((written >> k & 1u) == 0) kept |= low_bits<bits> << (k * bits);
     for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
         const Group group = group_at(at, i);
-        WordVec value = hn::Zero(d);
-        if (kept != 0) value = hn::And(hn::Set(d, kept), load(plane, group));
-        for (int c = 0; c < to.channels; ++c)
-            if (const Field f = to.field(c); f.word == word && (mask >> c & 1u) != 0)
-                value = hn::Or(value, hn::ShiftLeftSame(hn::LoadU(d, &codes[c][i]), f.shift));
+        WordVec value = hn::LoadU(d, &codes[0][i]);
+        for (int k = 1; k < per_word<channels, bits>; ++k)
+            value = hn::Or(value, hn::ShiftLeftSame(hn::LoadU(d, &codes[k][i]), k * bits));
+        if (kept != 0) value = hn::Or(hn::AndNot(hn::Set(d, kept), value), hn::And(hn::Set(d, kept), load(plane, group)));
         store(plane, group, hn::And(group.in_batch, is_set(alive + i)), value);
     }
 }
 
 void scatter(const Texels& to, const PixelLanes& at, const Word* alive, unsigned mask, const CodeLanes* codes) {
-    for (std::size_t word = 0; word < to.words(); ++word) scatter_word(to, word, at, alive, mask, codes);
+    with_layout(to, [&]<int channels, int bits>() {
+        constexpr int n = per_word<channels, bits>;
+        for (std::size_t word = 0; word < to.words(); ++word)
+            if (const unsigned written = mask >> (word * n) & ((1u << n) - 1); written != 0)
+                scatter_word<channels, bits>(to.plane(word), at, alive, written, codes + word * n);
+    });
 }
 
 // passes<func>(a, b) of compare.h; a NaN passes `notequal` alone, which Highway's Ne does not grant on every set.

@@ -1,11 +1,13 @@
 // Every instruction set that the processor has against the scalar loops that define the stages, bit by bit. The loops
 // themselves are held to independent models by the tests of their headers.
+#include <atomic>
 #include <catch2/catch.hpp>
 
 #include "pipeline/alpha_test.h"
 #include "pipeline/blend_lanes.h"
 #include "pipeline/lane_words.h"
 #include "pipeline/stencil_lanes.h"
+#include "rasterizer/parallel.h"
 #include "rasterizer/simd.h"
 #include "blend_model.h"
 #include "stage_values.h"
@@ -213,6 +215,44 @@ TEST_CASE("blending gives the same codes on every instruction set, in every form
         INFO("first wrong: " << tally.first());
         CHECK(tally.wrong() == 0);
     });
+}
+
+TEST_CASE("every half blends alike on every instruction set") {
+    for_each_set([] {
+        int wrong = 0;
+        for (const Blend& state : {blend_mode::sum, blend_mode::max, blend_mode::under})
+            for (std::uint32_t first = 0; first < 65536; first += 1024) {
+                static Values src;
+                static Codes wanted, got;
+                for (std::size_t c = 0; c < 4; ++c)
+                    for (std::size_t i = 0; i < 256; ++i) {
+                        src[c][i] = float_of(hard_bits[(i + c) % hard_bits.size()]);
+                        wanted[c][i] = first + static_cast<std::uint32_t>(256 * c + i);
+                    }
+                got = wanted;
+                scalar::blend(state, ChannelType::half, {}, 4, src, wanted, 256);
+                blend(state, ChannelType::half, {}, 4, src, got, 256);
+                wrong += wanted == got ? 0 : 1;
+            }
+        CHECK(wrong == 0);
+    });
+}
+
+TEST_CASE("every float is stored as the same half by the best instruction set", "[exhaustive]") {
+    constexpr std::size_t blocks = std::size_t{1} << 22;
+    std::atomic<std::uint64_t> wrong{0};
+    parallel_for(blocks, 0, [&](std::size_t block) {
+        Values src;
+        Codes codes;
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < 256; ++i)
+                src[c][i] = float_of(static_cast<std::uint32_t>(block * 1024 + 256 * c + i));
+        blend(blend_mode::replace, ChannelType::half, {}, 4, src, codes, 256);
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < 256; ++i)
+                wrong += codes[c][i] != to_half<HalfRounding::nearest_even>(src[c][i]) ? 1 : 0;
+    });
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("alpha and stencil tests answer alike on every instruction set") {
