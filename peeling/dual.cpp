@@ -7,7 +7,7 @@
 //            back = what lies behind far, over the background.
 #include <utility>
 
-#include "peeling/dual_blend.h"
+#include "peeling/front_and_back.h"
 #include "peeling/min_max.h"
 #include "peeling/runs.h"
 
@@ -37,13 +37,7 @@ Drawn peel(Region& region, const DualTargets& t) {
         PeelLanes place;
         classify(in, own.color(0), own.depth(2), place);
         write_min_max(in, place.is_between, out.color[0]);
-        const ColorLanes& front = own.color(1);
-        blend_under(front, in.color, out.color[1], lanes(in));
-        for (std::size_t c = 0; c < 4; ++c)
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                out.color[1][c][i] = place.is_near[i] != 0 ? out.color[1][c][i] : front[c][i];
-                out.color[2][c][i] = place.is_far[i] != 0 ? in.color[c][i] : 0.0f;
-            }
+        write_layers(in, own.color(1), place, out.color[1], out.color[2]);
     });
 }
 

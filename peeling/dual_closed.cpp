@@ -7,8 +7,9 @@
 #include <algorithm>
 
 #include "peeling/closed_form.h"
-#include "peeling/dual_blend.h"
 #include "peeling/dual_pass.h"
+#include "peeling/front_and_back.h"
+#include "peeling/min_max.h"
 #include "pipeline/arena.h"
 #include "pipeline/blend.h"
 #include "pipeline/convert.h"
@@ -102,10 +103,10 @@ class GroupPeel {
     [[nodiscard]] bool take(const DepthGroup& group, std::uint32_t member) {
         bool any = false;
         for (std::size_t i = 0; i < n_; ++i) {
-            has_member_[i] = group.begin[i] + member < group.end[i] ? ~0u : 0u;
-            any |= has_member_[i] != 0;
-            const std::size_t slot = has_member_[i] != 0 ? columns_.sorted(group_.first + i, group.begin[i] + member) : 0;
-            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has_member_[i] != 0 ? columns_.color[c][slot] : 0.0f;
+            near_place_.is_near[i] = group.begin[i] + member < group.end[i] ? ~0u : 0u;
+            any |= near_place_.is_near[i] != 0;
+            const std::size_t slot = near_place_.is_near[i] != 0 ? columns_.sorted(group_.first + i, group.begin[i] + member) : 0;
+            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = near_place_.is_near[i] != 0 ? columns_.color[c][slot] : 0.0f;
         }
         return any;
     }
@@ -114,7 +115,7 @@ class GroupPeel {
     void max_into(const ColorLanes& values, ColorCodes& blended) {
         for (std::size_t c = 0; c < 4; ++c) {
             encode(ChannelType::unorm8, region_.profile().half_rounding, values[c], codes_, group_.count);
-            for (std::size_t i = 0; i < n_; ++i) blended[c][i] = std::max(blended[c][i], codes_[i] & has_member_[i]);
+            for (std::size_t i = 0; i < n_; ++i) blended[c][i] = std::max(blended[c][i], codes_[i] & near_place_.is_near[i]);
         }
     }
 
@@ -128,7 +129,7 @@ class GroupPeel {
             }
         }
         for (std::uint32_t member = 0; take(near_group_, member); ++member) {
-            blend_under(front_values_, color_, blended_, n_);
+            scalar::write_layers(color_, front_values_, near_place_, blended_, unused_, n_);
             max_into(blended_, front_);
         }
     }
@@ -153,10 +154,11 @@ class GroupPeel {
     const Columns& columns_;
     PixelGroup group_;
     std::size_t first_, n_;
-    Lanes<std::uint32_t> near_, far_, has_member_, codes_;
+    Lanes<std::uint32_t> near_, far_, codes_;
+    PeelLanes near_place_{};  // is_near: the group has the member that `take` took
     DepthGroup near_group_, far_group_;
     ColorCodes front_, back_, dump_, blended_codes_;
-    ColorLanes front_values_, color_, blended_;
+    ColorLanes front_values_, color_, blended_, unused_;
 };
 
 // What MAX blending of (-z, z) onto (-1, -1) would not keep.

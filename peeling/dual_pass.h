@@ -1,8 +1,8 @@
 // peeling/dual_pass.h - dual peeling of sixteen columns without equal depths, from their sorted fragments: the scalar twin of
 // dual_pass_simd.cpp.
 //
-// Rule     Pass i takes row i from the front of a column and row i from its back, until they meet. Front: the blend of
-//          dual_blend.h, stored as UNORM8 under MAX with the front that other fragments pass through. Back: the code of the
+// Rule     Pass i takes row i from the front of a column and row i from its back, until they meet. Front: the UNDER of
+//          min_max.h, stored as UNORM8 under MAX with the front that other fragments pass through. Back: the code of the
 //          far colour, OVER what is there, where its alpha is not 0.
 // Tests    tests/peeling/columns_test.cpp; tests/peeling/execution_test.cpp
 #pragma once

@@ -9,7 +9,7 @@
 
 namespace strata::pipeline {
 
-struct Region::Scratch {
+struct alignas(64) Region::Scratch {
     Loads loads;
     Outputs out;
     FragmentBatch screen;
@@ -18,7 +18,7 @@ struct Region::Scratch {
     ColorLanes texel;
     ColorCodes codes;
     Lanes<std::uint32_t> alive;         // of one sample
-    Lanes<std::uint32_t> depth_stored;
+    Lanes<std::uint32_t> depth_stored;  // of a pixel that is stored alone
     Lanes<std::uint32_t> depth_pass;
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
