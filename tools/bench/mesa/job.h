@@ -21,14 +21,12 @@ struct Job {
 // `scene` must outlive the job.
 [[nodiscard]] Job make_job(const std::string& name, const GpuScene& scene, Size size);
 
-// single_pass.cpp
+// single_pass.cpp; the last one counts the fragments of every pixel, without depth test
 [[nodiscard]] Job depth_job(const GpuScene& scene, Size size);
 [[nodiscard]] Job weighted_average_job(const GpuScene& scene, Size size);
-[[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene,
-                                                         Size size);  // of every pixel, no depth test
+[[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size);
 
-// peels.cpp
-[[nodiscard]] Job front_to_back_job(const GpuScene& scene, Size size);
-[[nodiscard]] Job dual_job(const GpuScene& scene, Size size);
+[[nodiscard]] Job front_to_back_job(const GpuScene& scene, Size size);  // front_to_back.cpp
+[[nodiscard]] Job dual_job(const GpuScene& scene, Size size);           // dual.cpp
 
 }  // namespace strata::mesa

@@ -36,7 +36,7 @@ Size parse_size(const std::string& text) {
     char rest = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 ||
         size.height < 1)
-        throw InputError("strata_mesa", "--size", "WIDTHxHEIGHT", "'" + text + "'");
+        throw InputError("the command line", "--size", "WIDTHxHEIGHT", "'" + text + "'");
     return size;
 }
 
@@ -165,9 +165,11 @@ int main(int count, char** words) {
     CLI::App app{"Depth, front_to_back, dual and weighted_average by OpenGL on Mesa's llvmpipe.", "strata_mesa"};
     strata::mesa::Options options;
     strata::mesa::add_options(app, options);
-    CLI11_PARSE(app, count, words);
     try {
+        app.parse(count, words);
         return strata::mesa::run_all(options);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
     } catch (const strata::InputError& error) {
         std::fprintf(stderr, "strata_mesa: %s\n", error.what());
         return 2;
