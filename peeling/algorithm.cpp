@@ -16,6 +16,9 @@ int every_layer_and_one(int layers) { return layers + 1; }
 int dual_passes(int layers) { return 1 + std::max(1, (layers + 1) / 2); }
 int dual_independent_passes(int layers) { return (layers + 1) / 2 + 2; }
 
+constexpr rasterizer::FragmentNeeds code_and_color{.shader_z = false, .code = true, .color = true};
+constexpr rasterizer::FragmentNeeds z_and_color{.shader_z = true, .code = false, .color = true};
+
 std::vector<Algorithm> make_algorithms() {
     const std::string everitt = "Everitt 2001", bavoil = "Bavoil and Myers 2008";
     const std::vector<Feature> programs{Feature::fragment_programs, Feature::separate_alpha_blend};
@@ -32,17 +35,17 @@ std::vector<Algorithm> make_algorithms() {
         {.name = "depth_units", .paper = everitt, .section = "Multiple Depth Tests, Listing 1",
          .summary = "one layer a pass by two sequential depth units; layers composited back to front",  .pass_formula = "N + 1", .ties = TiePolicy::unique,
          .key = DepthKey::stored_code, .exact = true, .makes_layers = true, .geometry_passes = every_layer_and_one,
-         .run = depth_units, .features = {Feature::sequential_depth_units}},
+         .run = depth_units, .replayed = code_and_color, .features = {Feature::sequential_depth_units}},
         {.name = "front_to_back", .paper = bavoil, .section = "Depth Peeling; Under Blending",
          .summary = "one layer a pass, nearest first, blended UNDER",  .pass_formula = "N + 1", .ties = TiePolicy::unique,
          .key = DepthKey::stored_code, .exact = true, .makes_layers = true, .premultiplied_layers = true, .geometry_passes = every_layer_and_one,
-         .run = front_to_back, .features = programs},
+         .run = front_to_back, .replayed = code_and_color, .features = programs},
         {.name = "dual", .paper = bavoil, .section = "Dual Depth Peeling",
          .summary = "nearest and farthest layer of every pass, blended on the fly under one MAX equation",  .pass_formula = "1 + max(1, ceil(N/2))", .ties = TiePolicy::merged,
-         .key = DepthKey::shader_z, .exact = true, .geometry_passes = dual_passes, .run = dual, .features = float_programs, .render_targets = 3},
+         .key = DepthKey::shader_z, .exact = true, .geometry_passes = dual_passes, .run = dual, .replayed = z_and_color, .features = float_programs, .render_targets = 3},
         {.name = "dual_independent", .paper = bavoil, .section = "Blending on the Fly (DirectX 10.1)",
          .summary = "dual peeling with a blend equation a target; no tie is lost",  .pass_formula = "ceil(N/2) + 2", .ties = TiePolicy::first_then_last,
-         .key = DepthKey::shader_z, .exact = true, .geometry_passes = dual_independent_passes, .run = dual_independent,
+         .key = DepthKey::shader_z, .exact = true, .geometry_passes = dual_independent_passes, .run = dual_independent, .replayed = z_and_color,
          .features = independent, .render_targets = 3},
         {.name = "weighted_average", .paper = bavoil, .section = "Weighted Average",
          .summary = "every colour replaced by the average weighted by alpha; an approximation",  .pass_formula = "1", .ties = TiePolicy::none, .key = DepthKey::shader_z,

@@ -5,6 +5,7 @@
 
 #include "pipeline/check_pass.h"
 #include "rasterizer/input_error.h"
+#include "rasterizer/parallel.h"
 
 namespace strata::peeling {
 
@@ -49,6 +50,18 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     if (depth.path == DepthPath::window_z && !has_chip_rule)
         return Refusal{"GeForce3's depth interpolator window_z", "", "use --profile geforce3 with --depth d16 or d24"};
     return check(profile, depth.path);
+}
+
+void draw_depth(Region& region) {
+    const Target depth = region.make_depth();
+    region.copy(region.opaque_depth(), depth);
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = depth;
+    state.needs = {.shader_z = false, .code = true, .color = false};
+    region.begin_iteration();
+    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    region.publish(depth);
 }
 
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
@@ -113,6 +126,13 @@ struct Renderer::State {
         return *sorted;
     }
 
+    // To simulate every effect is to rasterize in every pass.
+    [[nodiscard]] Replay replay(const Algorithm& algorithm) const {
+        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
+        if (!replays || !algorithm.replayed) return {};
+        return {options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)), *algorithm.replayed};
+    }
+
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
@@ -126,6 +146,7 @@ struct Renderer::State {
         f.termination = options.termination;
         f.max_passes = options.max_passes;
         f.effects = options.effects;
+        f.replay = replay(algorithm);
         f.keep_layers = options.keep_layers;
         f.trust_idle = options.trust_idle;
         f.trace = options.audit;
@@ -195,9 +216,28 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
     }
     state_->note_machine(algorithm, result.frame.diagnostics);
     if (state_->options.audit) {
-        result.audit = audit(state_->frame(algorithm), algorithm, result.frame, state_->options.threads);
+        Frame frame = state_->frame(algorithm);
+        frame.replay = {};  // it looks at the fragments once
+        result.audit = audit(frame, algorithm, result.frame, state_->options.threads);
         add_audit_diagnostics(algorithm, state_->options, result.audit, result.frame.diagnostics);
     }
+    return result;
+}
+
+RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
+    RenderResult result;
+    if (auto lacking = check_depth(state_->profile, state_->depth)) {
+        result.refusal = lacking;
+        result.outcome = Outcome::refused;
+        return result;
+    }
+    Frame frame = state_->frame(*find_algorithm("unsorted"));
+    frame.nearest_depth = frame.trace = false;
+    frame.published_format = target_format(frame.key_request().format);
+    const Stopwatch watch{result.seconds.passes};
+    result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress);
+    std::swap(result.frame.depth, result.frame.color);
+    result.seconds.geometry = state_->geometry_seconds;
     return result;
 }
 

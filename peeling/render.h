@@ -61,6 +61,9 @@ class Renderer {
     // A combination that the profile cannot run is refused: an outcome, not an exception.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {});
 
+    // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in frame.depth.
+    [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {});
+
     // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused.
     [[nodiscard]] std::vector<pipeline::CapturedFragment> fragments(const Algorithm& algorithm);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "pipeline/region_scratch.h"
 #include "pipeline/verdict.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/parallel.h"
@@ -36,7 +37,7 @@ class FrameRun {
         const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
         regions_.resize(extent_ == Extent::frame ? 1 : tiles);
         const rasterizer::Rect rect = frame.rect();
-        result_.color = Image{frame.color_format, rect.width(), rect.height()};
+        result_.color = Image{frame.published_format.value_or(frame.color_format), rect.width(), rect.height()};
         if (frame.nearest_depth)
             result_.depth = Image{target_format(frame.key_request().format), rect.width(), rect.height()};
     }
@@ -55,7 +56,7 @@ class FrameRun {
         return extent_ == Extent::frame ? frame_.rect() : tile_rect(frame_.transparent->geometry, r);
     }
 
-    // Copies a region's rectangle into the frame's image; regions are disjoint, so threads do not meet.
+    // Copies a part of the frame into its place; parts are disjoint, so threads do not meet.
     void place(const Image& part, const rasterizer::Rect& at, Image& whole) const {
         const auto row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels());
         for (int y = 0; y < part.height; ++y)
@@ -65,11 +66,10 @@ class FrameRun {
     }
 
     void run_region(std::size_t r, const std::vector<bool>& script) {
-        Region region{frame_, rect(r), r, extent_, script};
+        Region region{frame_, rect(r), r, extent_, script, &scratch_};
         body_(region);
-        place(region.image(region.published()), rect(r), result_.color);
-        if (frame_.nearest_depth && regions_[r].runs == 0)
-            place(region.image(region.nearest_depth()), rect(r), result_.depth);
+        region.write_image(region.published(), result_.color);
+        if (frame_.nearest_depth && regions_[r].runs == 0) region.write_image(region.nearest_depth(), result_.depth);
         RegionRun& kept = regions_[r];
         kept.decisions = region.decisions();
         kept.records = region.records();
@@ -182,6 +182,7 @@ class FrameRun {
     int threads_;
     const std::function<void(double)>& progress_;
     Extent extent_;
+    Region::ScratchPool scratch_;
     std::vector<RegionRun> regions_;
     FrameResult result_;
     std::atomic<std::size_t> finished_{0};

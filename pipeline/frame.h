@@ -1,6 +1,7 @@
 // pipeline/frame.h - everything that is the same for all regions of one run: the machine, the lists, the formats, the options.
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "pipeline/prepare.h"
 #include "pipeline/profile.h"
@@ -24,6 +25,12 @@ enum class DepthKey : std::uint8_t { shader_z, stored_code };
 
 enum class Effects : std::uint8_t { needed, all };  // all: simulate every stage even where nothing calls for it; same bits
 
+// What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
+struct Replay {
+    std::uint64_t bytes = 0;          // a region; 0: every pass rasterizes
+    rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
+};
+
 struct Frame {
     const DeviceProfile* profile = nullptr;
     const PreparedDraw* opaque = nullptr;
@@ -31,11 +38,13 @@ struct Frame {
     rasterizer::DepthRequest depth;  // the frame's depth buffer: path and format
     DepthKey key = DepthKey::stored_code;
     Format color_format = Format::rgba8;
+    std::optional<Format> published_format;  // of what the body publishes, if it is not a colour of the frame
     Rgba background{0, 0, 0, 1};
     Termination termination;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
+    Replay replay;
     bool keep_layers = false;
     bool trace = false;
     bool nearest_depth = false;  // also make the frame's Z

@@ -1,5 +1,6 @@
 #include "pipeline/region.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 
@@ -33,9 +34,10 @@ std::uint64_t bytes(const TargetStorage& s) {
 
 }  // namespace
 
-Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script)
+Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script,
+               ScratchPool* pool)
     : frame_{frame}, rect_{rect}, tile_{tile}, extent_{extent}, script_{std::move(script)}, rasterizer_{rect},
-      scratch_{std::make_unique<Scratch>()}, records_(1) {
+      pool_{pool}, scratch_{pool == nullptr ? std::make_unique<Scratch>() : pool->take()}, records_(1) {
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
     counts_ = false;
@@ -45,7 +47,9 @@ Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Exte
     counts_ = true;
 }
 
-Region::~Region() = default;
+Region::~Region() {
+    if (pool_ != nullptr) pool_->give(std::move(scratch_));
+}
 
 Target Region::make(Format format, int samples) {
     if (auto lacking = check_samples(profile(), samples)) throw Refused{profile(), *std::move(lacking)};
@@ -145,11 +149,32 @@ Rgba Region::color(Target target, std::uint32_t pixel) const {
 Image Region::image(Target target) const {
     const TargetStorage& from = storage(target);
     Image image{from.format(), rect_.width(), rect_.height(), from.samples()};
-    std::size_t next = 0;
-    for (std::size_t pixel = 0; pixel < from.pixels(); ++pixel)
-        for (int sample = 0; sample < from.samples(); ++sample)
-            for (int c = 0; c < image.channels(); ++c) image.codes[next++] = from.code(pixel, c, sample);
+    for (int y = 0; y < rect_.height(); ++y) read_row(from, y, &image.codes[image.index(0, y)]);
     return image;
+}
+
+void Region::write_image(Target target, Image& frame) const {
+    const rasterizer::Rect& whole = frame_.rect();
+    for (int y = 0; y < rect_.height(); ++y)
+        read_row(storage(target), y, &frame.codes[frame.index(rect_.x0 - whole.x0, rect_.y0 - whole.y0 + y)]);
+}
+
+// One row of the region as Image orders it: pixels, their samples, their channels.
+void Region::read_row(const TargetStorage& from, int y, std::uint32_t* out) const {
+    const auto width = static_cast<std::size_t>(rect_.width()), first = static_cast<std::size_t>(y) * width;
+    const auto channels = static_cast<std::size_t>(info(from.format()).channels);
+    const auto samples = static_cast<std::size_t>(from.samples());
+    for (std::size_t x = 0; x < width; x += batch_capacity) {
+        const std::size_t count = std::min<std::size_t>(width - x, batch_capacity);
+        for (std::size_t sample = 0; sample < samples; ++sample) {
+            ColorCodes& codes = scratch_->codes;
+            Lanes<std::uint32_t>& pixel = scratch_->screen.pixel;
+            for (std::size_t i = 0; i < count; ++i) pixel[i] = static_cast<std::uint32_t>(first + x + i);
+            from.gather(pixel, static_cast<int>(count), static_cast<int>(sample), codes);
+            for (std::size_t c = 0; c < channels; ++c)
+                for (std::size_t i = 0; i < count; ++i) out[((x + i) * samples + sample) * channels + c] = codes[c][i];
+        }
+    }
 }
 
 }  // namespace strata::pipeline

@@ -18,6 +18,8 @@
 
 namespace strata::pipeline {
 
+class FragmentStore;
+
 // One step of what a pixel composited, in the order in which it happened; see Outputs::side.
 struct TraceEntry {
     std::uint32_t pixel = 0, key = 0, primitive = 0;
@@ -53,8 +55,12 @@ enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the alg
 
 class Region {
   public:
-    // `script`: the frame's answers that are known already; further ones are guessed from the region's own counts.
-    Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script = {});
+    class ScratchPool;
+
+    // `script`: the frame's answers that are known already; further ones are guessed from the region's own counts. `pool`: where
+    // the region borrows its arrays; without one it brings its own.
+    Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script = {},
+           ScratchPool* pool = nullptr);
     Region(const Region&) = delete;
     Region& operator=(const Region&) = delete;
     ~Region();
@@ -116,6 +122,7 @@ class Region {
     void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
     [[nodiscard]] const TargetStorage& storage(Target target) const { return storages_[static_cast<std::size_t>(target.id)]; }
     [[nodiscard]] Image image(Target target) const;
+    void write_image(Target target, Image& frame) const;  // into this region's place in an image of the frame
 
     // For the executor.
     [[nodiscard]] const std::vector<Decision>& decisions() const noexcept { return decisions_; }
@@ -141,7 +148,11 @@ class Region {
     void run_program(P& program, FragmentBatch& batch, Outputs& out);
 
     void begin_pass(const PassState& state, PassKind kind);
-    void rasterize(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
+    void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
+    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, rasterizer::BatchSink sink);
+    void replay(rasterizer::BatchSink sink);
+    [[nodiscard]] FragmentStore& store() noexcept;
+    void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
     void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
     void load(const PassState& state, const FragmentBatch& batch);
@@ -155,6 +166,7 @@ class Region {
     void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                       const Lanes<std::uint32_t>& alive, std::uint64_t passed);
     void draw_opaque();
+    void read_row(const TargetStorage& from, int y, std::uint32_t* out) const;
     bool stop_iterating();
     void join_tail();
 
@@ -171,10 +183,13 @@ class Region {
     Extent extent_;
     std::vector<bool> script_;
     rasterizer::TileRasterizer rasterizer_;
+    ScratchPool* pool_;
     std::unique_ptr<Scratch> scratch_;
     std::vector<TargetStorage> storages_;
     Target opaque_depth_, opaque_color_, published_;
 
+    enum class Source : std::uint8_t { rasterizer, captured, store };  // captured: rasterized, and kept for later passes
+    Source source_ = Source::rasterizer;
     PassKind kind_ = PassKind::geometry;
     int pass_samples_ = 1;
     bool samples_textures_ = false;  // somebody looks at the colours of this pass

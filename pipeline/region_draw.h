@@ -10,12 +10,12 @@ Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& pro
     Drawn drawn;
     auto sink = [&](FragmentBatch& batch) {
         Outputs& out = start_batch(batch);
-        shade(list, batch, out);
+        shade_or_recall(list, batch, out);
         load(state, batch);
         run_program(program, batch, out);
         finish(state, batch, out, drawn);
     };
-    rasterize(list, state, rasterizer::BatchSink{sink});
+    for_each_batch(list, state, rasterizer::BatchSink{sink});
     return drawn;
 }
 

@@ -1,5 +1,9 @@
-// pipeline/region_scratch.h - the arrays that one batch passes through; one set a region, nothing is allocated per batch.
+// pipeline/region_scratch.h - what a region borrows while it runs: the arrays that one batch passes through, the rasterizer's own,
+// and the captured fragments. Handed from region to region, so that nothing is allocated per batch and little per tile.
 #pragma once
+#include <mutex>
+
+#include "pipeline/fragment_store.h"
 #include "pipeline/region.h"
 
 namespace strata::pipeline {
@@ -8,6 +12,8 @@ struct Region::Scratch {
     Loads loads;
     Outputs out;
     FragmentBatch screen;
+    FragmentBatch recalled;
+    Lanes<std::uint32_t> recalled_alive;
     ColorLanes texel;
     ColorCodes codes;
     Lanes<std::uint32_t> alive;         // of one sample
@@ -15,6 +21,28 @@ struct Region::Scratch {
     Lanes<std::uint32_t> depth_pass;
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
+    FragmentStore store;
+};
+
+// Free sets; as many as regions ever ran at once. A set carries no values from one region to the next.
+class Region::ScratchPool {
+  public:
+    [[nodiscard]] std::unique_ptr<Scratch> take() {
+        const std::scoped_lock lock{mutex_};
+        if (free_.empty()) return std::make_unique<Scratch>();
+        std::unique_ptr<Scratch> scratch = std::move(free_.back());
+        free_.pop_back();
+        scratch->store.forget();
+        return scratch;
+    }
+    void give(std::unique_ptr<Scratch> scratch) {
+        const std::scoped_lock lock{mutex_};
+        free_.push_back(std::move(scratch));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Scratch>> free_;
 };
 
 }  // namespace strata::pipeline

@@ -84,20 +84,6 @@ bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
     return count > 0;
 }
 
-void Region::rasterize(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
-    rasterizer::FragmentNeeds needs = state.needs;
-    needs.code |= state.depth.enabled || state.depth_unit_count > 0;
-    needs.facing |= state.stencil.enabled && state.stencil.two_sided;
-    needs.color |= list.needs_color;
-    needs.texcoord |= list.needs_texcoord && needs.color;
-    if (frame_.effects == Effects::all) needs = {true, true, needs.exact_code, true, true, true};
-    samples_textures_ = needs.color && list.needs_texcoord;
-    const auto& geometry = list.geometry;
-    const auto triangles =
-        extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
-    rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
-}
-
 Outputs& Region::start_batch(const FragmentBatch& batch) {
     Outputs& out = scratch_->out;
     std::fill_n(out.alive.begin(), batch.count, ~0u);

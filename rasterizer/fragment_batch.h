@@ -34,6 +34,10 @@ struct alignas(64) FragmentBatch {
 struct FragmentNeeds {
     bool shader_z = true, code = true, exact_code = false, color = true, texcoord = false, facing = false;
     friend bool operator==(const FragmentNeeds&, const FragmentNeeds&) = default;
+    [[nodiscard]] friend constexpr FragmentNeeds operator|(FragmentNeeds a, FragmentNeeds b) noexcept {
+        return {a.shader_z || b.shader_z, a.code || b.code,         a.exact_code || b.exact_code,
+                a.color || b.color,       a.texcoord || b.texcoord, a.facing || b.facing};
+    }
 };
 
 // The depth that `code` holds: which path computes it, in which format it is stored.

@@ -13,6 +13,15 @@
 
 namespace strata {
 
+int thread_count(int threads) noexcept {
+#ifdef STRATA_HAS_TBB
+    return threads > 0 ? threads : tbb::info::default_concurrency();
+#else
+    static_cast<void>(threads);
+    return 1;
+#endif
+}
+
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
     const auto call = [&](std::size_t i) {
         const FloatEnvironment ours;

@@ -11,4 +11,7 @@ namespace strata {
 // or when. An exception from a body is rethrown here.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
 
+// How many threads `threads` stands for.
+[[nodiscard]] int thread_count(int threads) noexcept;
+
 }  // namespace strata

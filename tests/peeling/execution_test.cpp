@@ -51,15 +51,21 @@ struct Way {
     int tile_size, threads;
     Effects effects;
     bool trust_idle;
+    std::uint64_t fragment_memory = std::uint64_t{256} << 20;
 };
 
-constexpr std::array<Way, 7> ways{{{Execution::literal, 64, 4, Effects::all, false},
+constexpr std::array<Way, 12> ways{{{Execution::literal, 64, 4, Effects::all, false},
                                    {Execution::tiled, 8, 1, Effects::needed, true},
                                    {Execution::tiled, 16, 4, Effects::all, true},
                                    {Execution::tiled, 16, 2, Effects::needed, false},
                                    {Execution::tiled, 32, 4, Effects::needed, true},
                                    {Execution::tiled, 64, 2, Effects::all, false},
-                                   {Execution::tiled, 128, 1, Effects::needed, true}}};
+                                   {Execution::tiled, 128, 1, Effects::needed, true},
+                                   {Execution::replay, 8, 1, Effects::needed, true},
+                                   {Execution::replay, 32, 4, Effects::needed, false},
+                                   {Execution::replay, 64, 2, Effects::all, true},
+                                   {Execution::replay, 128, 2, Effects::needed, true},
+                                   {Execution::replay, 64, 1, Effects::needed, true, std::uint64_t{300} << 10}}};
 
 RenderOptions with(RenderOptions options, const Way& way) {
     options.execution = way.execution;
@@ -67,6 +73,7 @@ RenderOptions with(RenderOptions options, const Way& way) {
     options.threads = way.threads;
     options.effects = way.effects;
     options.trust_idle = way.trust_idle;
+    options.fragment_memory = way.fragment_memory;
     return options;
 }
 

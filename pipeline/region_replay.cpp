@@ -1,0 +1,65 @@
+// pipeline/region_replay.cpp - where a geometry pass gets its fragments from: the rasterizer, or what an earlier pass captured.
+#include <algorithm>
+
+#include "pipeline/effects.h"
+#include "pipeline/region.h"
+#include "pipeline/region_scratch.h"
+
+namespace strata::pipeline {
+
+using rasterizer::FragmentNeeds;
+
+FragmentStore& Region::store() noexcept { return scratch_->store; }
+
+void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer::BatchSink sink) {
+    samples_textures_ = needs.color && list.needs_texcoord;
+    const auto& geometry = list.geometry;
+    const auto triangles =
+        extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
+    rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
+}
+
+void Region::replay(rasterizer::BatchSink sink) {
+    for (std::size_t number = 0; number < store().batches(); ++number) {
+        store().recall(number, scratch_->recalled, scratch_->recalled_alive);
+        sink(scratch_->recalled);
+    }
+}
+
+// The first pass over the transparent list captures what it and all later passes look at; a list that did not fit is rasterized
+// every time.
+void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
+    FragmentNeeds needs = pass_needs(state, list, frame_.effects);
+    const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent;
+    FragmentNeeds kept = needs;
+    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture
+    if (may_replay && store().serves(kept)) {
+        source_ = Source::store;
+        replay(sink);
+    } else if (may_replay && store().may_start()) {
+        source_ = Source::captured;
+        needs = needs | frame_.replay.needs;
+        needs.texcoord |= list.needs_texcoord && needs.color;
+        store().start(kept | frame_.replay.needs, frame_.replay.bytes);
+        rasterize(list, needs, sink);
+        store().finish();
+    } else {
+        rasterize(list, needs, sink);
+    }
+    source_ = Source::rasterizer;
+}
+
+// What the material stage leaves is the same whether it runs or is remembered, and so are its counters.
+void Region::shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
+    if (source_ != Source::store) {
+        shade(list, batch, out);
+        if (source_ == Source::captured) store().append(batch, out.alive);
+        return;
+    }
+    std::copy_n(scratch_->recalled_alive.begin(), batch.count, out.alive.begin());
+    Counters& counters = record().counters;
+    counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
+    counters.alpha_killed += static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count);
+}
+
+}  // namespace strata::pipeline
