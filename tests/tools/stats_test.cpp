@@ -13,6 +13,8 @@ namespace {
 const std::vector<std::string> row_keys{"algorithm",
                                         "profile",
                                         "execution",
+                                        "simd",
+                                        "fragment_memory",
                                         "outcome",
                                         "refusal",
                                         "width",
@@ -46,8 +48,8 @@ bool is_count(const ordered_json& value) {
 
 void check_types(const ordered_json& row) {
     CHECK(keys_of(row) == row_keys);
-    for (const char* key : {"algorithm", "profile", "execution", "outcome"}) CHECK(row[key].is_string());
-    for (const char* key : {"width", "height", "iterations", "geometry_passes", "fullscreen_passes", "layers_max",
+    for (const char* key : {"algorithm", "profile", "execution", "simd", "outcome"}) CHECK(row[key].is_string());
+    for (const char* key : {"fragment_memory", "width", "height", "iterations", "geometry_passes", "fullscreen_passes", "layers_max",
                             "fragments_max", "lost_by_ties"}) {
         INFO(key);
         CHECK(is_count(row[key]));

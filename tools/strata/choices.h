@@ -3,6 +3,7 @@
 #include "pipeline/draw_list.h"
 #include "pipeline/frame.h"
 #include "pipeline/profile_fields.h"
+#include "rasterizer/simd.h"
 #include "tools/strata/option.h"
 
 namespace strata::tools {
@@ -34,6 +35,12 @@ inline const std::vector<Choice<pipeline::ColorSpace>> color_spaces{{"encoded", 
 inline const std::vector<Choice<pipeline::Execution>> executions{{"literal", pipeline::Execution::literal},
                                                                  {"tiled", pipeline::Execution::tiled},
                                                                  {"replay", pipeline::Execution::replay}};
+
+inline const std::vector<Choice<Simd>> simds{{"scalar", Simd::scalar},
+                                             {"sse4", Simd::sse4},
+                                             {"avx2", Simd::avx2},
+                                             {"avx512", Simd::avx512},
+                                             {"best", Simd::best}};
 
 inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
                                                             {"all", pipeline::Effects::all}};

@@ -13,6 +13,7 @@ struct Command {
 
 [[nodiscard]] Command add_render(CLI::App& root);
 [[nodiscard]] Command add_layers(CLI::App& root);
+[[nodiscard]] Command add_bench(CLI::App& root);
 [[nodiscard]] Command add_scene(CLI::App& root);
 [[nodiscard]] Command add_digest(CLI::App& root);
 [[nodiscard]] Command add_algorithms(CLI::App& root);

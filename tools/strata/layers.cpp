@@ -72,7 +72,7 @@ Command add_layers(CLI::App& root) {
     const auto options = std::make_shared<LayersOptions>();
     options->run.default_algorithm = "front_to_back";  // dual composites on the fly and keeps none
     add_picture_options(*app, options->run);
-    add_execution_options(*app, options->run.render);
+    add_execution_options(*app, options->run);
     add_output_options(*app, options->run, "the layers, .exr: part layer.000 is the nearest");
     app->add_option("--deep", options->deep, "every fragment as a deep EXR, in submission order")->type_name("FILE");
     app->footer(

@@ -2,12 +2,14 @@
 // and what was found.
 #pragma once
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tools/strata/names.h"
+#include "tools/strata/parse.h"
 
 namespace strata::tools {
 
@@ -48,6 +50,40 @@ template <class T>
         if (choice.value == value) return choice.name;
     }
     return "";
+}
+
+// Of the words with commas between, those in `choices`, none twice; `all` stands for `everything` unless it is one of them.
+template <class T>
+[[nodiscard]] std::vector<T> to_choices(const std::string& name, const std::string& text,
+                                        const std::vector<Choice<T>>& choices, const std::vector<T>& everything) {
+    std::vector<T> chosen;
+    const auto add = [&](const T& value) {
+        if (std::find(chosen.begin(), chosen.end(), value) == chosen.end()) chosen.push_back(value);
+    };
+    for (const std::string& word : split(text, ',')) {
+        const auto choice = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.name == word; });
+        if (choice != choices.end()) {
+            add(choice->value);
+        } else if (word == "all") {
+            std::for_each(everything.begin(), everything.end(), add);
+        } else {
+            auto names = names_of(choices);
+            names.emplace_back("all");
+            throw CLI::ValidationError(name, "expected " + one_of(names) + ", found " + found_but_near(word, names));
+        }
+    }
+    return chosen;
+}
+
+// An option that takes some of a few names.
+template <class T>
+CLI::Option* add_choices(CLI::App& app, std::vector<T>& target, const std::string& name,
+                         const std::vector<Choice<T>>& choices, const std::vector<T>& everything,
+                         const std::string& help) {
+    const auto fill = [&target, name, choices, everything](const std::string& given) {
+        target = to_choices(name, given, choices, everything);
+    };
+    return app.add_option_function<std::string>(name, fill, help)->type_name("NAME[,NAME...]|all");
 }
 
 // An option that takes one of a few names. `Target` is T or something that T can be assigned to.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/strata/choices.h"
+#include "tools/strata/names.h"
 #include "tools/strata/parse.h"
 
 namespace strata::tools {
@@ -67,6 +68,17 @@ std::optional<pipeline::Termination> to_termination(std::string_view text) {
     return std::nullopt;
 }
 
+// Bytes, or K, M and G of them.
+std::optional<std::uint64_t> to_bytes(std::string_view text) {
+    constexpr std::string_view suffixes = "KMG";
+    const std::size_t suffix = text.empty() ? suffixes.npos : suffixes.find(text.back());
+    const unsigned shift = suffix == suffixes.npos ? 0 : 10 * (static_cast<unsigned>(suffix) + 1);
+    if (shift > 0) text.remove_suffix(1);
+    const auto count = to_int<std::uint64_t>(text);
+    if (!count || *count > ~std::uint64_t{0} >> shift) return std::nullopt;
+    return *count << shift;
+}
+
 std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
     std::vector<const peeling::Algorithm*> chosen;
     const auto add = [&](const peeling::Algorithm& algorithm) {
@@ -90,32 +102,38 @@ std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
     return chosen;
 }
 
-void add_machine_options(CLI::App& app, RunOptions& options) {
+void add_algorithm_option(CLI::App& app, RunOptions& options) {
     app.add_option_function<std::string>(
            "--algorithm", [&options](const std::string& text) { options.algorithms = to_algorithms(text); },
            "algorithms with commas between, or all (default " + options.default_algorithm + ")")
         ->type_name("NAME[,NAME...]|all");
-    app.add_option("--profile", options.profile, "a built-in profile, or a JSON file with one (default geforce8)")
+}
+
+}  // namespace
+
+void add_profile_option(CLI::App& app, std::string& profile) {
+    app.add_option("--profile", profile, "a built-in profile, or a JSON file with one (default geforce8)")
         ->type_name("NAME|FILE");
-    add_choice(app, options.render.depth, "--depth", depth_formats,
+}
+
+void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
+    add_choice(app, options.depth, "--depth", depth_formats,
                "depth buffer (default d32f, or d24 where that is missing)");
-    add_choice(app, options.render.depth_path, "--depth-path", depth_paths(),
+    add_choice(app, options.depth_path, "--depth-path", depth_paths(),
                "how depth is computed (default: the profile's own)");
-    add_choice(app, options.render.color_format, "--color-format", color_formats,
+    add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
-    add_choice(app, options.render.average_count, "--average-count", count_formats,
+    add_choice(app, options.average_count, "--average-count", count_formats,
                "fragment count of weighted_average (default r16f, as in the paper)");
-    add_option(app, options.render.termination,
+    add_option(app, options.termination,
                {"--termination", "exact|paper|any|ratio:R|fixed:N", "what ends a peel (default exact)",
                 "exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1"},
                to_termination);
     add_option(
-        app, options.render.max_passes,
+        app, options.max_passes,
         {"--max-passes", "N", "geometry passes at most (default 0: as many as it takes)", "a whole number from 0"},
         to_count);
 }
-
-}  // namespace
 
 std::vector<std::string> algorithm_names() {
     std::vector<std::string> names;
@@ -127,6 +145,10 @@ void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& 
     app.add_option("SCENE", scene, "a .gltf or .glb file, or a built-in scene (strata scenes)")
         ->required()
         ->type_name("");
+    add_reading_options(app, options);
+}
+
+void add_reading_options(CLI::App& app, scenes::SceneOptions& options) {
     add_option(app, options.scene,
                {"--scene", "N", "which scene of a glTF file (default: the file's own)", "a whole number from 0"},
                to_count);
@@ -138,7 +160,13 @@ void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& 
 
 void add_picture_options(CLI::App& app, RunOptions& options) {
     add_scene_options(app, options.scene, options.scene_options);
-    add_machine_options(app, options);
+    add_algorithm_option(app, options);
+    add_profile_option(app, options.profile);
+    add_machine_options(app, options.render);
+    add_view_options(app, options);
+}
+
+void add_view_options(CLI::App& app, RunOptions& options) {
     const auto set_size = [&options](std::string_view text) {
         const auto size = to_size(text);
         if (size) options.render.height = size->height;
@@ -163,16 +191,36 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
                to_rgb);
 }
 
-void add_execution_options(CLI::App& app, peeling::RenderOptions& options) {
-    add_choice(app, options.execution, "--execution", executions,
-               "frame by frame or tile by tile; same bits (default tiled)");
-    add_choice(app, options.tile_size, "--tile", tile_sizes, "side of a tile in pixels; same bits (default 32)");
+void add_execution_options(CLI::App& app, RunOptions& options) {
+    add_choice(app, options.render.execution, "--execution", executions,
+               "frame by frame, tile by tile, or with each tile's fragments kept for later passes; same bits (default "
+               "replay)");
+    add_choice(app, options.simd, "--simd", simds, "instruction set; same bits (default best: what the processor has)");
+    add_choice(app, options.render.effects, "--effects", effects,
+               "simulate the stages that are needed, or all; same bits (default needed)");
+    add_resource_options(app, options);
+}
+
+void add_resource_options(CLI::App& app, RunOptions& options) {
+    add_option(app, options.render.fragment_memory,
+               {"--fragment-memory", "SIZE", "what replay may keep of fragments, in bytes; same bits (default 256M)",
+                "bytes such as 65536, 64M or 1G"},
+               to_bytes);
+    add_choice(app, options.render.tile_size, "--tile", tile_sizes,
+               "side of a tile in pixels; same bits (default 32)");
     add_option(
-        app, options.threads,
+        app, options.render.threads,
         {"--threads", "N", "threads at most; same bits (default 0: all that there are)", "a whole number from 0"},
         to_count);
-    add_choice(app, options.effects, "--effects", effects,
-               "simulate the stages that are needed, or all; same bits (default needed)");
+}
+
+void check_simd(Simd simd) {
+    const auto available = available_simd();
+    if (simd == Simd::best || std::find(available.begin(), available.end(), simd) != available.end()) return;
+    std::vector<std::string> names;
+    for (const Simd has : available) names.push_back(name_of(simds, has));
+    throw CLI::ValidationError("--simd", "expected best or what this processor has (" + one_of(names) + "), found '" +
+                                             name_of(simds, simd) + "'");
 }
 
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "peeling/render.h"
+#include "rasterizer/simd.h"
 #include "scenes/scene.h"
 
 namespace strata::tools {
@@ -24,6 +25,7 @@ struct RunOptions {
     std::string camera;                                 // --camera; empty: the orbit
     std::optional<Orbit> orbit;
     peeling::RenderOptions render;
+    Simd simd = Simd::best;
     std::string stats;   // --stats; empty: none, "-": standard output
     std::string output;  // -o; empty: none
 };
@@ -34,8 +36,18 @@ void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& 
 // What is drawn: SCENE and all options that a result bit depends on.
 void add_picture_options(CLI::App& app, RunOptions& options);
 
-// How it is run: options that no bit depends on (--execution, --tile, --threads, --effects).
-void add_execution_options(CLI::App& app, peeling::RenderOptions& options);
+// How it is run: options that no bit depends on (--execution, --fragment-memory, --simd, --effects, --tile, --threads).
+void add_execution_options(CLI::App& app, RunOptions& options);
+
+// Parts of both, for a command that takes lists of the rest.
+void add_reading_options(CLI::App& app, scenes::SceneOptions& options);   // --scene, --colour, --no-light
+void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth ... --max-passes
+void add_profile_option(CLI::App& app, std::string& profile);
+void add_view_options(CLI::App& app, RunOptions& options);        // --size ... --background
+void add_resource_options(CLI::App& app, RunOptions& options);    // --fragment-memory, --tile, --threads
+
+// Throws CLI::ValidationError where this processor lacks the set.
+void check_simd(Simd simd);
 
 // Where results go: --stats, -o, --no-audit.
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);

@@ -10,8 +10,9 @@
 
 namespace strata::tools {
 
-[[nodiscard]] inline std::optional<int> to_int(std::string_view text) {
-    int value = 0;
+template <std::integral T = int>
+[[nodiscard]] std::optional<T> to_int(std::string_view text) {
+    T value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
     return value;

@@ -31,7 +31,7 @@ Command add_render(CLI::App& root) {
         "render", "render a scene by one or more algorithms and compare each with the exact A-buffer");
     const auto options = std::make_shared<RunOptions>();
     add_picture_options(*app, *options);
-    add_execution_options(*app, options->render);
+    add_execution_options(*app, *options);
     add_output_options(*app, *options, "the picture, .exr or .png; with several algorithms out.NAME.png");
     app->footer(
         footer("  strata render teapot --size 400x300 -o teapot.png\n"

@@ -34,7 +34,11 @@ pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) 
     throw CLI::ValidationError("--camera", "expected " + cameras + ", found " + found_but_near(options.camera, names));
 }
 
-Session open(RunOptions& options) {
+}  // namespace
+
+Session open_session(RunOptions& options) {
+    check_simd(options.simd);
+    choose_simd(options.simd);
     Session session;
     session.profile = scenes::load_profile(options.profile);
     session.scene = scenes::load_scene(options.scene, options.scene_options);
@@ -44,6 +48,8 @@ Session open(RunOptions& options) {
     options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
     return session;
 }
+
+namespace {
 
 // Keeps the numbers, lets the pixels go.
 RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&& result) {
@@ -73,6 +79,8 @@ void report(const RunOptions& options, const std::vector<RunSummary>& runs, cons
                              .width = options.render.width,
                              .height = options.render.height,
                              .execution = options.render.execution,
+                             .simd = options.simd,
+                             .fragment_memory = options.render.fragment_memory,
                              .audited = options.render.audit,
                              .total_seconds = total.count()};
     if (options.stats == "-") return print(to_json(runs, context));
@@ -98,7 +106,7 @@ int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfi
 int run_algorithms(RunOptions& options, const Writer& write) {
     complete(options);
     check_output("--stats", options.stats == "-" ? "" : options.stats, {".json"});
-    const Session session = open(options);
+    const Session session = open_session(options);
     peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms)

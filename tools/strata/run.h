@@ -16,6 +16,9 @@ struct Session {
     pipeline::View view;
 };
 
+// Loads profile and scene, warns on standard error, finds the view, and makes --simd and --background the run's.
+[[nodiscard]] Session open_session(RunOptions& options);
+
 // One algorithm that ran.
 struct Finished {
     const Session& session;

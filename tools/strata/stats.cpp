@@ -91,6 +91,8 @@ ordered_json to_row(const RunSummary& run, const RunContext& context) {
     row["algorithm"] = algorithm->name;
     row["profile"] = context.profile;
     row["execution"] = name_of(executions, context.execution);
+    row["simd"] = name_of(simds, context.simd);
+    row["fragment_memory"] = context.fragment_memory;
     row["outcome"] = outcome_name(result.outcome);
     row["refusal"] = refusal_of(run);
     row["width"] = context.width;

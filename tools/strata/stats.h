@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "peeling/render.h"
+#include "rasterizer/simd.h"
 
 namespace strata::tools {
 
@@ -20,7 +21,9 @@ struct RunSummary {
 struct RunContext {
     std::string profile;
     int width = 0, height = 0;
-    pipeline::Execution execution = pipeline::Execution::tiled;
+    pipeline::Execution execution = pipeline::Execution::replay;
+    Simd simd = Simd::best;  // as asked for: rows do not name the machine
+    std::uint64_t fragment_memory = 0;
     bool audited = true;       // false: whatever comes from the audit is null
     double total_seconds = 0;  // of the process
 };

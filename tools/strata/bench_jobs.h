@@ -1,0 +1,49 @@
+// tools/strata/bench_jobs.h - what `strata bench` times: one algorithm in one way of running it, from the scene in memory
+// to finished pixels in memory. Loading is outside, and so is whatever compares or writes.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/strata/run.h"
+
+namespace strata::tools {
+
+// A scene that is loaded once for all its jobs.
+struct BenchScene {
+    RunOptions options;
+    Session session;
+};
+
+struct BenchJob {
+    const BenchScene* scene = nullptr;
+    const peeling::Algorithm* algorithm = nullptr;  // null: the job `depth`, one opaque depth pass
+    pipeline::Execution execution = pipeline::Execution::replay;
+    Simd simd = Simd::scalar;  // never `best`
+    pipeline::Effects effects = pipeline::Effects::needed;
+};
+
+// One repetition.
+struct BenchRun {
+    std::string refusal;  // why the profile cannot run it; empty: it ran
+    double seconds = 0, geometry_seconds = 0;  // the second is a part of the first
+    int geometry_passes = 0, iterations = 0;
+    pipeline::Counters counters;  // literal's
+    std::string digest;           // of the picture; of the depths for `depth`
+};
+
+struct BenchResult {
+    BenchJob job;
+    BenchRun last;
+    std::vector<double> seconds, geometry_seconds;  // one a repetition, in the order in which they ran
+    [[nodiscard]] bool is_refused() const noexcept { return !last.refusal.empty(); }
+};
+
+[[nodiscard]] std::string algorithm_name(const BenchJob& job);
+
+[[nodiscard]] BenchRun run_once(const BenchJob& job);
+
+// Google Benchmark runs every job `repeat` times; progress is shown on a terminal.
+[[nodiscard]] std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, int repeat);
+
+}  // namespace strata::tools
