@@ -173,7 +173,8 @@ class Region {
     void load(const PassState& state, const FragmentBatch& batch);
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
-    void test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
+    std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                         Lanes<std::uint32_t>& alive);  // answers how many pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
     void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);

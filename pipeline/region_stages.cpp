@@ -144,10 +144,10 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
 void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn) {
     Lanes<std::uint32_t>& alive = scratch_->alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
-    if (count_lanes(alive, batch.count) == 0) return;
     if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
-    if (state.depth.enabled || state.stencil.enabled) test_depth_and_stencil(state, batch, sample, alive);
-    const std::uint64_t passed = count_lanes(alive, batch.count);
+    const bool is_tested = state.depth.enabled || state.stencil.enabled;
+    const std::uint64_t passed =
+        is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
     drawn.passed.own_ += passed;
     if (passed == 0) return;
     if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
@@ -173,8 +173,8 @@ void Region::test_depth_units(const PassState& state, const FragmentBatch& batch
     }
 }
 
-void Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
-                                    Lanes<std::uint32_t>& alive) {
+std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                             Lanes<std::uint32_t>& alive) {
     Scratch& s = *scratch_;
     Counters& counters = record().counters;
     TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
@@ -198,9 +198,11 @@ void Region::test_depth_and_stencil(const PassState& state, const FragmentBatch&
     }
     counters.stencil_killed += stencil_killed;
     counters.depth_killed += tested.arriving - stencil_killed - tested.passed;
-    if (depth == nullptr) return;
-    counters.bytes_read += pixel_bytes(*depth) * (tested.arriving - stencil_killed);
-    if (state.depth.write) counters.bytes_written += pixel_bytes(*depth) * tested.passed;
+    if (depth != nullptr) {
+        counters.bytes_read += pixel_bytes(*depth) * (tested.arriving - stencil_killed);
+        if (state.depth.write) counters.bytes_written += pixel_bytes(*depth) * tested.passed;
+    }
+    return tested.passed;
 }
 
 std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,

@@ -79,12 +79,15 @@ HWY_INLINE WordMask is_set(const Word* alive) {
     return hn::Ne(hn::LoadU(d, alive), hn::Zero(d));
 }
 
+// A living lane is ~0, which is -1.
 std::uint64_t count_set(const Word* alive, std::size_t count) {
     const Words d;
-    std::uint64_t living = 0;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d))
-        living += hn::CountTrue(d, hn::And(is_set(alive + i), first_lanes(count - i)));
-    return living;
+    const std::size_t whole = count - count % hn::Lanes(d);
+    WordVec living = hn::Zero(d);
+    for (std::size_t i = 0; i < whole; i += hn::Lanes(d)) living = hn::Sub(living, hn::LoadU(d, alive + i));
+    if (whole < count)
+        living = hn::Sub(living, hn::IfThenElseZero(first_lanes(count - whole), hn::LoadU(d, alive + whole)));
+    return hn::GetLane(hn::SumOfLanes(d, living));
 }
 
 // How many channels a word holds, and the mask of the lowest.

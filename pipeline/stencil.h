@@ -5,7 +5,7 @@
 //          counts as passed. INCR and DECR saturate; REPLACE writes the whole reference; write_mask touches nothing
 //          but the update.
 // Source   hardware.md 7 (GL 2.1 4.1.5; EXT_stencil_two_side; EXT_stencil_wrap); measured, nv2a-fragment.md R8.
-// Tests    tests/pipeline/stencil_test.cpp
+// Tests    tests/pipeline/stencil_test.cpp, tests/pipeline/simd_stages_test.cpp
 #pragma once
 #include <cstdint>
 
