@@ -163,7 +163,7 @@ void TileRasterizer::draw(const Geometry& geometry, std::span<const std::uint32_
                           const FragmentNeeds& needs, BatchSink sink) {
     Pass pass{*this, geometry, depth, needs, sink};
     pass.flush();  // the stamps of an earlier draw say nothing about this one
-    for (const std::uint32_t i : triangles) pass.draw(geometry.triangles[i]);
+    for (const std::uint32_t i : triangles) pass.draw(geometry.triangle(i));
     pass.flush();
 }
 
