@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "pipeline/matrix.h"
 #include "rasterizer/float_environment.h"
@@ -95,20 +96,27 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
     const VertexStage stage{mesh, material, to_binary32(product(product(view.projection, view.view), instance.model)),
                             normal_matrix(instance.model), light_direction(view.view),
                             material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
-    const std::size_t base = soup.vertices.size();
+    const std::size_t base = soup.vertices.size(), first_index = soup.indices.size();
     soup.vertices.resize(base + mesh.positions.size());
+    soup.indices.resize(first_index + mesh.indices.size());
     constexpr std::size_t chunk = 4096;
-    parallel_for((mesh.positions.size() + chunk - 1) / chunk, options.threads, [&](std::size_t c) {
-        const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
-        for (std::size_t i = c * chunk; i < end; ++i) soup.vertices[base + i] = stage(i);
+    const std::size_t vertex_chunks = (mesh.positions.size() + chunk - 1) / chunk;
+    const std::size_t index_chunks = (mesh.indices.size() + chunk - 1) / chunk;
+    parallel_for(vertex_chunks + index_chunks, options.threads, [&](std::size_t c) {
+        if (c < vertex_chunks) {
+            const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
+            for (std::size_t i = c * chunk; i < end; ++i) soup.vertices[base + i] = stage(i);
+            return;
+        }
+        const std::size_t begin = (c - vertex_chunks) * chunk, end = std::min(mesh.indices.size(), begin + chunk);
+        for (std::size_t i = begin; i < end; ++i)
+            soup.indices[first_index + i] = static_cast<std::uint32_t>(base) + mesh.indices[i];
     });
-    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(soup.indices.size()),
+    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(first_index),
                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
                          .material = instance.material,
                          .double_sided = material.double_sided,
                          .mirrored = determinant(instance.model) < 0});
-    soup.indices.reserve(soup.indices.size() + mesh.indices.size());
-    for (const std::uint32_t index : mesh.indices) soup.indices.push_back(static_cast<std::uint32_t>(base) + index);
 }
 
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
@@ -148,8 +156,8 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     rasterizer::TriangleSoup soup = transform(list, view, options);
     if (options.sort_back_to_front) soup.order = back_to_front_order(soup);
     PreparedDraw prepared;
-    prepared.geometry = rasterizer::set_up(soup, state, profile.raster, options.threads);
-    bin_triangles(prepared.geometry, options.tile_size);
+    prepared.geometry = rasterizer::set_up(std::move(soup), state, profile.raster, options.threads);
+    bin_triangles(prepared.geometry, options.tile_size, options.threads);
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;

@@ -6,12 +6,15 @@
 
 namespace strata::rasterizer {
 
-Clipper::Clipper(const RasterState& state, const RasterRules& rules) {
+Clipper::Clipper(const RasterState& state, const RasterRules& rules)
+    : symmetric_{state.clip_depth == ClipDepth::minus_one_to_one},
+      guard_holds_viewport_{state.clip_plane_count == 0 && state.viewport.x0 >= -rules.guard_band_px &&
+                            state.viewport.y0 >= -rules.guard_band_px && state.viewport.x1 <= rules.guard_band_px &&
+                            state.viewport.y1 <= rules.guard_band_px} {
     const auto add = [&](Plane plane) { plane_[static_cast<std::size_t>(count_++)] = plane; };
     add({0, 0, 0, 1, -double{least_w}, Kind::w});
     if (!state.depth_clamp && rules.z_clip == ZClip::per_primitive) {
-        const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
-        add(symmetric ? Plane{0, 0, 1, 1, 0, Kind::z_is_minus_w} : Plane{0, 0, 1, 0, 0, Kind::z_is_zero});
+        add(symmetric_ ? Plane{0, 0, 1, 1, 0, Kind::z_is_minus_w} : Plane{0, 0, 1, 0, 0, Kind::z_is_zero});
         add({0, 0, -1, 1, 0, Kind::z_is_w});
     }
     // |centre + half x / w| <= guard, times w: products are exact in binary64, so the sign of the distance is.
@@ -40,7 +43,7 @@ double Clipper::distance(const Plane& plane, const ClipVertex& v) noexcept {
     return d + plane.constant;
 }
 
-std::uint32_t Clipper::outside(const ClipVertex& v) const noexcept {
+std::uint32_t Clipper::outside_planes(const ClipVertex& v) const noexcept {
     std::uint32_t mask = 0;
     for (int i = 0; i < count_; ++i) mask |= (distance(plane_[static_cast<std::size_t>(i)], v) < 0.0 ? 1u : 0u) << i;
     return mask;

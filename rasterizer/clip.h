@@ -28,7 +28,9 @@ class Clipper {
     Clipper(const RasterState& state, const RasterRules& rules);
 
     // Bit i: the vertex is outside plane i. Bit 0 is the w plane.
-    [[nodiscard]] std::uint32_t outside(const ClipVertex& v) const noexcept;
+    [[nodiscard]] std::uint32_t outside(const ClipVertex& v) const noexcept {
+        return within_viewport(v) ? 0u : outside_planes(v);
+    }
     // Cuts `polygon` by the planes of the set `planes`; corners stay in walking order from corner 0.
     void clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept;
 
@@ -38,6 +40,14 @@ class Clipper {
         double x, y, z, w, constant;
         Kind kind;
     };
+    // Inside all planes, without looking at them: in the view volume, which the guard band holds, when no plane is the
+    // user's. The signs of the exact distances are those of these comparisons.
+    [[nodiscard]] bool within_viewport(const ClipVertex& v) const noexcept {
+        const float w = v.w, least_z = symmetric_ ? -w : 0.0f;
+        return guard_holds_viewport_ && w >= least_w && v.x >= -w && v.x <= w && v.y >= -w && v.y <= w &&
+               v.z >= least_z && v.z <= w;
+    }
+    [[nodiscard]] std::uint32_t outside_planes(const ClipVertex& v) const noexcept;
     [[nodiscard]] static double distance(const Plane& plane, const ClipVertex& v) noexcept;
     [[nodiscard]] static ClipVertex crossing(const Plane& plane, const ClipVertex& in, double d_in,
                                              const ClipVertex& out, double d_out) noexcept;
@@ -45,6 +55,7 @@ class Clipper {
 
     std::array<Plane, max_clip_planes> plane_{};
     int count_ = 0;
+    bool symmetric_, guard_holds_viewport_;
 };
 
 }  // namespace strata::rasterizer

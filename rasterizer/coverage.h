@@ -40,8 +40,8 @@ class TriangleEdges {
 
   private:
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::int64_t area) noexcept
-        : edge_{area > 0 ? std::array{Edge{p[1], p[2]}, Edge{p[2], p[0]}, Edge{p[0], p[1]}}
-                         : std::array{Edge{p[2], p[1]}, Edge{p[0], p[2]}, Edge{p[1], p[0]}}},
+        : edge_{Edge{p[1], p[2], area > 0 ? 1 : -1}, Edge{p[2], p[0], area > 0 ? 1 : -1},
+                Edge{p[0], p[1], area > 0 ? 1 : -1}},
           tie_{edge_[0].owns_ties(rule) ? 0 : 1, edge_[1].owns_ties(rule) ? 0 : 1, edge_[2].owns_ties(rule) ? 0 : 1},
           area_{area > 0 ? area : -area} {}
 
@@ -96,15 +96,6 @@ class RowWalker {
         }
         const auto at = [&](std::size_t i) { return value_[i] + first * step_[i]; };
         return {x0_ + static_cast<int>(first), x0_ + static_cast<int>(end), {at(0), at(1), at(2)}};
-    }
-    // The same pixels one by one, for boxes so narrow that a span costs more than its fragments: visit(x, e1, e2).
-    template <class Visit>
-    void for_each_covered(Visit&& visit) const {
-        EdgeValues e{value_[0] - crossing_[0].tie, value_[1] - crossing_[1].tie, value_[2] - crossing_[2].tie};
-        for (int k = 0; k < width_; ++k) {
-            if ((e[0] | e[1] | e[2]) >= 0) visit(x0_ + k, e[1] + crossing_[1].tie, e[2] + crossing_[2].tie);
-            for (std::size_t i = 0; i < 3; ++i) e[i] += step_[i];
-        }
     }
 
   private:

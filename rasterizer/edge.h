@@ -23,8 +23,10 @@ struct SubpixelPoint {
 // One directed side of a triangle whose vertices run clockwise on the y-down surface.
 class Edge {
   public:
-    constexpr Edge(SubpixelPoint from, SubpixelPoint to) noexcept
-        : from_{from}, dx_{std::int64_t{to.x} - from.x}, dy_{std::int64_t{to.y} - from.y} {}
+    constexpr Edge(SubpixelPoint from, SubpixelPoint to) noexcept : Edge{from, to, 1} {}
+    // With turn -1, the same side walked the other way.
+    constexpr Edge(SubpixelPoint from, SubpixelPoint to, std::int64_t turn) noexcept
+        : from_{from}, dx_{turn * (to.x - from.x)}, dy_{turn * (to.y - from.y)} {}
 
     // E(p): twice the area of (from, to, p) in square subpixels; positive on the interior side; exact.
     [[nodiscard]] constexpr std::int64_t at(SubpixelPoint p) const noexcept {
@@ -36,12 +38,12 @@ class Edge {
 
     // Clockwise and y down: a side that runs right has the interior below it (top), one that runs up has it on its
     // right (left).
-    [[nodiscard]] constexpr bool owns_ties(TieRule rule) const noexcept {
+    [[nodiscard]] static constexpr bool owns_ties(std::int64_t dx, std::int64_t dy, TieRule rule) noexcept {
         const bool left = rule == TieRule::top_left || rule == TieRule::bottom_left;
         const bool top = rule == TieRule::top_left || rule == TieRule::top_right;
-        if (dy_ != 0) return left ? dy_ < 0 : dy_ > 0;
-        return top ? dx_ > 0 : dx_ < 0;
+        return (dy != 0 ? (left ? -dy : dy) : (top ? dx : -dx)) > 0;
     }
+    [[nodiscard]] constexpr bool owns_ties(TieRule rule) const noexcept { return owns_ties(dx_, dy_, rule); }
     [[nodiscard]] constexpr bool owns(SubpixelPoint p, TieRule rule) const noexcept {
         const std::int64_t e = at(p);
         return e > 0 || (e == 0 && owns_ties(rule));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <span>
 
 #include "rasterizer/color_weights.h"
 #include "rasterizer/window.h"
@@ -13,26 +12,6 @@ namespace {
 
 // A depth range limit, within [0,1] as glDepthRange clamps it; -0 becomes 0.
 [[nodiscard]] float range_limit(float z) noexcept { return z > 0.0f ? std::min(z, 1.0f) : 0.0f; }
-
-// b1 and b2 from the unsnapped corners: a function of the pixel alone, whatever span it came in.
-void fill_unsnapped_weights(const SetupTriangle& t, int first, const FragmentBatch& batch,
-                            WeightLanes& weights) noexcept {
-    const auto [p0, p1, p2] = t.unsnapped;
-    const double x1 = double{p1[0]} - p0[0], y1 = double{p1[1]} - p0[1];
-    const double x2 = double{p2[0]} - p0[0], y2 = double{p2[1]} - p0[1];
-    const double r = 1.0 / (x1 * y2 - x2 * y1);
-    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
-        const double dx = batch.x[i] + 0.5 - p0[0], dy = batch.y[i] + 0.5 - p0[1];
-        weights.b1[i] = (dx * y2 - dy * x2) * r;
-        weights.b2[i] = (dy * x1 - dx * y1) * r;
-    }
-}
-
-// A triangle whose unsnapped corners lie on a line has no plane there: it takes the snapped one.
-[[nodiscard]] bool has_unsnapped_area(const SetupTriangle& t) noexcept {
-    const auto [p0, p1, p2] = t.unsnapped;
-    return (double{p1[0]} - p0[0]) * (double{p2[1]} - p0[1]) != (double{p2[0]} - p0[0]) * (double{p1[1]} - p0[1]);
-}
 
 [[nodiscard]] bool same_bits(float a, float b) noexcept {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
@@ -70,7 +49,11 @@ void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, int 
 }  // namespace
 
 FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs)
-    : rules_{geometry.rules}, depth_{depth}, needs_{needs}, z_units_{z_units(geometry.state, geometry.rules)} {
+    : kernels_{lane_kernels()},
+      rules_{geometry.rules},
+      depth_{depth},
+      needs_{needs},
+      z_units_{z_units(geometry.state, geometry.rules)} {
     const float n = range_limit(geometry.state.depth_near), f = range_limit(geometry.state.depth_far);
     least_ = std::min(n, f);
     greatest_ = std::max(n, f);
@@ -80,6 +63,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     const bool is_float = depth.format == DepthFormat::d32f;
     needs_float_z_ = needs.shader_z || (needs.code && (depth.path == DepthPath::float32 || is_float)) ||
                      (needs.exact_code && is_float);
+    needs_attributes_ = needs.color || needs.texcoord;
+    is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code &&
+                (!needs.code || depth.path == DepthPath::float32);
     assert((!needs.code || depth.path == DepthPath::window_z || depth.path == DepthPath::float32 ||
             depth.path == DepthPath::exact) &&
            "the other depth paths are refused before rasterization");
@@ -87,11 +73,50 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
            "window_z works in the buffer units of a fixed-point format, the one that is stored");
 }
 
-TriangleLanes FragmentValues::lanes(const TriangleEdges& edges, int first, const FragmentBatch& batch,
-                                    const WeightLanes& weights) const noexcept {
+TriangleLanes FragmentValues::lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
+                                    const FragmentBatch& batch, const WeightLanes& weights) const noexcept {
     const auto f = static_cast<std::size_t>(first);
     return {&edges,         rules_.subpixel_bits, &batch.x[f],         &batch.y[f],
-            &weights.b1[f], &weights.b2[f],       batch.count - first, true};
+            &weights.b1[f], &weights.b2[f],       batch.count - first, triangle.weights.is_exact()};
+}
+
+void FragmentValues::fill_weights(const DrawnTriangle& triangle, int first, const FragmentBatch& batch,
+                                  WeightLanes& weights) const noexcept {
+    const PixelWeights& w = triangle.weights;
+    const auto f = static_cast<std::size_t>(first);
+    if (w.kind != PixelWeights::Kind::snapped_wide)
+        return kernels_.weights(w, &batch.x[f], &batch.y[f], batch.count - first, &weights.b1[f], &weights.b2[f]);
+    const TriangleEdges edges = triangle.edges();
+    const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    for (int i = 0; i < own.count; ++i) {
+        const EdgeValues e = own.edge_values(i);
+        weights.b1[f + static_cast<std::size_t>(i)] = static_cast<double>(e[1]) * w.r;
+        weights.b2[f + static_cast<std::size_t>(i)] = static_cast<double>(e[2]) * w.r;
+    }
+}
+
+bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                WeightLanes& weights) const noexcept {
+    const auto f = static_cast<std::size_t>(first);
+    if (!is_plain_ || triangle.weights.kind == PixelWeights::Kind::snapped_wide) return false;
+    if (!needs_float_z_) {
+        if (needs_attributes_) fill_weights(triangle, first, batch, weights);
+        return true;
+    }
+    const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
+    if (plane.is_constant()) return false;
+    const bool is_fixed = depth_.format != DepthFormat::d32f;
+    const DepthLanes out{is_fixed,
+                         least_,
+                         greatest_,
+                         static_cast<double>(max_code(depth_.format)),
+                         rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0,
+                         needs_.shader_z ? &batch.shader_z[f] : nullptr,
+                         needs_.code ? &batch.code[f] : nullptr,
+                         needs_attributes_ ? &weights.b1[f] : nullptr,
+                         needs_attributes_ ? &weights.b2[f] : nullptr};
+    return !kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.is_exact()}, &batch.x[f], &batch.y[f],
+                           batch.count - first, out);
 }
 
 // A convex combination leaves the range only if a corner does; the products are exact.
@@ -155,46 +180,62 @@ int FragmentValues::fill_codes(const SetupTriangle& t, const TriangleLanes& lane
     return 0;
 }
 
-int FragmentValues::fill_attributes(const SetupTriangle& t, const TriangleLanes& lanes, int first,
-                                    FragmentBatch& batch) const {
+int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                    const WeightLanes& weights) const {
+    const Geometry& geometry = triangle.geometry;
+    const auto f = static_cast<std::size_t>(first);
+    const int count = batch.count - first;
     const bool weighted = needs_.color && rules_.color == ColorInterpolation::weights_8bit;
-    if (weighted) fill_color_weights(t, lanes, first, batch);
     const std::size_t begin = needs_.color && !weighted ? 0 : color_channels;
     const std::size_t end = needs_.texcoord ? attribute_count : color_channels;
-    const bool has_w = !(t.inverse_w[0] == 1.0f && t.inverse_w[1] == 1.0f && t.inverse_w[2] == 1.0f);
-    const std::span<const std::array<float, attribute_count>, 3> u{t.attribute};
-    const auto f = static_cast<std::size_t>(first);
-    alignas(64) Lanes<float> inverse_w_lanes;
-    float* const __restrict inverse_w = inverse_w_lanes.data();
-    bool has_inverse_w = false;
-    int fallbacks = 0;
+    std::array<const ClipVertex*, 3> v;
+    std::array<double, 3> w;
+    for (std::size_t i = 0; i < 3; ++i) {
+        v[i] = &geometry.vertices[triangle.record.vertex[i]];
+        w[i] = geometry.corners[triangle.record.vertex[i]].inverse_w;
+    }
+    AttributeLanes varying;
+    varying.has_w = !(w[0] == 1.0 && w[1] == 1.0 && w[2] == 1.0);  // else the quotient is the dividend
+    varying.inverse_w = {w};
     for (std::size_t a = begin; a < end; ++a) {
-        float* __restrict out = a < color_channels ? &batch.color[a][f] : &batch.texcoord[a - color_channels][f];
-        if (same_bits(u[0][a], u[1][a]) && same_bits(u[0][a], u[2][a])) {
-            const float constant = u[0][a];
-            for (int i = 0; i < padded(lanes.count); ++i) out[i] = constant;
+        const auto value = [&](std::size_t i) {
+            if (a >= color_channels) return v[i]->texcoord[a - color_channels];
+            return triangle.record.front_facing ? v[i]->front[a] : v[i]->back[a];
+        };
+        float* const out = a < color_channels ? &batch.color[a][f] : &batch.texcoord[a - color_channels][f];
+        if (same_bits(value(0), value(1)) && same_bits(value(0), value(2))) {
+            std::fill_n(out, padded(count), value(0));
             continue;
         }
-        const auto product = [&](std::size_t i) { return u[i][a] * t.inverse_w[i]; };  // rounded to binary32
-        fallbacks += round_plane(RationalPlane{{product(0), product(1), product(2)}}, lanes, out);
-        if (!has_w) continue;  // 1/w is 1 everywhere: the quotient is the dividend
-        if (!has_inverse_w) {
-            fallbacks += round_plane(RationalPlane{{t.inverse_w[0], t.inverse_w[1], t.inverse_w[2]}}, lanes, inverse_w);
-            has_inverse_w = true;
-        }
-        for (int i = 0; i < padded(lanes.count); ++i) out[i] = out[i] / inverse_w[i];
+        const auto product = [&](std::size_t i) -> double { return value(i) * static_cast<float>(w[i]); };  // binary32
+        varying.add({{product(0), product(1), product(2)}}, out);
+    }
+    if (!weighted && varying.count == 0) return 0;
+    const TriangleEdges edges = triangle.edges();
+    const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, first, batch);
+    return varying.count == 0 ? 0 : fill_varying(varying, own);
+}
+
+int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const {
+    if (!kernels_.attributes(varying, lanes)) return 0;
+    int fallbacks = 0;  // some lane is not certain: one plane after the other
+    alignas(64) Lanes<float> inverse_w;
+    if (varying.has_w) fallbacks += round_plane(varying.inverse_w, lanes, inverse_w.data());
+    for (std::size_t k = 0; k < varying.count; ++k) {
+        float* const out = varying.out[k];
+        fallbacks += round_plane(varying.plane[k], lanes, out);
+        for (int i = 0; varying.has_w && i < lanes.count; ++i) out[i] = out[i] / inverse_w[static_cast<std::size_t>(i)];
     }
     return fallbacks;
 }
 
-int FragmentValues::fill(const SetupTriangle& t, const TriangleEdges& edges, int first, FragmentBatch& batch,
-                         WeightLanes& weights) const {
+int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                WeightLanes& weights) const {
     const auto f = static_cast<std::size_t>(first);
-    TriangleLanes own = lanes(edges, first, batch, weights);
-    if (rules_.plane_origin == PlaneOrigin::unsnapped && has_unsnapped_area(t)) {
-        fill_unsnapped_weights(t, first, batch, weights);
-        own.is_exact = false;
-    }
+    fill_weights(triangle, first, batch, weights);
+    const TriangleEdges edges = triangle.edges();
+    TriangleLanes own = lanes(triangle, edges, first, batch, weights);
     const bool clips = clips_fragments_ && may_leave_depth_range(t);
     int fallbacks = 0;
     if (needs_float_z_ || clips) fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
@@ -204,10 +245,17 @@ int FragmentValues::fill(const SetupTriangle& t, const TriangleEdges& edges, int
     }
     if (needs_.code) fallbacks += fill_codes(t, own, first, batch);
     if (needs_.exact_code) fallbacks += fill_exact_codes(t, own, &batch.shader_z[f], &batch.exact_code[f]);
-    if (needs_.color || needs_.texcoord) fallbacks += fill_attributes(t, own, first, batch);
-    std::uint32_t* const primitive = &batch.primitive[f];
-    for (int i = 0; i < padded(own.count); ++i) primitive[i] = t.primitive;
-    if (needs_.facing) std::fill_n(&batch.front_facing[f], own.count, std::uint8_t{t.front_facing});
+    return fallbacks;
+}
+
+int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const {
+    int fallbacks = 0;
+    if (!fill_depth(triangle, first, batch, weights))
+        fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
+    if (needs_attributes_) fallbacks += fill_attributes(triangle, first, batch, weights);
+    if (needs_.facing)
+        std::fill_n(&batch.front_facing[static_cast<std::size_t>(first)], batch.count - first,
+                    std::uint8_t{triangle.record.front_facing});
     return fallbacks;
 }
 

@@ -13,37 +13,52 @@
 
 #include "rasterizer/fragment_batch.h"
 #include "rasterizer/geometry.h"
-#include "rasterizer/plane.h"
+#include "rasterizer/lane_kernels.h"
 
 namespace strata::rasterizer {
 
-// The weights b1 and b2 of a batch's fragments in their own triangles.
-struct alignas(64) WeightLanes {
-    Lanes<double> b1, b2;
+// A triangle that is being drawn.
+struct DrawnTriangle {
+    const Geometry& geometry;
+    std::uint32_t index;
+    const TriangleRecord& record;
+    PixelWeights weights;
+
+    DrawnTriangle(const Geometry& g, std::uint32_t i) noexcept
+        : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record} {}
+    [[nodiscard]] TriangleEdges edges() const noexcept { return {geometry.points(record), geometry.rules.tie_rule}; }
 };
 
 class FragmentValues {
   public:
     FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
 
-    // Fragments [first, batch.count) are those of `triangle`, with pixel, x, y and weights written. Fills what the
+    // Fragments [first, batch.count) are those of `triangle`, with pixel, x, y and primitive written. Fills what else the
     // needs name; with ZClip::per_fragment it removes the fragments outside the depth range. Returns the number of
     // exact fallbacks.
-    [[nodiscard]] int fill(const SetupTriangle& triangle, const TriangleEdges& edges, int first, FragmentBatch& batch,
-                           WeightLanes& weights) const;
+    [[nodiscard]] int fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const;
 
   private:
-    [[nodiscard]] TriangleLanes lanes(const TriangleEdges& edges, int first, const FragmentBatch& batch,
-                                      const WeightLanes& weights) const noexcept;
+    [[nodiscard]] TriangleLanes lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
+                                      const FragmentBatch& batch, const WeightLanes& weights) const noexcept;
+    // Weights, shader_z and code in one loop; false if the general way must do it.
+    [[nodiscard]] bool fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                  WeightLanes& weights) const noexcept;
+    [[nodiscard]] int fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                  FragmentBatch& batch, WeightLanes& weights) const;
+    void fill_weights(const DrawnTriangle& triangle, int first, const FragmentBatch& batch,
+                      WeightLanes& weights) const noexcept;
     [[nodiscard]] bool may_leave_depth_range(const SetupTriangle& triangle) const noexcept;
     void drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept;
     [[nodiscard]] int fill_exact_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, const float* shader_z,
                                        std::uint32_t* out) const noexcept;
     [[nodiscard]] int fill_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, int first,
                                  FragmentBatch& batch) const;
-    [[nodiscard]] int fill_attributes(const SetupTriangle& triangle, const TriangleLanes& lanes, int first,
-                                      FragmentBatch& batch) const;
+    [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
+    [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                      const WeightLanes& weights) const;
 
+    const LaneKernels& kernels_;
     RasterRules rules_;
     DepthRequest depth_;
     FragmentNeeds needs_;
@@ -51,7 +66,8 @@ class FragmentValues {
     float least_, greatest_;  // the depth range, ordered
     std::uint32_t least_code_, greatest_code_;
     bool clips_fragments_;
-    bool needs_float_z_;
+    bool needs_float_z_, needs_attributes_;
+    bool is_plain_;  // depth is shader_z and the code of it: what the kernel does
 };
 
 }  // namespace strata::rasterizer

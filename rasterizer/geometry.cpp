@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <utility>
 
 #include "rasterizer/float_environment.h"
 #include "rasterizer/parallel.h"
@@ -11,32 +12,40 @@
 namespace strata::rasterizer {
 namespace {
 
-constexpr std::size_t chunk_triangles = 4096;
+constexpr std::size_t chunk_size = 4096;  // of vertices and of triangles
 
-struct Chunk {
-    std::vector<SetupTriangle> triangles;
-    SetupCounters counters;
+// Calls body(chunk number, begin, end) for all of [0, count).
+template <class Body>
+void for_chunks(std::size_t count, int threads, const Body& body) {
+    parallel_for((count + chunk_size - 1) / chunk_size, threads,
+                 [&](std::size_t c) { body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size)); });
+}
+
+// The triangles of a soup by their numbers in its listing.
+class Listing {
+  public:
+    explicit Listing(const TriangleSoup& soup) : soup_{soup} {
+        for (const TriangleRun& run : soup.runs) start_.push_back(start_.back() + run.index_count / 3);
+    }
+    [[nodiscard]] std::size_t count() const noexcept {
+        return soup_.order.empty() ? start_.back() : soup_.order.size();
+    }
+
+    // `run` is where the last one was found: mostly, so is this one.
+    [[nodiscard]] SourceTriangle at(std::uint32_t primitive, std::size_t& run) const {
+        const std::uint32_t number = soup_.order.empty() ? primitive : soup_.order[primitive];
+        if (number < start_[run] || number >= start_[run + 1])
+            run = static_cast<std::size_t>(std::ranges::upper_bound(start_, number) - start_.begin()) - 1;
+        const std::uint32_t* index =
+            &soup_.indices[soup_.runs[run].first_index + std::size_t{3} * (number - start_[run])];
+        assert(std::max({index[0], index[1], index[2]}) < soup_.vertices.size() && "indices name vertices of the soup");
+        return {{index[0], index[1], index[2]}, number, primitive, &soup_.runs[run]};
+    }
+
+  private:
+    const TriangleSoup& soup_;
+    std::vector<std::uint32_t> start_{0};  // where each run's triangles begin; one entry more than there are runs
 };
-
-// Where each run's triangles begin in the soup's listing; one entry more than there are runs.
-[[nodiscard]] std::vector<std::uint32_t> run_starts(const TriangleSoup& soup) {
-    std::vector<std::uint32_t> start{0};
-    for (const TriangleRun& run : soup.runs) start.push_back(start.back() + run.index_count / 3);
-    return start;
-}
-
-[[nodiscard]] SourceTriangle source_triangle(const TriangleSoup& soup, std::span<const std::uint32_t> starts,
-                                             std::uint32_t number, std::uint32_t primitive) {
-    const auto after = std::upper_bound(starts.begin(), starts.end(), number);
-    const auto run_number = static_cast<std::size_t>(after - starts.begin()) - 1;
-    const TriangleRun& run = soup.runs[run_number];
-    const std::size_t first = run.first_index + std::size_t{3} * (number - starts[run_number]);
-    const auto vertex = [&](std::size_t i) {
-        assert(soup.indices[first + i] < soup.vertices.size() && "indices name vertices of the soup");
-        return &soup.vertices[soup.indices[first + i]];
-    };
-    return {{vertex(0), vertex(1), vertex(2)}, number, primitive, &run};
-}
 
 void add(SetupCounters& sum, const SetupCounters& part) {
     if (sum.non_finite == 0) sum.first_non_finite = part.first_non_finite;
@@ -48,43 +57,83 @@ void add(SetupCounters& sum, const SetupCounters& part) {
     sum.non_finite += part.non_finite;
 }
 
-// The chunks' triangles in one array, in order; each chunk is freed as soon as it is copied.
-[[nodiscard]] std::vector<SetupTriangle> concatenated(std::vector<Chunk>& chunks) {
-    std::size_t count = 0;
-    for (const Chunk& chunk : chunks) count += chunk.triangles.size();
-    std::vector<SetupTriangle> all;
-    all.reserve(count);
-    for (Chunk& chunk : chunks) {
-        all.insert(all.end(), chunk.triangles.begin(), chunk.triangles.end());
-        std::vector<SetupTriangle>{}.swap(chunk.triangles);
+// Where each chunk's triangles and new vertices go.
+struct Place {
+    std::size_t triangle = 0, vertex = 0;
+};
+
+// Puts the chunks one behind the other, each freed as soon as it is copied; the vertices that each made are renumbered.
+void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometry) {
+    const std::size_t given = geometry.vertices.size();
+    std::vector<Place> place(chunks.size());
+    Place end{0, given};
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        place[c] = end;
+        end = {end.triangle + chunks[c].triangles.size(), end.vertex + chunks[c].vertices.size()};
+        add(geometry.counters, chunks[c].counters);
     }
-    return all;
+    geometry.vertices.resize(end.vertex);
+    geometry.corners.resize(end.vertex);
+    geometry.triangles.resize(end.triangle);
+    geometry.all_triangles.resize(end.triangle);
+    if (geometry.state.polygon_offset.enabled) geometry.offset_z.resize(end.triangle);
+    parallel_for(chunks.size(), threads, [&](std::size_t c) {
+        const SetupChunk chunk = std::move(chunks[c]);
+        const auto at = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
+        const auto moved = static_cast<std::uint32_t>(place[c].vertex - given);
+        std::ranges::transform(chunk.triangles, at(geometry.triangles, place[c].triangle), [&](TriangleRecord t) {
+            for (std::uint32_t& v : t.vertex) v += v < given ? 0 : moved;
+            return t;
+        });
+        if (!chunk.offset_z.empty()) std::ranges::copy(chunk.offset_z, at(geometry.offset_z, place[c].triangle));
+        std::ranges::copy(chunk.vertices, at(geometry.vertices, place[c].vertex));
+        std::ranges::copy(chunk.corners, at(geometry.corners, place[c].vertex));
+        const auto first = at(geometry.all_triangles, place[c].triangle);
+        std::iota(first, first + std::ssize(chunk.triangles), static_cast<std::uint32_t>(place[c].triangle));
+    });
 }
 
 }  // namespace
 
-Geometry set_up(const TriangleSoup& soup, const RasterState& state, const RasterRules& rules, int threads) {
+SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
+    const TriangleRecord& record = triangles[i];
+    SetupTriangle t;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const WindowCorner& corner = corners[record.vertex[k]];
+        const ClipVertex& v = vertices[record.vertex[k]];
+        const std::array<float, 4>& color = record.front_facing ? v.front : v.back;
+        t.p[k] = corner.p;
+        t.unsnapped[k] = corner.unsnapped;
+        t.inverse_w[k] = corner.inverse_w;
+        t.attribute[k] = {color[0], color[1], color[2], color[3], v.texcoord[0], v.texcoord[1]};
+    }
+    t.z = depths(i);
+    t.primitive = record.primitive;
+    t.material = record.material;
+    t.front_facing = record.front_facing;
+    return t;
+}
+
+Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads) {
     const FloatEnvironment ours;
-    const TriangleSetup setup{state, rules};
-    const std::vector<std::uint32_t> starts = run_starts(soup);
-    const std::size_t count = soup.order.empty() ? starts.back() : soup.order.size();
-    std::vector<Chunk> chunks((count + chunk_triangles - 1) / chunk_triangles);
-    parallel_for(chunks.size(), threads, [&](std::size_t c) {
-        const std::size_t end = std::min(count, (c + 1) * chunk_triangles);
-        chunks[c].triangles.reserve(end - c * chunk_triangles);
-        for (std::size_t i = c * chunk_triangles; i < end; ++i) {
-            const auto primitive = static_cast<std::uint32_t>(i);
-            const std::uint32_t number = soup.order.empty() ? primitive : soup.order[i];
-            setup.add(source_triangle(soup, starts, number, primitive), chunks[c].triangles, chunks[c].counters);
-        }
+    TriangleSetup setup{state, rules, soup.vertices};
+    for_chunks(soup.vertices.size(), threads,
+               [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });
+    const Listing listing{soup};
+    std::vector<SetupChunk> chunks((listing.count() + chunk_size - 1) / chunk_size);
+    for_chunks(listing.count(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+        SetupChunk chunk;
+        chunk.triangles.reserve(end - begin);
+        std::size_t run = 0;
+        for (std::size_t i = begin; i < end; ++i) setup.add(listing.at(static_cast<std::uint32_t>(i), run), chunk);
+        chunks[c] = std::move(chunk);
     });
     Geometry geometry;
     geometry.state = state;
     geometry.rules = rules;
-    for (const Chunk& chunk : chunks) add(geometry.counters, chunk.counters);
-    geometry.triangles = concatenated(chunks);
-    geometry.all_triangles.resize(geometry.triangles.size());
-    std::iota(geometry.all_triangles.begin(), geometry.all_triangles.end(), 0u);
+    geometry.vertices = std::move(soup.vertices);
+    geometry.corners = std::move(setup.corners());
+    concatenate(chunks, threads, geometry);
     return geometry;
 }
 

@@ -36,15 +36,30 @@ struct TriangleSoup {
     std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter)
 };
 
+// A vertex in the window, shared by all triangles that it is a corner of.
+struct WindowCorner {
+    SubpixelPoint p;                   // snapped position, y down
+    std::array<float, 2> unsnapped{};  // position before snapping, for PlaneOrigin::unsnapped
+    float z = 0, inverse_w = 1;        // window z (rules.window_z units) before polygon offset; binary32 1 / w
+};
+
 // A triangle after clipping, snapping and facing; one source triangle may become several (fan from its first corner).
 // Corner order is that of submission: geforce3's depth and colour depend on it.
+struct TriangleRecord {
+    std::array<std::uint32_t, 3> vertex{};  // into Geometry::vertices and Geometry::corners
+    std::uint32_t primitive = 0;            // submission index of the source triangle
+    std::uint32_t material = 0;
+    bool front_facing = true;
+};
+
+// The same with its corners gathered.
 struct SetupTriangle {
-    std::array<SubpixelPoint, 3> p;                 // snapped window position, y down
-    std::array<std::array<float, 2>, 3> unsnapped;  // window position before snapping, for PlaneOrigin::unsnapped
-    std::array<double, 3> z;                        // window z (rules.window_z units), polygon offset added
-    std::array<float, 3> inverse_w;                 // binary32 1 / w
+    std::array<SubpixelPoint, 3> p;
+    std::array<std::array<float, 2>, 3> unsnapped;
+    std::array<double, 3> z;  // polygon offset added
+    std::array<float, 3> inverse_w;
     std::array<std::array<float, attribute_count>, 3> attribute;  // as given, before the product with 1 / w
-    std::uint32_t primitive = 0;                                  // submission index of the source triangle
+    std::uint32_t primitive = 0;
     std::uint32_t material = 0;
     bool front_facing = true;
 };
@@ -60,7 +75,10 @@ struct SetupCounters {
 struct Geometry {
     RasterState state;
     RasterRules rules;
-    std::vector<SetupTriangle> triangles;  // in submission order
+    std::vector<ClipVertex> vertices;             // the soup's, then those that clipping made
+    std::vector<WindowCorner> corners;            // the same vertices in the window
+    std::vector<TriangleRecord> triangles;        // in submission order
+    std::vector<std::array<double, 3>> offset_z;  // of every triangle; empty without polygon offset
     SetupCounters counters;
     int tile_size = 0, tiles_x = 0, tiles_y = 0;
     std::vector<std::uint32_t> bin_start;      // tiles_x * tiles_y + 1 offsets into bin_triangles
@@ -70,15 +88,24 @@ struct Geometry {
     [[nodiscard]] std::span<const std::uint32_t> bin(std::size_t tile) const {
         return std::span{bin_triangles}.subspan(bin_start[tile], bin_start[tile + 1] - bin_start[tile]);
     }
+    [[nodiscard]] std::array<SubpixelPoint, 3> points(const TriangleRecord& t) const noexcept {
+        return {corners[t.vertex[0]].p, corners[t.vertex[1]].p, corners[t.vertex[2]].p};
+    }
+    [[nodiscard]] std::array<double, 3> depths(std::size_t i) const noexcept {
+        if (!offset_z.empty()) return offset_z[i];
+        const auto& [a, b, c] = triangles[i].vertex;
+        return {corners[a].z, corners[b].z, corners[c].z};
+    }
+    [[nodiscard]] SetupTriangle triangle(std::size_t i) const noexcept;
 };
 
 // Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`.
-[[nodiscard]] Geometry set_up(const TriangleSoup& soup, const RasterState& state, const RasterRules& rules,
-                              int threads);
+// The vertices become the geometry's: who moves the soup in saves their copy.
+[[nodiscard]] Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads);
 
 // Sorts the set-up triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport,
-// row-major.
-void bin_triangles(Geometry& geometry, int tile_size);
+// row-major; in parallel, result independent of `threads`.
+void bin_triangles(Geometry& geometry, int tile_size, int threads = 1);
 
 // The rectangle of tile number `tile` of the viewport.
 [[nodiscard]] Rect tile_rect(const Geometry& geometry, std::size_t tile);

@@ -1,6 +1,7 @@
 #include "rasterizer/plane.h"
 
 #include "rasterizer/exact_sum.h"
+#include "rasterizer/lane_kernels.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
@@ -22,14 +23,6 @@ namespace {
 // V within 2^-49 of itself.
 [[nodiscard]] double quotient(const ExactSum& sum, const RationalPlane& plane, std::int64_t area) noexcept {
     return sum.approximation() / (static_cast<double>(area) * plane.denominator);
-}
-
-[[nodiscard]] bool same_bits(double a, double b) noexcept {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
-[[nodiscard]] bool is_constant(const RationalPlane& plane) noexcept {
-    return same_bits(plane.v[0], plane.v[1]) && same_bits(plane.v[0], plane.v[2]);
 }
 
 [[nodiscard]] constexpr std::uint32_t difference(float low, float high) noexcept {
@@ -69,7 +62,7 @@ std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::i
 
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* __restrict out) noexcept {
     const int count = lanes.count;
-    if (is_constant(plane)) {
+    if (plane.is_constant()) {
         const float value = plane.numerator == plane.denominator
                                 ? static_cast<float>(plane.v[0])
                                 : exact_float(plane, {lanes.edges->area(), 0, 0}, lanes.edges->area());
@@ -77,19 +70,11 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
         return 0;
     }
     const FilterPlane filter{plane, lanes.is_exact};
-    const double* __restrict b1 = lanes.weight1;
-    const double* __restrict b2 = lanes.weight2;
-    std::uint32_t unsure = 0;
-    for (int i = 0; i < padded(count); ++i) {
-        const double v = filter.at(b1[i], b2[i]);
-        const auto low = static_cast<float>(v - filter.error), high = static_cast<float>(v + filter.error);
-        unsure |= difference(low, high);
-        out[i] = low;
-    }
-    if (unsure == 0 || !lanes.is_exact) return 0;
+    const bool unsure = scalar::round(filter, lanes.weight1, lanes.weight2, count, out);
+    if (!unsure || !lanes.is_exact) return 0;
     int fallbacks = 0;
     for (int i = 0; i < count; ++i) {
-        const double v = filter.at(b1[i], b2[i]);
+        const double v = filter.at(lanes.weight1[i], lanes.weight2[i]);
         if (difference(static_cast<float>(v - filter.error), static_cast<float>(v + filter.error)) == 0) continue;
         out[i] = exact_float(plane, lanes.edge_values(i), lanes.edges->area());
         ++fallbacks;
@@ -100,7 +85,7 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRounding rounding,
                 std::uint32_t* __restrict out) noexcept {
     const int count = lanes.count;
-    if (is_constant(plane)) {
+    if (plane.is_constant()) {
         const std::uint32_t code = exact_code(plane, {lanes.edges->area(), 0, 0}, lanes.edges->area(), rounding);
         for (int i = 0; i < padded(count); ++i) out[i] = code;
         return 0;

@@ -27,6 +27,11 @@ inline namespace strict {
 struct RationalPlane {
     std::array<double, 3> v{};
     double numerator = 1.0, denominator = 1.0;  // N and D: integers up to 2^24 - 1
+
+    [[nodiscard]] bool is_constant() const noexcept {
+        const auto bits = [this](std::size_t i) { return std::bit_cast<std::uint64_t>(v[i]); };
+        return bits(0) == bits(1) && bits(0) == bits(2);
+    }
 };
 
 // A rounding of a plane to codes 0..max: floor(V + half).
@@ -41,10 +46,9 @@ struct CodeRounding {
                                        CodeRounding rounding) noexcept;
 
 // Loops over lanes run to whole blocks, so that they have no remainder; what stands in the lanes beyond the count is
-// never looked at. A batch is flushed early enough that there is room for them.
+// never looked at. A batch is flushed early enough that there is room for them (lane_kernels.h).
 inline constexpr int lane_block = 4;
 [[nodiscard]] constexpr int padded(int count) noexcept { return (count + lane_block - 1) & -lane_block; }
-inline constexpr int usable_capacity = batch_capacity - lane_block + 1;
 
 // The fragments of one triangle: `count` lanes of batch arrays.
 struct TriangleLanes {
@@ -64,8 +68,9 @@ struct TriangleLanes {
 
 // The plane as the filter sees it.
 struct FilterPlane {
-    double w0, d1, d2, error;
+    double w0 = 0.0, d1 = 0.0, d2 = 0.0, error = 0.0;
 
+    FilterPlane() = default;
     FilterPlane(const RationalPlane& plane, bool is_exact) noexcept {
         const double n = plane.numerator, d = plane.denominator;
         const double scale = n == d ? 1.0 : n / d;  // 1, N or 1 / D: rounded at most once

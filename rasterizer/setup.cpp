@@ -1,6 +1,7 @@
 #include "rasterizer/setup.h"
 
-#include <algorithm>
+#include <bit>
+#include <tuple>
 
 #include "rasterizer/coverage.h"
 #include "rasterizer/polygon_offset.h"
@@ -8,37 +9,55 @@
 namespace strata::rasterizer {
 namespace {
 
-// v - v is 0 for finite v and NaN for all others; no libm needed.
-[[nodiscard]] bool is_finite(float v) noexcept { return v - v == 0.0f; }
+// An exponent of all ones is an infinity or a NaN.
+template <std::size_t n>
+[[nodiscard]] bool all_finite(const std::array<float, n>& values) noexcept {
+    constexpr std::uint32_t exponent = 0x7f800000;
+    std::uint32_t found = 0;
+    for (const std::uint32_t bits : std::bit_cast<std::array<std::uint32_t, n>>(values))
+        found |= (bits & exponent) == exponent ? 1u : 0u;
+    return found == 0;
+}
 
 [[nodiscard]] bool is_finite(const ClipVertex& v) noexcept {
-    float differences = (v.x - v.x) + (v.y - v.y) + (v.z - v.z) + (v.w - v.w);
-    for (const float c : v.front) differences += c - c;
-    for (const float c : v.back) differences += c - c;
-    for (const float c : v.texcoord) differences += c - c;
-    return differences == 0.0f;
+    static_assert(sizeof(ClipVertex) == 14 * sizeof(float));
+    return all_finite(std::bit_cast<std::array<float, 14>>(v));
 }
 
-// Whether every number that the planes of a piece start from is finite.
-[[nodiscard]] bool is_finite(const SetupTriangle& t) noexcept {
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (!is_finite(t.unsnapped[i][0]) || !is_finite(t.unsnapped[i][1]) || !is_finite(t.inverse_w[i])) return false;
-        for (const float u : t.attribute[i])
-            if (!is_finite(u * t.inverse_w[i])) return false;
-    }
-    return is_finite(static_cast<float>(t.z[0])) && is_finite(static_cast<float>(t.z[1])) &&
-           is_finite(static_cast<float>(t.z[2]));
-}
-
-[[nodiscard]] std::array<float, attribute_count> attributes(const ClipVertex& v, bool front) noexcept {
-    const std::array<float, 4>& color = front ? v.front : v.back;
-    return {color[0], color[1], color[2], color[3], v.texcoord[0], v.texcoord[1]};
+template <std::size_t n>
+[[nodiscard]] bool products_finite(std::array<float, n> values, float factor) noexcept {
+    for (float& value : values) value *= factor;
+    return all_finite(values);
 }
 
 }  // namespace
 
-TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules)
-    : state_{state}, rules_{rules}, clipper_{state, rules}, window_{state, rules} {}
+TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices)
+    : state_{state},
+      rules_{rules},
+      clipper_{state, rules},
+      window_{state, rules},
+      vertices_{vertices},
+      corners_(vertices.size()),
+      marks_(vertices.size()) {}
+
+VertexMarks TriangleSetup::project(const ClipVertex& v, WindowCorner& corner) const noexcept {
+    const WindowVertex w = window_.project(v);
+    if (!all_finite(std::array{w.x, w.y, w.z, w.inverse_w}) || !products_finite(v.texcoord, w.inverse_w))
+        return marks_window;
+    corner = {window_.snapped(w), {w.x, w.y}, w.z, w.inverse_w};
+    return (products_finite(v.front, w.inverse_w) ? 0u : marks_front) |
+           (products_finite(v.back, w.inverse_w) ? 0u : marks_back);
+}
+
+void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept {
+    for (std::size_t i = begin; i < end; ++i) {
+        const ClipVertex& v = vertices_[i];
+        VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
+        if (marks == 0) marks = project(v, corners_[i]);
+        marks_[i] = marks;
+    }
+}
 
 // Positive area is clockwise as memory shows it, rows downwards; with y up the window shows the same picture.
 bool TriangleSetup::is_front(std::int64_t area, bool mirrored) const noexcept {
@@ -56,64 +75,67 @@ bool TriangleSetup::is_culled(bool front) const noexcept {
     return false;  // unreachable: the enum is closed
 }
 
-TriangleSetup::Fate TriangleSetup::add_piece(const std::array<const ClipVertex*, 3>& corner,
-                                             const SourceTriangle& triangle, std::vector<SetupTriangle>& out) const {
-    SetupTriangle piece;
-    std::array<float, 3> z;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const WindowVertex v = window_.project(*corner[i]);
-        if (!is_finite(v.x) || !is_finite(v.y)) return Fate::non_finite;
-        piece.p[i] = window_.snapped(v);
-        piece.unsnapped[i] = {v.x, v.y};
-        piece.z[i] = z[i] = v.z;
-        piece.inverse_w[i] = v.inverse_w;
-    }
-    const std::int64_t area = Edge{piece.p[0], piece.p[1]}.at(piece.p[2]);
-    piece.front_facing = is_front(area, triangle.run->mirrored);
-    for (std::size_t i = 0; i < 3; ++i) piece.attribute[i] = attributes(*corner[i], piece.front_facing);
-    if (!is_finite(piece)) return Fate::non_finite;
+TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTriangle& triangle,
+                                             SetupChunk& out) const {
+    const auto& [a, b, c] = piece.corner;
+    if ((piece.marks & marks_window) != 0) return Fate::non_finite;
+    const std::array p{a->p, b->p, c->p};
+    const std::int64_t area = Edge{p[0], p[1]}.at(p[2]);
+    const bool front = is_front(area, triangle.run->mirrored);
+    if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
     if (area == 0) return Fate::degenerate;
-    if (!triangle.run->double_sided && is_culled(piece.front_facing)) return Fate::culled;
-    const Rect box = intersection(centre_box(piece.p, rules_.subpixel_bits), state_.viewport);
-    if (box.area() == 0) return Fate::outside;
+    if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
+    if (intersection(centre_box(p, rules_.subpixel_bits), state_.viewport).area() == 0) return Fate::outside;
+    out.triangles.push_back({piece.vertex, triangle.primitive, triangle.run->material, front});
     if (state_.polygon_offset.enabled) {
-        const double offset = polygon_offset(piece.p, z, state_, rules_);
-        for (double& vertex_z : piece.z) vertex_z += offset;
+        const std::array z{a->z, b->z, c->z};
+        const double offset = polygon_offset(p, z, state_, rules_);
+        out.offset_z.push_back({z[0] + offset, z[1] + offset, z[2] + offset});
     }
-    piece.primitive = triangle.primitive;
-    piece.material = triangle.run->material;
-    out.push_back(piece);
     return Fate::kept;
 }
 
 // A clipped triangle is counted once: as kept if any piece is, else by the fate of its first piece.
 TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, std::uint32_t planes,
-                                               std::vector<SetupTriangle>& out) const {
-    ClipPolygon polygon{{*triangle.corner[0], *triangle.corner[1], *triangle.corner[2]}, 3};
+                                               SetupChunk& out) const {
+    const auto& [a, b, c] = triangle.vertex;
+    ClipPolygon polygon{{vertices_[a], vertices_[b], vertices_[c]}, 3};
     clipper_.clip(polygon, planes);
     if (polygon.count < 3) return Fate::outside;
+    const auto count = static_cast<std::size_t>(polygon.count);
+    const auto first = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
+    std::array<WindowCorner, std::tuple_size_v<decltype(polygon.corner)>> corner;
+    std::array<VertexMarks, corner.size()> marks;
+    for (std::size_t i = 0; i < count; ++i) marks[i] = project(polygon.corner[i], corner[i]);
     Fate fate = Fate::outside;
-    for (std::size_t i = 2; i < static_cast<std::size_t>(polygon.count); ++i) {
-        const Fate piece = add_piece({&polygon.corner[0], &polygon.corner[i - 1], &polygon.corner[i]}, triangle, out);
+    bool any_kept = false;
+    for (std::size_t i = 2; i < count; ++i) {
+        const auto last = first + static_cast<std::uint32_t>(i);
+        const Piece fan{
+            {first, last - 1, last}, {&corner[0], &corner[i - 1], &corner[i]}, marks[0] | marks[i - 1] | marks[i]};
+        const Fate piece = add_piece(fan, triangle, out);
+        any_kept |= piece == Fate::kept;
         if (i == 2 || piece == Fate::kept) fate = piece;
+    }
+    if (any_kept) {
+        out.vertices.insert(out.vertices.end(), polygon.corner.begin(), polygon.corner.begin() + polygon.count);
+        out.corners.insert(out.corners.end(), corner.begin(), corner.begin() + polygon.count);
     }
     return fate;
 }
 
-void TriangleSetup::add(const SourceTriangle& triangle, std::vector<SetupTriangle>& out,
-                        SetupCounters& counters) const {
+void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
+    SetupCounters& counters = out.counters;
     ++counters.triangles_in;
-    const auto& [a, b, c] = triangle.corner;
+    const auto& [a, b, c] = triangle.vertex;
+    const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;
     Fate fate = Fate::non_finite;
-    if (is_finite(*a) && is_finite(*b) && is_finite(*c)) {
-        const std::uint32_t outside_a = clipper_.outside(*a), outside_b = clipper_.outside(*b);
-        const std::uint32_t outside_c = clipper_.outside(*c);
-        const std::uint32_t crossed = outside_a | outside_b | outside_c;
+    if ((any & marks_input) == 0) {
         const bool dropped_by_w = rules_.w_clip == WClip::drop && (crossed & 1u) != 0;
-        if ((outside_a & outside_b & outside_c) != 0 || dropped_by_w) {
+        if ((marks_[a] & marks_[b] & marks_[c] & marks_planes) != 0 || dropped_by_w) {
             fate = Fate::outside;
         } else if (crossed == 0) {
-            fate = add_piece(triangle.corner, triangle, out);
+            fate = add_piece({triangle.vertex, {&corners_[a], &corners_[b], &corners_[c]}, any}, triangle, out);
         } else {
             fate = add_clipped(triangle, crossed, out);
             if (fate != Fate::outside) ++counters.clipped;

@@ -8,6 +8,7 @@
 // Tests    tests/rasterizer/setup_test.cpp
 #pragma once
 #include <array>
+#include <span>
 #include <vector>
 
 #include "rasterizer/clip.h"
@@ -16,27 +17,54 @@
 
 namespace strata::rasterizer {
 
+// What the fate of a triangle depends on at each of its vertices, found once a vertex: bits 0 .. max_clip_planes - 1 name
+// the planes that it is outside of; the others what of it is not finite.
+using VertexMarks = std::uint32_t;
+inline constexpr VertexMarks marks_planes = (1u << max_clip_planes) - 1;
+inline constexpr VertexMarks marks_input = 1u << max_clip_planes;  // as given
+inline constexpr VertexMarks marks_window = marks_input << 1;      // window position, 1 / w, texture coordinate over w
+inline constexpr VertexMarks marks_front = marks_input << 2;       // front colour over w
+inline constexpr VertexMarks marks_back = marks_input << 3;
+
 struct SourceTriangle {
-    std::array<const ClipVertex*, 3> corner;
+    std::array<std::uint32_t, 3> vertex;
     std::uint32_t number = 0;     // in the soup's listing
     std::uint32_t primitive = 0;  // in submission order
     const TriangleRun* run = nullptr;
 };
 
+// What a run of source triangles becomes. The vertices that clipping makes are numbered from the soup's last one on.
+struct SetupChunk {
+    std::vector<TriangleRecord> triangles;
+    std::vector<std::array<double, 3>> offset_z;
+    std::vector<ClipVertex> vertices;
+    std::vector<WindowCorner> corners;
+    SetupCounters counters;
+};
+
 class TriangleSetup {
   public:
-    TriangleSetup(const RasterState& state, const RasterRules& rules);
+    TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices);
 
-    // Appends what is left of `triangle` to `out` and counts what is not.
-    void add(const SourceTriangle& triangle, std::vector<SetupTriangle>& out, SetupCounters& counters) const;
+    // First every vertex once ...
+    void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
+    // ... then triangles: appends what is left of `triangle` to `out` and counts what is not.
+    void add(const SourceTriangle& triangle, SetupChunk& out) const;
+
+    [[nodiscard]] std::vector<WindowCorner>& corners() noexcept { return corners_; }
 
   private:
     enum class Fate : std::uint8_t { kept, culled, outside, degenerate, non_finite };
 
-    [[nodiscard]] Fate add_piece(const std::array<const ClipVertex*, 3>& corner, const SourceTriangle& triangle,
-                                 std::vector<SetupTriangle>& out) const;
-    [[nodiscard]] Fate add_clipped(const SourceTriangle& triangle, std::uint32_t planes,
-                                   std::vector<SetupTriangle>& out) const;
+    // Three vertices in the window, and all that is marked at any of them.
+    struct Piece {
+        std::array<std::uint32_t, 3> vertex;
+        std::array<const WindowCorner*, 3> corner;
+        VertexMarks marks;
+    };
+    [[nodiscard]] VertexMarks project(const ClipVertex& v, WindowCorner& corner) const noexcept;
+    [[nodiscard]] Fate add_piece(const Piece& piece, const SourceTriangle& triangle, SetupChunk& out) const;
+    [[nodiscard]] Fate add_clipped(const SourceTriangle& triangle, std::uint32_t planes, SetupChunk& out) const;
     [[nodiscard]] bool is_front(std::int64_t area, bool mirrored) const noexcept;
     [[nodiscard]] bool is_culled(bool front) const noexcept;
 
@@ -44,6 +72,9 @@ class TriangleSetup {
     RasterRules rules_;
     Clipper clipper_;
     WindowTransform window_;
+    std::span<const ClipVertex> vertices_;
+    std::vector<WindowCorner> corners_;
+    std::vector<VertexMarks> marks_;
 };
 
 }  // namespace strata::rasterizer

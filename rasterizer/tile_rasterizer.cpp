@@ -9,11 +9,39 @@
 namespace strata::rasterizer {
 namespace {
 
-alignas(64) constexpr auto counting = [] {
-    Lanes<double> k{};
-    for (std::size_t i = 0; i < k.size(); ++i) k[i] = static_cast<double>(i);
-    return k;
-}();
+// Whether every pixel of `box` is covered: the centres where the edge values are least decide.
+[[nodiscard]] bool covers(const TriangleEdges& edges, const Rect& box, int subpixel_bits) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Edge& edge = edges.edge(i);
+        const int x = edge.step_x() > 0 ? box.x0 : box.x1 - 1;
+        const int y = edge.step_y() > 0 ? box.y0 : box.y1 - 1;
+        if (edge.at(pixel_centre(x, y, subpixel_bits)) < edges.tie(i)) return false;
+    }
+    return true;
+}
+
+[[nodiscard]] bool is_small(const std::array<SubpixelPoint, 3>& p, const Rect& box) noexcept {
+    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
+    return box.width() <= SmallEdges::max_width && std::max(right - left, bottom - top) <= SmallEdges::max_extent;
+}
+
+[[nodiscard]] SmallEdges small_edges(const std::array<SubpixelPoint, 3>& p, TieRule rule, const Rect& box,
+                                     int subpixel_bits) noexcept {
+    SmallEdges small{{}, {}, {}, box.x0, box.width()};
+    const SubpixelPoint first = pixel_centre(box.x0, box.y0, subpixel_bits);
+    const std::int32_t area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
+    const std::int32_t turn = area > 0 ? 1 : -1;
+    for (std::size_t i = 0; i < 3; ++i) {  // as Edge and TriangleEdges
+        const SubpixelPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];
+        const std::int32_t dx = turn * (to.x - from.x), dy = turn * (to.y - from.y);
+        const std::int32_t tie = Edge::owns_ties(dx, dy, rule) ? 0 : 1;
+        small.value[i] = dx * (first.y - from.y) - dy * (first.x - from.x) - tie;
+        small.step[i] = -dy * (1 << subpixel_bits);
+        small.down[i] = dx * (1 << subpixel_bits);
+    }
+    return small;
+}
 
 }  // namespace
 
@@ -24,146 +52,110 @@ class TileRasterizer::Pass {
          const BatchSink& sink)
         : owner_{owner},
           batch_{owner.batch_},
+          geometry_{geometry},
           sink_{sink},
+          kernels_{lane_kernels()},
           values_{geometry, depth, needs},
           subpixel_bits_{geometry.rules.subpixel_bits},
-          tie_rule_{geometry.rules.tie_rule},
           clip_{intersection(owner.region_, geometry.state.viewport)} {
         if (geometry.state.scissor) clip_ = intersection(clip_, *geometry.state.scissor);
     }
 
-    void draw(const SetupTriangle& triangle) {
-        const Rect box = intersection(centre_box(triangle.p, subpixel_bits_), clip_);
+    void draw(std::uint32_t index) {
+        const TriangleRecord& record = geometry_.triangles[index];
+        const std::array p = geometry_.points(record);
+        const Rect box = intersection(centre_box(p, subpixel_bits_), clip_);
         if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
-        if (triangle.material != batch_.material) {
+        if (record.material != batch_.material) {
             flush();
-            batch_.material = triangle.material;
+            batch_.material = record.material;
         }
-        const TriangleEdges edges{triangle.p, tie_rule_};
-        const Source source{triangle, edges, 1.0 / static_cast<double>(edges.area())};
+        const DrawnTriangle triangle{geometry_, index};
+        const bool small = is_small(p, box);
         first_ = batch_.count;
-        RowWalker row{edges, box, subpixel_bits_};
-        constexpr int narrow = 8;
-        if (box.width() <= narrow) {
-            for (int y = box.y0; y < box.y1; ++y, row.next_row())
-                row.for_each_covered([&](int x, std::int64_t e1, std::int64_t e2) { add_pixel(source, x, y, e1, e2); });
-        } else {
-            for (int y = box.y0; y < box.y1; ++y, row.next_row()) {
-                const PixelSpan span = row.span();
-                if (span.x0 < span.x1) add_span(source, span, row.step(), y);
-            }
+        for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
+            rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
+            if (small)
+                emit_small(triangle, rows);
+            else
+                emit(triangle, rows);
         }
-        if (batch_.count > first_) fill(source);
+        fill(triangle);
     }
 
     void flush() {
         if (batch_.count > 0) sink_(batch_);
         batch_.count = 0;
         first_ = 0;
-        if (++owner_.batch_number_ == 0) {  // after 2^32 batches the stamps start again
-            std::ranges::fill(owner_.last_batch_, 0u);
-            owner_.batch_number_ = 1;
-        }
+        owner_.claims_.next_batch();
     }
 
   private:
-    struct Source {
-        const SetupTriangle& triangle;
-        const TriangleEdges& edges;
-        double inverse_area;
-    };
-
-    void fill(const Source& source) {
-        owner_.exact_fallbacks_ +=
-            static_cast<std::uint64_t>(values_.fill(source.triangle, source.edges, first_, batch_, owner_.weights_));
-    }
-
-    [[nodiscard]] std::uint32_t row_start(int y) const noexcept {
-        return static_cast<std::uint32_t>(y - owner_.region_.y0) * static_cast<std::uint32_t>(owner_.region_.width());
-    }
-
-    void add_span(const Source& source, PixelSpan span, const EdgeValues& step, int y) {
-        while (span.x0 < span.x1) {
-            const std::uint32_t pixel = row_start(y) + static_cast<std::uint32_t>(span.x0 - owner_.region_.x0);
-            const int count = std::min(span.x1 - span.x0, usable_capacity - batch_.count);
-            if (count == 0 || !claim(pixel, count)) {
-                if (batch_.count > first_) fill(source);
-                flush();
-                continue;
-            }
-            append(source, span, step, y, count, pixel);
-            span.x0 += count;
-            for (std::size_t i = 1; i < 3; ++i) span.e[i] += count * step[i];
+    void find_spans(const TriangleEdges& edges, const Rect& rows) noexcept {
+        RowSpan* const end = &spans_[static_cast<std::size_t>(rows.height())];
+        if (covers(edges, rows, subpixel_bits_)) return std::fill(spans_.data(), end, RowSpan{rows.x0, rows.x1});
+        RowWalker walker{edges, rows, subpixel_bits_};
+        for (RowSpan* row = spans_.data(); row != end; ++row, walker.next_row()) {
+            const PixelSpan span = walker.span();
+            *row = {span.x0, span.x1};
         }
     }
 
-    void add_pixel(const Source& source, int x, int y, std::int64_t e1, std::int64_t e2) {
-        const std::uint32_t pixel = row_start(y) + static_cast<std::uint32_t>(x - owner_.region_.x0);
-        if (batch_.count == usable_capacity || owner_.last_batch_[pixel] == owner_.batch_number_) {
-            if (batch_.count > first_) fill(source);
-            flush();
-        }
-        owner_.last_batch_[pixel] = owner_.batch_number_;
-        const auto at = static_cast<std::size_t>(batch_.count++);
-        owner_.weights_.b1[at] = static_cast<double>(e1) * source.inverse_area;
-        owner_.weights_.b2[at] = static_cast<double>(e2) * source.inverse_area;
-        batch_.pixel[at] = pixel;
-        batch_.x[at] = static_cast<std::uint16_t>(x);
-        batch_.y[at] = static_cast<std::uint16_t>(y);
+    [[nodiscard]] RowRun row_run(const DrawnTriangle& triangle, const Rect& rows) const noexcept {
+        const Rect& region = owner_.region_;
+        return {0, rows.height(), 0, rows.y0, region.x0, region.y0, region.width(), triangle.record.primitive};
     }
 
-    // Stamps the pixels with this batch's number; false if the batch already holds one of them.
-    [[nodiscard]] bool claim(std::uint32_t first_pixel, int count) noexcept {
-        std::uint32_t* const stamp = &owner_.last_batch_[first_pixel];
-        const std::uint32_t now = owner_.batch_number_;
-        for (int i = 0; i < count; ++i) {
-            if (stamp[i] == now) return false;
-            stamp[i] = now;
-        }
-        return true;
+    void emit(const DrawnTriangle& triangle, const Rect& rows) {
+        find_spans(triangle.edges(), rows);
+        RowRun run = row_run(triangle, rows);
+        while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(triangle);
     }
 
-    // The span's first `count` pixels. Edge values are integers: exact in binary64 below 2^53, within the filter's
-    // bound above.
-    void append(const Source& source, const PixelSpan& span, const EdgeValues& step, int y, int count,
-                std::uint32_t first_pixel) noexcept {
-        const auto at = static_cast<std::size_t>(batch_.count);
-        const auto e1 = static_cast<double>(span.e[1]), e2 = static_cast<double>(span.e[2]);
-        const auto s1 = static_cast<double>(step[1]), s2 = static_cast<double>(step[2]);
-        const double r = source.inverse_area;
-        double* __restrict b1 = &owner_.weights_.b1[at];
-        double* __restrict b2 = &owner_.weights_.b2[at];
-        std::uint32_t* __restrict pixels = &batch_.pixel[at];
-        std::uint16_t* __restrict xs = &batch_.x[at];
-        std::uint16_t* __restrict ys = &batch_.y[at];
-        for (int i = 0; i < padded(count); ++i) {
-            const double k = counting[static_cast<std::size_t>(i)];
-            b1[i] = (e1 + k * s1) * r;
-            b2[i] = (e2 + k * s2) * r;
-        }
-        for (int i = 0; i < padded(count); ++i) pixels[i] = first_pixel + static_cast<std::uint32_t>(i);
-        for (int i = 0; i < padded(count); ++i) xs[i] = static_cast<std::uint16_t>(span.x0 + i);
-        for (int i = 0; i < padded(count); ++i) ys[i] = static_cast<std::uint16_t>(y);
-        batch_.count += count;
+    void emit_small(const DrawnTriangle& triangle, const Rect& rows) {
+        const SmallEdges small =
+            small_edges(geometry_.points(triangle.record), geometry_.rules.tie_rule, rows, subpixel_bits_);
+        RowRun run = row_run(triangle, rows);
+        while (!kernels_.emit_small(small, run, owner_.claims_, batch_)) fill_and_flush(triangle);
+    }
+
+    void fill_and_flush(const DrawnTriangle& triangle) {
+        fill(triangle);
+        flush();
+    }
+
+    void fill(const DrawnTriangle& triangle) {
+        if (batch_.count == first_) return;
+        owner_.exact_fallbacks_ += static_cast<std::uint64_t>(values_.fill(triangle, first_, batch_, owner_.weights_));
+        first_ = batch_.count;
     }
 
     TileRasterizer& owner_;
     FragmentBatch& batch_;
+    const Geometry& geometry_;
     const BatchSink& sink_;
+    const LaneKernels& kernels_;
     FragmentValues values_;
     int subpixel_bits_;
-    TieRule tie_rule_;
     Rect clip_;
-    int first_ = 0;  // the present triangle's first fragment in the batch
+    int first_ = 0;  // the present triangle's first fragment in the batch that has no values yet
+    std::array<RowSpan, max_span_rows + 1> spans_;
 };
 
-TileRasterizer::TileRasterizer(Rect region) : region_{region}, last_batch_(region.area(), 0u) {}
+TileRasterizer::TileRasterizer(Rect region) : region_{region}, claims_{region} {}
 
 void TileRasterizer::draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
                           const FragmentNeeds& needs, BatchSink sink) {
     Pass pass{*this, geometry, depth, needs, sink};
-    pass.flush();  // the stamps of an earlier draw say nothing about this one
-    for (const std::uint32_t i : triangles) pass.draw(geometry.triangles[i]);
+    pass.flush();  // the claims of an earlier draw say nothing about this one
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        constexpr std::size_t far = 12, near = 6;  // what the coming triangles need is on its way
+        if (i + far < triangles.size()) __builtin_prefetch(&geometry.triangles[triangles[i + far]]);
+        if (i + near < triangles.size())
+            for (const std::uint32_t v : geometry.triangles[triangles[i + near]].vertex)
+                __builtin_prefetch(&geometry.corners[v]);
+        pass.draw(triangles[i]);
+    }
     pass.flush();
 }
 

@@ -6,11 +6,11 @@
 #pragma once
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "rasterizer/fragment_batch.h"
 #include "rasterizer/fragment_values.h"
 #include "rasterizer/geometry.h"
+#include "rasterizer/pixel_claims.h"
 
 namespace strata::rasterizer {
 
@@ -43,8 +43,7 @@ class TileRasterizer {
     class Pass;
 
     Rect region_;
-    std::vector<std::uint32_t> last_batch_;  // per pixel: the number of the batch that holds its latest fragment
-    std::uint32_t batch_number_ = 0;
+    PixelClaims claims_;
     std::uint64_t exact_fallbacks_ = 0;
     FragmentBatch batch_;
     WeightLanes weights_{};

@@ -268,7 +268,7 @@ TEST_CASE("far outside the window positions are clipped to the guard band, never
                 v.back().y *= random_float(random, 0, 1e7f);
             }
             const RasterRules rules{.subpixel_bits = 12, .guard_band_px = guard};
-            for (const SetupTriangle& t : set_up(soup_of(v), scene_state(32, 32), rules, 1).triangles) {
+            for (const SetupTriangle& t : triangles_of(set_up(soup_of(v), scene_state(32, 32), rules, 1))) {
                 ++pieces;
                 for (const SubpixelPoint& p : t.p)
                     wrong += std::abs(p.x) > guard << 12 || std::abs(p.y) > guard << 12 ? 1 : 0;

@@ -161,7 +161,7 @@ TEST_CASE("fragments outside the depth range do not exist with per-fragment z cl
     const std::array<SubpixelPoint, 3> p{{{0, 0}, {16 * 16, 0}, {0, 16 * 16}}};
     const RasterRules rules{.subpixel_bits = 4, .z_clip = ZClip::per_fragment};
     Geometry geometry = window_geometry({window_triangle(p, 4, {-0.5, 1.5, 0.5})}, 16, 16, rules);
-    const auto all = draw(window_geometry(geometry.triangles, 16, 16, {.subpixel_bits = 4})).fragments;
+    const auto all = draw(window_geometry(triangles_of(geometry), 16, 16, {.subpixel_bits = 4})).fragments;
     std::vector<Fragment> inside;
     for (const Fragment& f : all)
         if (f.shader_z >= 0.0f && f.shader_z <= 1.0f) inside.push_back(f);

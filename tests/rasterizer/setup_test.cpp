@@ -76,7 +76,7 @@ TEST_CASE("facing is the winding in the window, with y up or down, either front 
                     const bool expected = (front == FrontFace::counter_clockwise) != (mirrored != reversed);
                     REQUIRE(geometry.triangles.size() == 1);
                     CHECK(geometry.triangles[0].front_facing == expected);
-                    CHECK(geometry.triangles[0].attribute[0][expected ? 0 : 1] == 1.0f);  // front red, back green
+                    CHECK(geometry.triangle(0).attribute[0][expected ? 0 : 1] == 1.0f);  // front red, back green
                 }
 }
 
@@ -124,9 +124,9 @@ TEST_CASE("an order permutes submission and keeps the number of the source") {
     const Geometry ordered = set_up(soup, scene_state(64, 64), {}, 1);
     REQUIRE(ordered.triangles.size() == 9);
     CHECK(ordered.counters.first_non_finite == 5);
-    for (const SetupTriangle& t : ordered.triangles) {
+    for (const SetupTriangle& t : triangles_of(ordered)) {
         const std::uint32_t source = soup.order[t.primitive];
-        CHECK(t.p == listed.triangles[source].p);
+        CHECK(t.p == listed.triangle(source).p);
         CHECK(t.material == (source < 5 ? 7u : 8u));
     }
 }
@@ -144,7 +144,7 @@ TEST_CASE("the result of set-up does not depend on the number of threads") {
         REQUIRE(many.triangles.size() == one.triangles.size());
         std::uint64_t different = 0;
         for (std::size_t i = 0; i < one.triangles.size(); ++i) {
-            const SetupTriangle &a = one.triangles[i], &b = many.triangles[i];
+            const SetupTriangle a = one.triangle(i), b = many.triangle(i);
             different += a.p != b.p || a.z != b.z || a.inverse_w != b.inverse_w || a.attribute != b.attribute ||
                                  a.primitive != b.primitive || a.front_facing != b.front_facing ||
                                  a.unsnapped != b.unsnapped

@@ -40,12 +40,25 @@ using Random = std::mt19937_64;
     Geometry g;
     g.rules = rules;
     g.state.viewport = {0, 0, width, height};
-    g.triangles = triangles;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        g.triangles[i].primitive = i;
+        const SetupTriangle& t = triangles[i];
+        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, i, t.material, t.front_facing});
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto& [r, green, b, a, s, tt] = t.attribute[k];
+            const std::array color{r, green, b, a};
+            g.vertices.push_back({.front = color, .back = color, .texcoord = {s, tt}});
+            g.corners.push_back({t.p[k], t.unsnapped[k], static_cast<float>(t.z[k]), t.inverse_w[k]});
+        }
+        g.offset_z.push_back(t.z);  // of any precision
         g.all_triangles.push_back(i);
     }
     return g;
+}
+
+[[nodiscard]] inline std::vector<SetupTriangle> triangles_of(const Geometry& geometry) {
+    std::vector<SetupTriangle> triangles;
+    for (std::size_t i = 0; i < geometry.triangles.size(); ++i) triangles.push_back(geometry.triangle(i));
+    return triangles;
 }
 
 struct Fragment {

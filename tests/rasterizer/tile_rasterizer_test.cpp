@@ -6,6 +6,7 @@
 #include <map>
 
 #include "rasterizer/parallel.h"
+#include "rasterizer/simd.h"
 #include "scene.h"
 
 namespace {
@@ -56,7 +57,88 @@ struct Device {
     return by_pixel(all);
 }
 
+struct Batches {
+    std::vector<Fragment> fragments;
+    std::vector<int> counts;
+    friend bool operator==(const Batches&, const Batches&) = default;
+};
+
+[[nodiscard]] Batches batches_of(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs,
+                                 const Rect& region) {
+    Batches batches;
+    DrawResult result;
+    TileRasterizer rasterizer{region};
+    auto sink = [&](FragmentBatch& batch) {
+        batches.counts.push_back(batch.count);
+        append_batch(batch, region, needs, result);
+    };
+    rasterizer.draw(geometry, geometry.all_triangles, depth, needs, BatchSink{sink});
+    batches.fragments = std::move(result.fragments);
+    return batches;
+}
+
+// Triangles of about `size` pixels, every fourth a sliver, corners on the subpixels of `rules` or beside them.
+[[nodiscard]] Geometry random_triangles(std::uint64_t seed, int count, int size, const Device& device) {
+    Random random{seed};
+    const int unit = 1 << device.rules.subpixel_bits;
+    const auto coordinate = [&](int middle, int reach) {
+        return std::clamp(middle + random_int(random, -reach * unit, reach * unit), -32767 * unit, 32767 * unit);
+    };
+    std::vector<SetupTriangle> triangles;
+    for (int i = 0; i < count; ++i) {
+        const int x = random_int(random, 0, 70 * unit), y = random_int(random, 0, 40 * unit);
+        std::array<SubpixelPoint, 3> p;
+        for (SubpixelPoint& q : p) q = {coordinate(x, size), i % 4 == 0 ? y : coordinate(y, size)};
+        if (i % 4 == 0) p[2].y += random_int(random, 1, unit);
+        if (Edge{p[0], p[1]}.at(p[2]) == 0) continue;
+        const auto value = [&] { return random_float(random, 0.1f, 1); };
+        SetupTriangle t = window_triangle(p, device.rules.subpixel_bits, {value(), value(), value()});
+        if (i % 5 == 0) t.z = {value(), t.z[0], t.z[0]};
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (device.rules.window_z == WindowZ::buffer_units) t.z[k] = static_cast<float>(t.z[k] * 0xffffff);
+            t.unsnapped[k][0] += random_float(random, -0.001f, 0.001f);
+            t.inverse_w[k] = i % 3 == 0 ? 1 : value();
+            for (float& u : t.attribute[k]) u = i % 7 == 0 ? 0.25f : value();
+        }
+        t.material = static_cast<std::uint32_t>(i / 40);
+        triangles.push_back(t);
+    }
+    Geometry geometry = window_geometry(triangles, 70, 40, device.rules);
+    geometry.state.depth_format = device.depth.format;
+    return geometry;
+}
+
 }  // namespace
+
+TEST_CASE("every instruction set hands out the batches of the scalar twins, to the bit") {
+    std::vector<Device> all = devices();
+    const RasterRules unsnapped{.tie_rule = TieRule::bottom_left, .plane_origin = PlaneOrigin::unsnapped};
+    all.push_back({unsnapped, {DepthPath::float32, DepthFormat::d32f}});
+    all.push_back({{.subpixel_bits = 12, .tie_rule = TieRule::bottom_right}, {DepthPath::float32, DepthFormat::d24}});
+    all.push_back({{.subpixel_bits = 4}, {DepthPath::float32, DepthFormat::d16}});
+    constexpr std::array<std::array<int, 2>, 5> sizes{
+        {{2, 200}, {7, 100}, {30, 24}, {300, 16}, {32767, 16}}};  // pixels, triangles
+    constexpr FragmentNeeds depth_only{false, true, false, false, false, false};
+    constexpr FragmentNeeds no_exact_code{true, true, false, true, true, true};
+    std::size_t wrong = 0, fragments = 0;
+    for (const Device& device : all)
+        for (const auto& [size, count] : sizes) {
+            const Geometry geometry = random_triangles(128 + static_cast<std::uint64_t>(size), count, size, device);
+            for (const FragmentNeeds& needs : {depth_only, no_exact_code, everything})
+                for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}}) {
+                    REQUIRE(strata::choose_simd(strata::Simd::scalar));
+                    const Batches twins = batches_of(geometry, device.depth, needs, region);
+                    fragments += twins.fragments.size();
+                    for (const strata::Simd simd : strata::available_simd()) {
+                        REQUIRE(strata::choose_simd(simd));
+                        wrong += batches_of(geometry, device.depth, needs, region) != twins ? 1 : 0;
+                    }
+                }
+        }
+    REQUIRE(strata::choose_simd(strata::Simd::best));
+    CHECK(fragments > 100'000);
+    CHECK(wrong == 0);
+}
 
 TEST_CASE("fragments are the same for every tile size, region and number of threads") {
     for (const SoupKind kind : {SoupKind::perspective, SoupKind::needs_clipping})

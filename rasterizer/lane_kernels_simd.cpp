@@ -1,0 +1,240 @@
+// rasterizer/lane_kernels_simd.cpp - the kernels of lane_kernels.h for every instruction set; their meaning stands there.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rasterizer/lane_kernels_simd.cpp"
+#include <bit>
+#include <cstring>
+
+#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/highway.h"
+#include "rasterizer/lane_kernels.h"
+#include "rasterizer/simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::rasterizer::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F64 = hn::ScalableTag<double>;  // as many lanes of everything else as of binary64
+using F32 = hn::Rebind<float, F64>;
+using I32 = hn::Rebind<std::int32_t, F64>;
+using U32 = hn::Rebind<std::uint32_t, F64>;
+using U16 = hn::Rebind<std::uint16_t, F64>;
+using V64 = hn::Vec<F64>;
+using V32 = hn::Vec<F32>;
+
+// A block of 16 pixels, or as many of them as the widest vector has lanes of 32 bits.
+using Row32 = hn::CappedTag<std::int32_t, 16>;
+using Row16 = hn::Rebind<std::uint16_t, Row32>;
+
+// hn::Iota goes through the stack, and waits for it.
+alignas(64) constexpr std::int32_t counting32[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+alignas(64) constexpr std::uint16_t counting16[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+// Writes `count` pixels of a row from lane `held` on.
+struct AppendRow {
+    void operator()(FragmentBatch& batch, int held, int count, std::uint32_t pixel, int x, int y,
+                    std::uint32_t primitive) const {
+        const Row32 d;
+        const Row16 d16;
+        auto pixels = hn::Add(hn::LoadU(d, counting32), hn::Set(d, static_cast<std::int32_t>(pixel)));
+        auto xs = hn::Add(hn::LoadU(d16, counting16), hn::Set(d16, static_cast<std::uint16_t>(x)));
+        const int step = static_cast<int>(hn::Lanes(d)), end = held + count;
+        for (int i = held; i < end; i += step) {
+            const auto at = static_cast<std::size_t>(i);
+            hn::StoreU(pixels, d, reinterpret_cast<std::int32_t*>(&batch.pixel[at]));
+            hn::StoreU(xs, d16, &batch.x[at]);
+            hn::StoreU(hn::Set(d16, static_cast<std::uint16_t>(y)), d16, &batch.y[at]);
+            hn::StoreU(hn::Set(d, static_cast<std::int32_t>(primitive)), d,
+                       reinterpret_cast<std::int32_t*>(&batch.primitive[at]));
+            pixels = hn::Add(pixels, hn::Set(d, step));
+            xs = hn::Add(xs, hn::Set(d16, static_cast<std::uint16_t>(step)));
+        }
+    }
+};
+
+// The walk is the twins'; it and what it calls are compiled here for this set.
+[[gnu::flatten]] bool emit(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept {
+    const auto span_of = [&](int row) HWY_ATTR { return spans[row]; };
+    return scalar::emit_rows(run, claims, batch, span_of, AppendRow{});
+}
+
+// The covered pixels of a row of a small triangle, a bit each.
+class SmallRows {
+  public:
+    HWY_INLINE explicit SmallRows(const SmallEdges& edges) : edges_{edges} {}
+
+    RowSpan operator()(int row) const {
+        std::uint32_t bits = covered(row, 0);
+        for (int first = lanes; first < SmallEdges::max_width && first < edges_.width; first += lanes)
+            bits |= covered(row, first) << first;
+        bits &= (1u << edges_.width) - 1;
+        const int first = bits == 0 ? 0 : std::countr_zero(bits);
+        return {edges_.x0 + first, edges_.x0 + static_cast<int>(std::bit_width(bits))};
+    }
+
+  private:
+    static constexpr int lanes = static_cast<int>(hn::MaxLanes(Row32{}));
+
+    HWY_INLINE std::uint32_t covered(int row, int first) const {
+        const Row32 d;
+        const auto k = hn::LoadU(d, counting32 + first);
+        const auto at = [&](int i) HWY_ATTR {
+            const auto start = hn::Set(d, edges_.value[i] + row * edges_.down[i]);
+            return hn::Add(start, hn::Mul(k, hn::Set(d, edges_.step[i])));  // the product is hoisted from the rows
+        };
+        const auto inside = hn::Gt(hn::Or(hn::Or(at(0), at(1)), at(2)), hn::Set(d, -1));
+        std::uint64_t bits = 0;
+        hn::StoreMaskBits(d, inside, reinterpret_cast<std::uint8_t*>(&bits));
+        return static_cast<std::uint32_t>(bits);
+    }
+    const SmallEdges edges_;
+};
+
+[[gnu::flatten]] bool emit_small(const SmallEdges& edges, RowRun& run, PixelClaims& claims,
+                                 FragmentBatch& batch) noexcept {
+    return scalar::emit_rows(run, claims, batch, SmallRows{edges}, AppendRow{});
+}
+
+// Pixel coordinates as binary64.
+HWY_INLINE V64 coordinates(const std::uint16_t* p) {
+    return hn::PromoteTo(F64{}, hn::PromoteTo(I32{}, hn::LoadU(U16{}, p)));
+}
+
+struct Weights {
+    V64 b1, b2;
+};
+
+// Of either kind: what does not change from lane to lane is hoisted by the compiler.
+template <bool unsnapped>
+HWY_INLINE Weights weights_at(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y) {
+    const F64 d;
+    const auto set = [&](double v) HWY_ATTR { return hn::Set(d, v); };
+    V64 px = coordinates(x), py = coordinates(y);
+    if constexpr (unsnapped) {
+        px = hn::Sub(hn::Add(px, set(0.5)), set(w.x0));
+        py = hn::Sub(hn::Add(py, set(0.5)), set(w.y0));
+        return {hn::Mul(hn::Sub(hn::Mul(px, set(w.y2)), hn::Mul(py, set(w.x2))), set(w.r)),
+                hn::Mul(hn::Sub(hn::Mul(py, set(w.x1)), hn::Mul(px, set(w.y1))), set(w.r))};
+    } else {
+        const auto at = [&](const PixelWeights::EdgePlane& e) HWY_ATTR {
+            const V64 xy = hn::Add(hn::Mul(px, set(e.step_x)), hn::Mul(py, set(e.step_y)));
+            return hn::Mul(hn::Add(xy, set(e.constant)), set(w.r));
+        };
+        return {at(w.e1), at(w.e2)};
+    }
+}
+
+template <bool unsnapped>
+HWY_INLINE void weights_of(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count,
+                           double* HWY_RESTRICT b1, double* HWY_RESTRICT b2) {
+    const F64 d;
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+        const Weights b = weights_at<unsnapped>(w, x + i, y + i);
+        hn::StoreU(b.b1, d, b1 + i);
+        hn::StoreU(b.b2, d, b2 + i);
+    }
+}
+
+void weights(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count, double* b1,
+             double* b2) noexcept {
+    if (w.kind == PixelWeights::Kind::unsnapped) return weights_of<true>(w, x, y, count, b1, b2);
+    weights_of<false>(w, x, y, count, b1, b2);
+}
+
+HWY_INLINE V64 plane_at(const FilterPlane& p, const Weights& b) {
+    const F64 d;
+    return hn::Add(hn::Set(d, p.w0), hn::Add(hn::Mul(b.b1, hn::Set(d, p.d1)), hn::Mul(b.b2, hn::Set(d, p.d2))));
+}
+
+// Low end of the filter's interval, rounded; `unsure` gathers the bits in which the high end differs.
+HWY_INLINE V32 rounded(V64 v, V64 error, hn::Vec<U32>& unsure) {
+    const V32 low = hn::DemoteTo(F32{}, hn::Sub(v, error)), high = hn::DemoteTo(F32{}, hn::Add(v, error));
+    unsure = hn::Or(unsure, hn::Xor(hn::BitCast(U32{}, low), hn::BitCast(U32{}, high)));
+    return low;
+}
+
+template <bool exact>
+HWY_INLINE bool attributes_of(const AttributeLanes& a, const TriangleLanes& lanes) {
+    const F64 d;
+    FilterPlane planes[attribute_count + 1];
+    for (std::size_t k = 0; k < a.count; ++k) planes[k] = FilterPlane{a.plane[k], exact};
+    planes[a.count] = FilterPlane{a.inverse_w, exact};
+    auto unsure = hn::Zero(U32{});
+    const auto value = [&](const FilterPlane& plane, const Weights& b) HWY_ATTR {
+        const V64 v = plane_at(plane, b);
+        return exact ? rounded(v, hn::Set(d, plane.error), unsure) : hn::DemoteTo(F32{}, v);
+    };
+    for (int i = 0; i < lanes.count; i += static_cast<int>(hn::Lanes(d))) {
+        const Weights b{hn::LoadU(d, lanes.weight1 + i), hn::LoadU(d, lanes.weight2 + i)};
+        const V32 inverse_w = a.has_w ? value(planes[a.count], b) : hn::Set(F32{}, 1.0f);
+        for (std::size_t k = 0; k < a.count; ++k) {
+            const V32 u = value(planes[k], b);
+            hn::StoreU(a.has_w ? hn::Div(u, inverse_w) : u, F32{}, a.out[k] + i);
+        }
+    }
+    return exact && !hn::AllTrue(U32{}, hn::Eq(unsure, hn::Zero(U32{})));
+}
+
+bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noexcept {
+    return lanes.is_exact ? attributes_of<true>(a, lanes) : attributes_of<false>(a, lanes);
+}
+
+HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthLanes& out) {
+    const F32 d;
+    const V32 least = hn::Set(d, out.least), greatest = hn::Set(d, out.greatest);
+    const V32 above = hn::IfThenElse(hn::Gt(z, least), z, least);  // as the twin: NaN and -0 become `least`
+    const V32 clamped = hn::IfThenElse(hn::Lt(above, greatest), above, greatest);
+    if (!out.is_fixed) return hn::BitCast(U32{}, clamped);
+    const F64 d64;
+    const V64 scaled = hn::Mul(hn::PromoteTo(d64, clamped), hn::Set(d64, out.max));
+    return hn::BitCast(U32{}, hn::DemoteTo(I32{}, hn::Add(scaled, hn::Set(d64, out.half))));
+}
+
+template <bool unsnapped>
+HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x,
+                         const std::uint16_t* y, int count, const DepthLanes& out) {
+    const F64 d;
+    auto unsure = hn::Zero(U32{});
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+        const Weights b = weights_at<unsnapped>(w, x + i, y + i);
+        const V64 v = plane_at(plane, b);
+        auto different = hn::Zero(U32{});
+        // The lanes beyond the count hold pixels of no triangle: they may be unsure for nothing, and cost time alone.
+        const V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : rounded(v, hn::Set(d, plane.error), different);
+        unsure = hn::Or(unsure, different);
+        if (out.shader_z != nullptr) hn::StoreU(z, F32{}, out.shader_z + i);
+        if (out.code != nullptr) hn::StoreU(codes(z, out), U32{}, out.code + i);
+        if (out.b1 == nullptr) continue;
+        hn::StoreU(b.b1, d, out.b1 + i);
+        hn::StoreU(b.b2, d, out.b2 + i);
+    }
+    return !unsnapped && !hn::AllTrue(U32{}, hn::Eq(unsure, hn::Zero(U32{})));
+}
+
+bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
+           const DepthLanes& out) noexcept {
+    if (w.kind == PixelWeights::Kind::unsnapped) return depth_of<true>(w, plane, x, y, count, out);
+    return depth_of<false>(w, plane, x, y, count, out);
+}
+
+const LaneKernels* table() {
+    static constexpr LaneKernels kernels{emit, emit_small, weights, attributes, depth};
+    return &kernels;
+}
+
+}  // namespace strata::rasterizer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace strata::rasterizer {
+HWY_EXPORT(table);
+
+inline namespace strict {
+
+const LaneKernels& lane_kernels() noexcept {
+    static constexpr LaneKernels twins{scalar::emit, scalar::emit_small, scalar::weights, scalar::attributes, nullptr};
+    return simd_is_scalar() ? twins : *HWY_DYNAMIC_DISPATCH(table)();
+}
+
+}  // namespace strict
+}  // namespace strata::rasterizer
+#endif

@@ -1,0 +1,48 @@
+// rasterizer/pixel_claims.h - which pixels of a region the present batch already holds.
+//
+// Rule     A word stands for 32 pixels of a row: a bit a pixel, and above them the number of the batch that the bits are
+//          of. So a new batch forgets them all by taking the next number.
+// Tests    tests/rasterizer/tile_rasterizer_test.cpp (no pixel twice in a batch)
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "rasterizer/raster_state.h"
+
+namespace strata::rasterizer {
+
+class PixelClaims {
+  public:
+    explicit PixelClaims(const Rect& region)
+        : words_a_row_{(static_cast<std::size_t>(region.width()) + 31) / 32},
+          word_(words_a_row_ * static_cast<std::size_t>(region.height())) {}
+
+    void next_batch() {
+        if (++batch_ != 0) return;
+        std::ranges::fill(word_, std::uint64_t{0});  // after 2^32 batches the numbers start again
+        batch_ = 1;
+    }
+
+    // Claims `count` pixels of a row of the region from `column` on; false, and some of them claimed, if the batch holds
+    // one of them already: then it must end.
+    [[nodiscard]] bool claim(std::size_t row, unsigned column, unsigned count) noexcept {
+        std::uint64_t* word = &word_[row * words_a_row_ + column / 32];
+        for (column %= 32; count > 0; ++word, column = 0) {
+            const unsigned here = std::min(count, 32 - column);
+            const auto bits = static_cast<std::uint32_t>(((std::uint64_t{1} << here) - 1) << column);
+            const std::uint32_t held = *word >> 32 == batch_ ? static_cast<std::uint32_t>(*word) : 0;
+            if ((held & bits) != 0) return false;
+            *word = std::uint64_t{batch_} << 32 | held | bits;
+            count -= here;
+        }
+        return true;
+    }
+
+  private:
+    std::size_t words_a_row_;
+    std::vector<std::uint64_t> word_;
+    std::uint32_t batch_ = 0;
+};
+
+}  // namespace strata::rasterizer
