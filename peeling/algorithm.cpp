@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "peeling/closed_form.h"
 #include "peeling/runs.h"
 
 namespace strata::peeling {
@@ -39,10 +40,10 @@ std::vector<Algorithm> make_algorithms() {
         {.name = "front_to_back", .paper = bavoil, .section = "Depth Peeling; Under Blending",
          .summary = "one layer a pass, nearest first, blended UNDER",  .pass_formula = "N + 1", .ties = TiePolicy::unique,
          .key = DepthKey::stored_code, .exact = true, .makes_layers = true, .premultiplied_layers = true, .geometry_passes = every_layer_and_one,
-         .run = front_to_back, .replayed = code_and_color, .features = programs},
+         .run = front_to_back, .closed_form = front_to_back_closed, .replayed = code_and_color, .features = programs},
         {.name = "dual", .paper = bavoil, .section = "Dual Depth Peeling",
          .summary = "nearest and farthest layer of every pass, blended on the fly under one MAX equation",  .pass_formula = "1 + max(1, ceil(N/2))", .ties = TiePolicy::merged,
-         .key = DepthKey::shader_z, .exact = true, .geometry_passes = dual_passes, .run = dual, .replayed = z_and_color, .features = float_programs, .render_targets = 3},
+         .key = DepthKey::shader_z, .exact = true, .geometry_passes = dual_passes, .run = dual, .closed_form = dual_closed, .replayed = z_and_color, .features = float_programs, .render_targets = 3},
         {.name = "dual_independent", .paper = bavoil, .section = "Blending on the Fly (DirectX 10.1)",
          .summary = "dual peeling with a blend equation a target; no tie is lost",  .pass_formula = "ceil(N/2) + 2", .ties = TiePolicy::first_then_last,
          .key = DepthKey::shader_z, .exact = true, .geometry_passes = dual_independent_passes, .run = dual_independent, .replayed = z_and_color,

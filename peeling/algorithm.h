@@ -26,6 +26,7 @@ struct Algorithm {
     bool is_oracle = false;    // not a device's algorithm: never refused
     int (*geometry_passes)(int layers) = nullptr;  // the formula
     void (*run)(pipeline::Region&) = nullptr;
+    bool (*closed_form)(pipeline::Region&) = nullptr;  // peeling/closed_form.h; null if it has none
     // What its geometry passes look at, all together: what replay captures. Empty: one pass, nothing to replay.
     std::optional<rasterizer::FragmentNeeds> replayed{};
     std::vector<pipeline::Feature> features{};  // what a profile must have

@@ -7,6 +7,7 @@
 //            back = what lies behind far, over the background.
 #include <utility>
 
+#include "peeling/front_and_back.h"
 #include "peeling/min_max.h"
 #include "peeling/runs.h"
 
@@ -36,19 +37,7 @@ Drawn peel(Region& region, const DualTargets& t) {
         PeelLanes place;
         classify(in, own.color(0), own.depth(2), place);
         write_min_max(in, place.is_between, out.color[0]);
-        const ColorLanes& front = own.color(1);
-        const ColorLanes& color = in.color;
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                const float under = front[c][i] + (1.0f - front[3][i]) * (color[3][i] * color[c][i]);
-                out.color[1][c][i] = place.is_near[i] != 0 ? under : front[c][i];
-                out.color[2][c][i] = place.is_far[i] != 0 ? color[c][i] : 0.0f;
-            }
-        for (std::size_t i = 0; i < lanes(in); ++i) {
-            const float covered = 1.0f - (1.0f - front[3][i]) * (1.0f - color[3][i]);
-            out.color[1][3][i] = place.is_near[i] != 0 ? covered : front[3][i];
-            out.color[2][3][i] = place.is_far[i] != 0 ? color[3][i] : 0.0f;
-        }
+        write_layers(in, own.color(1), place, out.color[1], out.color[2]);
     });
 }
 
@@ -85,6 +74,20 @@ void trace_peel(Region& region, const DualTargets& t) {
 
 }  // namespace
 
+void publish_front_and_back(Region& region, Target front, Target back) {
+    const Target result = region.make_color();
+    PassState state;
+    state.color[0] = result;
+    state.reads = {front, back};
+    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < lanes(in); ++i)
+                out.color[0][c][i] = own.color(0)[c][i] + (1.0f - own.color(0)[3][i]) * own.color(1)[c][i];
+        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
+    }));
+    region.publish(result);
+}
+
 void dual(Region& region) {
     const auto rg = Format::rg32f;
     DualTargets t{region.make(rg),     region.make(rg),     region.make_color(),
@@ -103,17 +106,7 @@ void dual(Region& region) {
         // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
         if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::steady))) break;
     }
-    const Target result = region.make_color();
-    PassState state;
-    state.color[0] = result;
-    state.reads = {t.front, t.back};
-    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = own.color(0)[c][i] + (1.0f - own.color(0)[3][i]) * own.color(1)[c][i];
-        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
-    }));
-    region.publish(result);
+    publish_front_and_back(region, t.front, t.back);
 }
 
 }  // namespace strata::peeling

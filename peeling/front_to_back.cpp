@@ -26,9 +26,7 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     state.needs.shader_z = false;
     return region.draw(state, [first](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
-        if (first) return;
-        const auto& previous = own.depth(0);
-        for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= in.code[i] > previous[i] ? ~0u : 0u;
+        if (!first) discard_peeled(in, own.depth(0), out);
     });
 }
 

@@ -8,35 +8,66 @@ namespace strata::peeling {
 inline constexpr pipeline::ClearValue empty_min_max{.color = {-1, -1, 0, 0}};
 
 // A fragment's place against the peeled range, as 0 or ~0 a lane.
-struct PeelLanes {
+struct alignas(64) PeelLanes {
     pipeline::Lanes<std::uint32_t> is_near, is_far, is_between;
 };
 
 inline namespace strict {
 
 // z beyond the opaque surface, before `near` or behind `far`: skipped, no lane set. near == far counts as near.
-inline void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
-                     const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept {
-    for (std::size_t i = 0; i < lanes(in); ++i) {
-        const float z = in.shader_z[i], near = -min_max[0][i], far = min_max[1][i];
-        const bool inside = z < std::bit_cast<float>(opaque[i]) && z >= near && z <= far;
-        const bool is_near = inside && z == near, is_far = inside && z == far && z != near;
-        place.is_near[i] = is_near ? ~0u : 0u;
-        place.is_far[i] = is_far ? ~0u : 0u;
-        place.is_between[i] = inside && !is_near && !is_far ? ~0u : 0u;
-    }
-}
+void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
+              const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept;
 
 // (-z, z) where the mask is set, else (-1, -1), which MAX ignores.
-inline void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
-                          pipeline::ColorLanes& out) noexcept {
-    for (std::size_t i = 0; i < lanes(in); ++i) {
-        const float z = in.shader_z[i];
-        out[0][i] = mask[i] != 0 ? -z : -1.0f;
-        out[1][i] = mask[i] != 0 ? z : -1.0f;
+void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
+                   pipeline::ColorLanes& out) noexcept;
+
+// What a peel of dual writes beside the depths. RT1: the front colour, with the near fragment UNDER it; RT2: the colour
+// of the far one, else 0.
+void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& place,
+                  pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept;
+
+namespace scalar {
+
+inline void classify(const pipeline::Lanes<float>& shader_z, const pipeline::ColorLanes& min_max,
+                     const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place, std::size_t count) noexcept {
+    using pipeline::mask;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float z = shader_z[i], near = -min_max[0][i], far = min_max[1][i];
+        const std::uint32_t inside = mask(z < std::bit_cast<float>(opaque[i])) & mask(z >= near) & mask(z <= far);
+        const std::uint32_t is_near = inside & mask(z == near), is_far = inside & mask(z == far) & ~is_near;
+        place.is_near[i] = is_near;
+        place.is_far[i] = is_far;
+        place.is_between[i] = inside & ~is_near & ~is_far;
     }
 }
 
+inline void write_min_max(const pipeline::Lanes<float>& shader_z, const pipeline::Lanes<std::uint32_t>& chosen,
+                          pipeline::ColorLanes& out, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float z = shader_z[i];
+        out[0][i] = pipeline::select(chosen[i], -z, -1.0f);
+        out[1][i] = pipeline::select(chosen[i], z, -1.0f);
+    }
+}
+
+inline void write_layers(const pipeline::ColorLanes& color, const pipeline::ColorLanes& front, const PeelLanes& place,
+                         pipeline::ColorLanes& next_front, pipeline::ColorLanes& back, std::size_t count) noexcept {
+    using pipeline::select;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < count; ++i) {
+            const float under = front[c][i] + (1.0f - front[3][i]) * (color[3][i] * color[c][i]);
+            next_front[c][i] = select(place.is_near[i], under, front[c][i]);
+            back[c][i] = select(place.is_far[i], color[c][i], 0.0f);
+        }
+    for (std::size_t i = 0; i < count; ++i) {
+        const float covered = 1.0f - (1.0f - front[3][i]) * (1.0f - color[3][i]);
+        next_front[3][i] = select(place.is_near[i], covered, front[3][i]);
+        back[3][i] = select(place.is_far[i], color[3][i], 0.0f);
+    }
+}
+
+}  // namespace scalar
 }  // namespace strict
 
 // The first pass of both dual algorithms: the nearest and farthest visible depth of every pixel.
@@ -51,7 +82,7 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         Lanes<std::uint32_t> visible;
         for (std::size_t i = 0; i < lanes(in); ++i)
-            visible[i] = in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i]) ? ~0u : 0u;
+            visible[i] = mask(in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i]));
         write_min_max(in, visible, out.color[0]);
     }));
 }

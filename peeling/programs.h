@@ -1,8 +1,11 @@
 // peeling/programs.h - what several algorithms' fragment programs and passes have in common.
+// Functions over the lanes of a batch are loops in namespace scalar, which is their meaning; outside it stand the same
+// loops compiled for the chosen instruction set (programs_simd.cpp). Tests: tests/peeling/programs_test.cpp
 #pragma once
 #include <bit>
 #include <cstdint>
 
+#include "pipeline/lane_mask.h"
 #include "pipeline/region.h"
 #include "rasterizer/numerics.h"
 
@@ -20,6 +23,14 @@ inline namespace strict {
 }
 
 // out = (c a, a): what UNDER and additive blending expect.
+void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept;
+void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept;
+// A fragment dies unless its code is greater than the one already peeled at its pixel.
+void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,
+                    pipeline::Outputs& out) noexcept;
+
+namespace scalar {
+
 inline void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < count; ++i) out[c][i] = color[c][i] * color[3][i];
@@ -30,6 +41,13 @@ inline void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::s
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < count; ++i) lanes[c][i] = value[c];
 }
+
+inline void discard_peeled(const pipeline::Lanes<std::uint32_t>& code, const pipeline::Lanes<std::uint32_t>& peeled,
+                           pipeline::Lanes<std::uint32_t>& alive, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) alive[i] &= pipeline::mask(code[i] > peeled[i]);
+}
+
+}  // namespace scalar
 
 // Publishes accumulated.rgb + accumulated.a * background, alpha 1: the end of every front-to-back composite.
 inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated, pipeline::Target background) {

@@ -52,6 +52,13 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     return check(profile, depth.path);
 }
 
+// A closed form where the algorithm offers one, its passes elsewhere.
+Body body_of(const Algorithm& algorithm) {
+    return [&](Region& region) {
+        if (algorithm.closed_form == nullptr || !algorithm.closed_form(region)) algorithm.run(region);
+    };
+}
+
 void draw_depth(Region& region) {
     const Target depth = region.make_depth();
     region.copy(region.opaque_depth(), depth);
@@ -205,7 +212,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
         try {
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
-            result.frame = run(frame, algorithm.run, state_->options.execution, state_->options.threads, progress);
+            result.frame = run(frame, body_of(algorithm), state_->options.execution, state_->options.threads, progress);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }

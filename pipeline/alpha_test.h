@@ -22,8 +22,12 @@ namespace strata::pipeline {
 }
 
 // Clears alive[i] where the test fails.
-inline void alpha_test(const AlphaTest& state, bool eight_bit, const float* alpha, std::uint32_t* alive,
-                       int count) noexcept {
+void alpha_test(const AlphaTest& state, bool eight_bit, const float* alpha, std::uint32_t* alive, int count) noexcept;
+
+// Its meaning; alpha_test is the same compiled for the chosen instruction set (stages_simd.cpp).
+namespace strict::scalar {
+inline void alpha_test(const AlphaTest& state, bool eight_bit, const float* __restrict alpha,
+                       std::uint32_t* __restrict alive, int count) noexcept {
     if (!state.enabled || state.func == CompareFunc::always) return;
     const int ref_code = to_unorm8(state.ref);
     const float ref = state.ref;
@@ -35,5 +39,6 @@ inline void alpha_test(const AlphaTest& state, bool eight_bit, const float* alph
         }
     });
 }
+}  // namespace strict::scalar
 
 }  // namespace strata::pipeline

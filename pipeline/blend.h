@@ -5,8 +5,9 @@
 //          replaces, converted once. The arithmetic of 8-bit targets stands in blend_unorm8.h, that of fp16 and
 //          binary32 targets in blend_float.h.
 // Source   hardware.md 8 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
-// Cost     Terms that papers use run in one loop (blend_kernels.h); the others fill two arrays of factors first.
-// Tests    tests/pipeline/blend_unorm8_test.cpp, tests/pipeline/blend_float_test.cpp
+// Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once an instruction set; the others fill two arrays of factors first.
+// Tests    tests/pipeline/blend_unorm8_test.cpp, tests/pipeline/blend_float_test.cpp,
+//          tests/pipeline/simd_stages_test.cpp
 #pragma once
 #include <array>
 #include <cstdint>
@@ -18,8 +19,8 @@
 
 namespace strata::pipeline {
 
-// Updates codes[c] for c < channels where the write mask has bit c, in all lanes i < count; the caller stores those
-// that live. All four channels of `src` count, whatever the target keeps: a two-channel target may blend by source
+// Updates codes[c] for c < channels where the write mask has bit c, in all lanes i < count (and up to the next multiple
+// of 16, as scratch); the caller stores those that live. All four channels of `src` count, whatever the target keeps: a two-channel target may blend by source
 // alpha.
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
            const std::array<rasterizer::Lanes<float>, 4>& src, std::array<rasterizer::Lanes<std::uint32_t>, 4>& codes,

@@ -58,13 +58,13 @@ struct FloatArithmetic {
         return extreme<BlendEquation::min, nan_rule>(a, b);
     }
 
-    // Operands flushed already.
-    template <BlendEquation equation>
+    // Operands flushed already: times 1 they are what they were. keeps_s: F is 1, keeps_d: G is.
+    template <BlendEquation equation, bool keeps_s = false, bool keeps_d = false>
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
         if constexpr (equation == BlendEquation::min || equation == BlendEquation::max)
             return extreme<equation, nan_rule>(s, d);
-        const float source = flushed<denormals>(s * F);
-        const float destination = flushed<denormals>(d * G);
+        const float source = keeps_s ? s : flushed<denormals>(s * F);
+        const float destination = keeps_d ? d : flushed<denormals>(d * G);
         float sum = 0;
         if constexpr (equation == BlendEquation::add) sum = source + destination;
         if constexpr (equation == BlendEquation::subtract) sum = source - destination;

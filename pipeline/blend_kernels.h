@@ -1,5 +1,5 @@
 // pipeline/blend_kernels.h - one blend term over the lanes of one channel, for any arithmetic: Unorm8Arithmetic or
-// FloatArithmetic. The terms that papers name have their factors compiled in. Included by blend.cpp alone.
+// FloatArithmetic. The terms that papers name have their factors compiled in. Included by blend_lanes.h alone.
 #pragma once
 #include <type_traits>
 
@@ -79,9 +79,10 @@ void with_equation(BlendEquation equation, Body&& body) {
 // Both factors compiled in: one loop.
 template <class Arithmetic, BlendEquation equation, BlendFactor src, BlendFactor dst>
 void blend_fused(const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
+    constexpr bool keeps_s = src == BlendFactor::one, keeps_d = dst == BlendFactor::one;
     for (std::size_t i = 0; i < count; ++i)
-        out[i] = Arithmetic::template combine<equation>(in.s[i], factor<Arithmetic, src>(in, i), in.d[i],
-                                                        factor<Arithmetic, dst>(in, i));
+        out[i] = Arithmetic::template combine<equation, keeps_s, keeps_d>(in.s[i], factor<Arithmetic, src>(in, i),
+                                                                          in.d[i], factor<Arithmetic, dst>(in, i));
 }
 
 template <class Arithmetic>
@@ -92,10 +93,10 @@ void fill_factor(BlendFactor f, const BlendOperands& in, ValueLanes& out, std::s
     });
 }
 
-// Any term: factors first, then the equation.
+// Any term: factors first, then the equation. Rare and long: one copy for all instruction sets.
 template <class Arithmetic>
-void blend_general(const BlendTerm& term, const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
-    ValueLanes src, dst;
+[[gnu::noinline]] void blend_general(const BlendTerm& term, const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
+    alignas(64) ValueLanes src, dst;
     fill_factor<Arithmetic>(term.src, in, src, count);
     fill_factor<Arithmetic>(term.dst, in, dst, count);
     with_equation(term.equation, [&](auto equation) {

@@ -39,7 +39,7 @@ struct Unorm8Arithmetic {
         return std::bit_cast<float>(std::max(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
     }
 
-    template <BlendEquation equation>
+    template <BlendEquation equation, bool keeps_s = false, bool keeps_d = false>  // as in blend_float.h; a product here
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
         if constexpr (equation == BlendEquation::min) return lesser(s, d);
         if constexpr (equation == BlendEquation::max) return greater(s, d);

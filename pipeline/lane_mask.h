@@ -13,4 +13,8 @@ namespace strata::pipeline {
     return (a & chosen) | (b & ~chosen);
 }
 
+[[nodiscard]] constexpr float select(std::uint32_t chosen, float a, float b) noexcept {
+    return std::bit_cast<float>(select(chosen, std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b)));
+}
+
 }  // namespace strata::pipeline

@@ -69,17 +69,32 @@ DeviceProfile ideal() {
     return p;
 }
 
+// A software rasterizer to run side by side with: which fragments it draws is measured (tools/bench/README.md).
+DeviceProfile llvmpipe() {
+    DeviceProfile p = geforce8_dx101();
+    p.name = "llvmpipe";
+    p.description = "no device: Mesa 22.3's llvmpipe, whose fragments tools/bench compares with ours";
+    p.raster.tie_rule = TieRule::bottom_left;
+    p.raster.w_divide = WDivide::reciprocal;
+    p.raster.plane_origin = PlaneOrigin::unsnapped;
+    p.has_d16 = true;
+    p.max_texture_units = 32;
+    p.max_viewport_px = 16384;
+    p.max_samples = 4;
+    return p;
+}
+
 // Column of ProfileField::source.
 int source_column(std::string_view name) {
     if (name == "geforce3") return 0;
     if (name == "geforce8" || name == "geforce8_dx101") return 1;
-    return 2;
+    return name == "llvmpipe" ? 3 : 2;
 }
 
 }  // namespace
 
 const std::vector<DeviceProfile>& builtin_profiles() {
-    static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(), geforce8_dx101(), ideal()};
+    static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(), geforce8_dx101(), ideal(), llvmpipe()};
     return profiles;
 }
 

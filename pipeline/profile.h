@@ -55,7 +55,7 @@ struct DeviceProfile {
     }
 };
 
-// geforce3, geforce8, geforce8_dx101, ideal; in that order.
+// geforce3, geforce8, geforce8_dx101, ideal, llvmpipe; in that order.
 [[nodiscard]] const std::vector<DeviceProfile>& builtin_profiles();
 
 // Null if there is no such name.

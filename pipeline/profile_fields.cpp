@@ -4,7 +4,7 @@ namespace strata::pipeline {
 namespace {
 
 using Names = std::span<const std::string_view>;
-using Sources = std::array<std::string_view, 3>;
+using Sources = std::array<std::string_view, 4>;
 using Profile = DeviceProfile;
 using Rules = rasterizer::RasterRules;
 
@@ -83,83 +83,108 @@ constexpr ProfileField integer(std::string_view key, Range range, const Sources&
 }
 
 constexpr std::string_view ours = "ideal: no device";
+constexpr std::string_view drawn = "[M] tools/bench/README.md: Mesa 22.3 draws the same fragments";
+constexpr std::string_view opengl = "[D] OpenGL 4.5, which Mesa 22.3 implements";
+constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 
 // Sources: [D] documented, [M] measured by others, [A] our assumption; then the section of hardware.md.
 constexpr std::array fields{
     integer<&Rules::subpixel_bits>(
         "raster.subpixel_bits", {4, 12, 4},
-        {"[M] 1: hardware tests on NV2A; the minimum OpenGL allows", "[D] 1: D3D 11.3 3.4.1", ours}),
+        {"[M] 1: hardware tests on NV2A; the minimum OpenGL allows", "[D] 1: D3D 11.3 3.4.1", ours, drawn}),
     choice<&Rules::snap>("raster.snap", snap_names,
-                         {"[M] 1: 0.5624 lands on 0.5", "[A] 1: 0.6 ULP is allowed, the ideal is taken", ours}),
+                         {"[M] 1: 0.5624 lands on 0.5", "[A] 1: 0.6 ULP is allowed, the ideal is taken", ours, drawn}),
     choice<&Rules::tie_rule>("raster.tie_rule", tie_names,
-                             {"[M] 1: 298,500 of 298,500 pixels", "[D] 1: D3D 11.3 3.4.2.1", ours}),
+                             {"[M] 1: 298,500 of 298,500 pixels", "[D] 1: D3D 11.3 3.4.2.1", ours, drawn}),
     integer<&Rules::guard_band_px>("raster.guard_band_px", {1, 32768},
-                                   {"[A] 1: the fixed-point range", "[D] 1: D3D 11.3 15.6.1", ours}),
-    choice<&Rules::z_clip>("raster.z_clip", z_clip_names,
-                           {"[M] 1: fragments outside zmin..zmax are discarded", "[D] 1: D3D 11.3 15.4", ours}),
-    choice<&Rules::w_clip>("raster.w_clip", w_clip_names, {"[A] 1", "[D] 1: D3D 11.3 15.4", ours}),
-    choice<&Rules::w_divide>("raster.w_divide", w_divide_names, {"[D] 1: decisions.md 1", "[A] decisions.md 1", ours}),
-    choice<&Rules::viewport>("raster.viewport", viewport_names, {"[A] decisions.md 1", "[A] decisions.md 1", ours}),
+                                   {"[A] 1: the fixed-point range", "[D] 1: D3D 11.3 15.6.1", ours,
+                                    "[A] Mesa cuts at the viewport: compare scenes that lie inside it"}),
+    choice<&Rules::z_clip>(
+        "raster.z_clip", z_clip_names,
+        {"[M] 1: fragments outside zmin..zmax are discarded", "[D] 1: D3D 11.3 15.4", ours, "[D] OpenGL 4.5 13.7"}),
+    choice<&Rules::w_clip>("raster.w_clip", w_clip_names,
+                           {"[A] 1", "[D] 1: D3D 11.3 15.4", ours, "[D] OpenGL 4.5 13.7"}),
+    choice<&Rules::w_divide>("raster.w_divide", w_divide_names,
+                             {"[D] 1: decisions.md 1", "[A] decisions.md 1", ours, drawn}),
+    choice<&Rules::viewport>(
+        "raster.viewport", viewport_names,
+        {"[A] decisions.md 1", "[A] decisions.md 1", ours, "[A] either: half of 1024 scales exactly"}),
     choice<&Rules::plane_origin>("raster.plane_origin", origin_names,
-                                 {"[M] 1: nxdk vertex_shader_rounding_tests", "[D] 1: D3D 11.3 15.16.2", ours}),
-    choice<&Rules::window_z>("raster.window_z", window_z_names, {"[M] nv2a-geometry.md 4", "[A] decisions.md 1", ours}),
-    choice<&Rules::depth_path>("raster.depth_path", path_names,
-                               {"[M] nv2a-depth.md 1: 4,927,976 of 4,927,976 words",
-                                "[A] 2: D3D 11.3 16.3.1 fixes all but the last bit", ours}),
+                                 {"[M] 1: nxdk vertex_shader_rounding_tests", "[D] 1: D3D 11.3 15.16.2", ours,
+                                  "[M] Mesa 22.3: planes start at the float32 positions"}),
+    choice<&Rules::window_z>("raster.window_z", window_z_names,
+                             {"[M] nv2a-geometry.md 4", "[A] decisions.md 1", ours, unmeasured}),
+    choice<&Rules::depth_path>(
+        "raster.depth_path", path_names,
+        {"[M] nv2a-depth.md 1: 4,927,976 of 4,927,976 words", "[A] 2: D3D 11.3 16.3.1 fixes all but the last bit", ours,
+         "[A] Mesa rounds each step of its plane; the exact plane is taken"}),
     choice<&Rules::depth_rounding>("raster.depth_rounding", depth_rounding_names,
-                                   {"[M] 2: NV2A floors integer depth", "[D] 2: D3D 11.3 17.10", ours}),
-    choice<&Rules::offset_unit>("raster.offset_unit", offset_names, {"[A] 1: one code", "[D] 1: D3D 11.3 15.10", ours}),
+                                   {"[M] 2: NV2A floors integer depth", "[D] 2: D3D 11.3 17.10", ours, unmeasured}),
+    choice<&Rules::offset_unit>("raster.offset_unit", offset_names,
+                                {"[A] 1: one code", "[D] 1: D3D 11.3 15.10", ours, unmeasured}),
     choice<&Rules::color>(
         "raster.color", color_names,
-        {"[M] nv2a-fragment.md R6: 489,784 of 489,788 pixels", "[A] 11: exact plane, one rounding", ours}),
-    choice<&Profile::alpha_test>("alpha_test", alpha_names,
-                                 {"[M] 7: nv2a-fragment.md R7, 16 of 16", "[D] 7: ARB_color_buffer_float", ours}),
+        {"[M] nv2a-fragment.md R6: 489,784 of 489,788 pixels", "[A] 11: exact plane, one rounding", ours, unmeasured}),
+    choice<&Profile::alpha_test>(
+        "alpha_test", alpha_names,
+        {"[M] 7: nv2a-fragment.md R7, 16 of 16", "[D] 7: ARB_color_buffer_float", ours, unmeasured}),
     choice<&Profile::blend_rounding>(
         "blend_rounding", blend_names,
-        {"[M] 8: nv2a-fragment.md R1, 1,673 of 1,673", "[A] 8: the contract that NV2A confirms", ours}),
+        {"[M] 8: nv2a-fragment.md R1, 1,673 of 1,673", "[A] 8: the contract that NV2A confirms", ours, unmeasured}),
     choice<&Profile::half_rounding>(
         "half_rounding", half_names,
-        {"[A] 8: no float targets", "[A] 8: GL and NV round to nearest, D3D allows zero", ours}),
-    choice<&Profile::min_max_nan>("min_max_nan", nan_names,
-                                  {"[A] 8: no float targets", "[A] 8: D3D 11.3 22.10.10, envytools fp32_minmax", ours}),
-    choice<&Profile::denormals>("denormals", denormal_names,
-                                {"[A] 8: no float targets", "[A] 8: flushed in and out, as the shader does", ours}),
-    choice<&Profile::texture_filter>(
-        "texture_filter", filter_names,
-        {"[A] decisions.md 1: one rounding to 8 bits", "[A] decisions.md 1: binary32 in a fixed order", ours}),
+        {"[A] 8: no float targets", "[A] 8: GL and NV round to nearest, D3D allows zero", ours, unmeasured}),
+    choice<&Profile::min_max_nan>(
+        "min_max_nan", nan_names,
+        {"[A] 8: no float targets", "[A] 8: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured}),
+    choice<&Profile::denormals>(
+        "denormals", denormal_names,
+        {"[A] 8: no float targets", "[A] 8: flushed in and out, as the shader does", ours, unmeasured}),
+    choice<&Profile::texture_filter>("texture_filter", filter_names,
+                                     {"[A] decisions.md 1: one rounding to 8 bits",
+                                      "[A] decisions.md 1: binary32 in a fixed order", ours, unmeasured}),
     boolean<&Profile::quantizes_vertex_color>("quantizes_vertex_color",
-                                              {"[M] nv2a-fragment.md R5, 16 of 16", "[A] 11", ours}),
-    boolean<&Profile::has_d16>("has_d16", {"[M] 2: Z16", "[M] 2: Z16 only from G200 on", ours}),
-    boolean<&Profile::has_d24>("has_d24", {"[M] 2: Z24S8", "[M] 2: Z24S8", ours}),
-    boolean<&Profile::has_d32f>("has_d32f", {"[M] 2: no such format", "[M] 2: Z32F among G80's depth formats", ours}),
+                                              {"[M] nv2a-fragment.md R5, 16 of 16", "[A] 11", ours, unmeasured}),
+    boolean<&Profile::has_d16>("has_d16", {"[M] 2: Z16", "[M] 2: Z16 only from G200 on", ours, opengl}),
+    boolean<&Profile::has_d24>("has_d24", {"[M] 2: Z24S8", "[M] 2: Z24S8", ours, opengl}),
+    boolean<&Profile::has_d32f>("has_d32f",
+                                {"[M] 2: no such format", "[M] 2: Z32F among G80's depth formats", ours, opengl}),
     boolean<&Profile::has_float_targets>(
-        "has_float_targets", {"[D] 8: NV30 had the first, without blending", "[D] 8: Bavoil and Myers", ours}),
+        "has_float_targets", {"[D] 8: NV30 had the first, without blending", "[D] 8: Bavoil and Myers", ours, opengl}),
     boolean<&Profile::has_unclamped_depth_clear>(
-        "has_unclamped_depth_clear", {"[D] 2: NV_depth_buffer_float", "[D] 2: NV_depth_buffer_float", ours}),
+        "has_unclamped_depth_clear",
+        {"[D] 2: NV_depth_buffer_float", "[D] 2: NV_depth_buffer_float", ours, "[A] as geforce8_dx101"}),
     boolean<&Profile::has_fragment_programs>(
-        "has_fragment_programs", {"[D] decisions.md 4: combiners and texture shaders", "[D] decisions.md 4", ours}),
+        "has_fragment_programs",
+        {"[D] decisions.md 4: combiners and texture shaders", "[D] decisions.md 4", ours, opengl}),
     boolean<&Profile::has_separate_alpha_blend>(
         "has_separate_alpha_blend",
-        {"[M] 6: one factor pair and one equation", "[M] 6: register fields since NV30 and NV40", ours}),
+        {"[M] 6: one factor pair and one equation", "[M] 6: register fields since NV30 and NV40", ours, opengl}),
     boolean<&Profile::has_independent_blend>(
-        "has_independent_blend", {"[M] 6", "[M] 8: a shared equation; per target from GT215 (DirectX 10.1) on", ours}),
+        "has_independent_blend",
+        {"[M] 6", "[M] 8: a shared equation; per target from GT215 (DirectX 10.1) on", ours, opengl}),
     boolean<&Profile::has_two_sided_stencil>("has_two_sided_stencil", {"[D] 7: EXT_stencil_two_side came with NV30",
-                                                                       "[D] 7: STENCIL_TWO_SIDE_ENABLE", ours}),
-    boolean<&Profile::has_depth_clamp>("has_depth_clamp",
-                                       {"[M] 1: clamped when depth clamp is on", "[D] 1: NV_depth_clamp", ours}),
+                                                                       "[D] 7: STENCIL_TWO_SIDE_ENABLE", ours, opengl}),
+    boolean<&Profile::has_depth_clamp>(
+        "has_depth_clamp", {"[M] 1: clamped when depth clamp is on", "[D] 1: NV_depth_clamp", ours, opengl}),
     boolean<&Profile::has_sequential_depth_units>(
         "has_sequential_depth_units",
-        {"[A] decisions.md 4: an emulator extension", "[A] decisions.md 4: an emulator extension", ours}),
-    boolean<&Profile::has_ordered_rmw>("has_ordered_rmw", {"[A] decisions.md 4", "[A] decisions.md 4", ours}),
-    integer<&Profile::max_render_targets>("max_render_targets", {1, 8},
-                                          {"[D] 8: one colour buffer", "[D] 8: D3D 11.3 17.14", ours}),
-    integer<&Profile::max_texture_units>(
-        "max_texture_units", {1, 32},
-        {"[D] 5: four texture shader stages", "[A] sixteen samplers of Direct3D 10", ours}),
+        {"[A] decisions.md 4: an emulator extension", "[A] decisions.md 4: an emulator extension", ours,
+         "[A] decisions.md 4: an emulator extension"}),
+    boolean<&Profile::has_ordered_rmw>("has_ordered_rmw",
+                                       {"[A] decisions.md 4", "[A] decisions.md 4", ours, "[A] decisions.md 4"}),
+    integer<&Profile::max_render_targets>(
+        "max_render_targets", {1, 8},
+        {"[D] 8: one colour buffer", "[D] 8: D3D 11.3 17.14", ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS"}),
+    integer<&Profile::max_texture_units>("max_texture_units", {1, 32},
+                                         {"[D] 5: four texture shader stages", "[A] sixteen samplers of Direct3D 10",
+                                          ours, "[M] Mesa 22.3: GL_MAX_TEXTURE_IMAGE_UNITS"}),
     integer<&Profile::max_viewport_px>("max_viewport_px", {1, 16384},
-                                       {"[A] 1: never found documented", "[A] 1: the limit of Direct3D 10.0", ours}),
-    integer<&Profile::max_samples>("max_samples", {1, 8},
-                                   {"[A] 4-sample multisampling", "[A] 8-sample multisampling", ours}),
+                                       {"[A] 1: never found documented", "[A] 1: the limit of Direct3D 10.0", ours,
+                                        "[M] Mesa 22.3: GL_MAX_VIEWPORT_DIMS"}),
+    integer<&Profile::max_samples>(
+        "max_samples", {1, 8},
+        {"[A] 4-sample multisampling", "[A] 8-sample multisampling", ours, "[M] Mesa 22.3: GL_MAX_SAMPLES"}),
 };
 
 }  // namespace

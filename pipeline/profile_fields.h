@@ -19,7 +19,7 @@ struct ProfileField {
     int lowest = 0, highest = 1, step = 1;      // integer: lowest, lowest + step, ..., highest
     int (*value)(const DeviceProfile&) = nullptr;
     void (*set)(DeviceProfile&, int) = nullptr;  // the caller has checked the range
-    std::array<std::string_view, 3> source;      // geforce3, geforce8 and geforce8_dx101, ideal
+    std::array<std::string_view, 4> source;      // geforce3, geforce8 and geforce8_dx101, ideal, llvmpipe
 };
 
 [[nodiscard]] std::span<const ProfileField> profile_fields();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <numeric>
 
 #include "pipeline/check.h"
 #include "pipeline/convert.h"
@@ -131,6 +132,27 @@ void Region::store_pixel(Target target, std::uint32_t pixel, const Rgba& color) 
     s.alive[0] = ~0u;
     for (std::size_t c = 0; c < 4; ++c) s.codes[c][0] = codes[c];
     at(target).scatter(index, s.alive, 1, 0, 0xfu, s.codes);
+}
+
+Arena& Region::arena() noexcept { return scratch_->arena; }
+
+void Region::count(const Counters& counters, const PassCount& passes) {
+    record().counters += counters;
+    record().passes += passes;
+    geometry_passes_ += passes.geometry;
+}
+
+// Consecutive pixels, all channels, sample 0.
+void Region::store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes) {
+    Scratch& s = *scratch_;
+    std::iota(s.screen.pixel.begin(), s.screen.pixel.begin() + pixels, first);
+    std::fill_n(s.alive.begin(), pixels, ~0u);
+    at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
+}
+
+void Region::load_pixels(Target target, std::uint32_t first, int pixels, ColorCodes& codes) const {
+    std::iota(scratch_->screen.pixel.begin(), scratch_->screen.pixel.begin() + pixels, first);
+    storage(target).gather(scratch_->screen.pixel, pixels, 0, codes);
 }
 
 Rgba Region::color(Target target, std::uint32_t pixel) const {

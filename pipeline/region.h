@@ -18,6 +18,7 @@
 
 namespace strata::pipeline {
 
+class Arena;
 class FragmentStore;
 
 // One step of what a pixel composited, in the order in which it happened; see Outputs::side.
@@ -117,6 +118,19 @@ class Region {
     // Depth of the nearest visible key: the frame's Z. The emulator's own look, never counted.
     [[nodiscard]] Target nearest_depth();
 
+    // For closed forms (peeling/closed_form.h): a way to the same bits that is not the machine's, in the machine's own books.
+    // The list's fragments in `band`, a rectangle of this region, after MASK; `pixel` counts from the band's first. Not a pass.
+    // `coverage[i]` = how many fragments pixel i of the region gets, before MASK.
+    void count_coverage(std::span<std::uint32_t> coverage);
+    template <FragmentProgram P>
+    void look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
+    [[nodiscard]] Arena& arena() noexcept;  // free again when the region is gone
+    void count(const Counters& counters, const PassCount& passes);  // what a pass would have counted
+    [[nodiscard]] static Count counted(std::uint64_t own) noexcept { return Count{own}; }
+    void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
+    void load_pixels(Target target, std::uint32_t first, int pixels, ColorCodes& codes) const;
+    void trace(const TraceEntry& entry) { trace_.push_back(entry); }
+
     // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
     [[nodiscard]] Rgba color(Target target, std::uint32_t pixel) const;  // of sample 0, as a program would load it
     void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
@@ -150,6 +164,7 @@ class Region {
     void begin_pass(const PassState& state, PassKind kind);
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, rasterizer::BatchSink sink);
+    void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] FragmentStore& store() noexcept;
     void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
@@ -159,6 +174,7 @@ class Region {
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
     void test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
+    std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
     void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);

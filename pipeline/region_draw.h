@@ -34,6 +34,18 @@ Drawn Region::full_screen(const PassState& state, P&& program) {
 }
 
 template <FragmentProgram P>
+void Region::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
+    counts_ = false;
+    auto sink = [&](FragmentBatch& batch) {
+        Outputs& out = start_batch(batch);
+        shade(*frame_.transparent, batch, out);
+        program(static_cast<const FragmentBatch&>(batch), loads(), out);
+    };
+    rasterize_band(needs, band, rasterizer::BatchSink{sink});
+    counts_ = true;
+}
+
+template <FragmentProgram P>
 void Region::trace_pixels(Target read, P&& program) {
     if (!frame_.trace) return;
     kind_ = PassKind::full_screen;

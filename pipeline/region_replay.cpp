@@ -19,6 +19,24 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer
     rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
 }
 
+void Region::count_coverage(std::span<std::uint32_t> coverage) {
+    const rasterizer::Geometry& geometry = frame_.transparent->geometry;
+    auto add = [&](FragmentBatch& batch) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
+    };
+    constexpr FragmentNeeds nothing{false, false, false, false, false, false};
+    rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
+}
+
+void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink) {
+    const PreparedDraw& list = *frame_.transparent;
+    needs.color |= list.needs_color;  // MASK decides which fragments there are
+    needs.texcoord |= list.needs_texcoord && needs.color;
+    samples_textures_ = needs.texcoord;
+    rasterizer::TileRasterizer rows{band};
+    rows.draw(list.geometry, list.geometry.bin(tile_), frame_.key_request(), needs, sink);
+}
+
 void Region::replay(rasterizer::BatchSink sink) {
     for (std::size_t number = 0; number < store().batches(); ++number) {
         store().recall(number, scratch_->recalled, scratch_->recalled_alive);

@@ -3,12 +3,13 @@
 #pragma once
 #include <mutex>
 
+#include "pipeline/arena.h"
 #include "pipeline/fragment_store.h"
 #include "pipeline/region.h"
 
 namespace strata::pipeline {
 
-struct Region::Scratch {
+struct alignas(64) Region::Scratch {
     Loads loads;
     Outputs out;
     FragmentBatch screen;
@@ -17,11 +18,12 @@ struct Region::Scratch {
     ColorLanes texel;
     ColorCodes codes;
     Lanes<std::uint32_t> alive;         // of one sample
-    Lanes<std::uint32_t> depth_stored;
+    Lanes<std::uint32_t> depth_stored;  // of a pixel that is stored alone
     Lanes<std::uint32_t> depth_pass;
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     FragmentStore store;
+    Arena arena;
 };
 
 // Free sets; as many as regions ever ran at once. A set carries no values from one region to the next.
@@ -33,6 +35,7 @@ class Region::ScratchPool {
         std::unique_ptr<Scratch> scratch = std::move(free_.back());
         free_.pop_back();
         scratch->store.forget();
+        scratch->arena.reset();
         return scratch;
     }
     void give(std::unique_ptr<Scratch> scratch) {

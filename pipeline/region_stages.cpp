@@ -17,22 +17,22 @@ namespace strata::pipeline {
 
 namespace {
 
-// Gathers or scatters one value a pixel; T is the stored width.
-template <class T>
-void gather_plane(const T* plane, const FragmentBatch& batch, Lanes<std::uint32_t>& values) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) values[i] = plane[batch.pixel[i]];
-}
-template <class T>
-void scatter_plane(T* plane, const FragmentBatch& batch, const Lanes<std::uint32_t>& values) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
-        plane[batch.pixel[i]] = static_cast<T>(values[i]);
+// The one channel of a depth or stencil plane.
+Texels codes_in(Plane plane) noexcept { return {plane, 1, 32}; }
+
+PixelLanes lanes_of(const FragmentBatch& batch) noexcept {
+    return {batch.pixel.data(), static_cast<std::size_t>(batch.count)};
 }
 
-std::uint64_t count_lanes(const Lanes<std::uint32_t>& mask, int count) {
-    std::uint32_t alive = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) alive += mask[i] & 1u;
-    return alive;
+std::uint64_t count_lanes(const Lanes<std::uint32_t>& mask, int count) noexcept {
+    return pipeline::count_lanes(mask.data(), static_cast<std::size_t>(count));
 }
+
+constexpr auto every_lane = [] {
+    Lanes<std::uint32_t> lanes{};
+    lanes.fill(~0u);
+    return lanes;
+}();
 
 std::uint64_t pixel_bytes(const TargetStorage& s) { return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel); }
 
@@ -111,10 +111,10 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
 void Region::load(const PassState& state, const FragmentBatch& batch) {
     for (std::size_t r = 0; r < state.reads.size(); ++r) {
         if (!state.reads[r].exists()) continue;
-        const TargetStorage& from = at(state.reads[r]);
+        TargetStorage& from = at(state.reads[r]);
         record().counters.bytes_read += pixel_bytes(from) * static_cast<std::uint64_t>(batch.count);
         if (is_depth(from.format())) {
-            gather_plane(from.depth(0), batch, scratch_->loads.depth_[r]);
+            gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &scratch_->loads.depth_[r]);
             continue;
         }
         const FormatInfo format = info(from.format());
@@ -163,17 +163,13 @@ void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const 
 }
 
 void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
-    Scratch& s = *scratch_;
     for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
-        const TargetStorage& target = at(state.depth_units[unit].depth);
-        const std::uint64_t before = count_lanes(alive, batch.count);
-        record().counters.bytes_read += pixel_bytes(target) * before;
-        gather_plane(target.depth(0), batch, s.depth_stored);
+        TargetStorage& target = at(state.depth_units[unit].depth);
         const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
-        depth_test(test, depth_format(target.format()), batch.code.data(), s.depth_stored.data(), s.depth_pass.data(),
-                   batch.count);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) alive[i] &= s.depth_pass[i];
-        record().counters.depth_killed += before - count_lanes(alive, batch.count);
+        const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(0),
+                                              lanes_of(batch), batch.code.data(), alive.data());
+        record().counters.bytes_read += pixel_bytes(target) * result.arriving;
+        record().counters.depth_killed += result.arriving - result.passed;
     }
 }
 
@@ -181,38 +177,45 @@ void Region::test_depth_and_stencil(const PassState& state, const FragmentBatch&
                                     Lanes<std::uint32_t>& alive) {
     Scratch& s = *scratch_;
     Counters& counters = record().counters;
-    const std::uint64_t arriving = count_lanes(alive, batch.count);
-    TargetStorage* depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
-    if (depth != nullptr) {
-        gather_plane(depth->depth(sample), batch, s.depth_stored);
-        depth_test(state.depth, depth_format(depth->format()), batch.code.data(), s.depth_stored.data(), s.depth_pass.data(),
-                   batch.count);
-    } else {
-        std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
-    }
+    TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
+    DepthResult tested;
     std::uint64_t stencil_killed = 0;
-    if (state.stencil.enabled) {
-        TargetStorage& stencil = at(state.stencil_target);
-        gather_plane(stencil.stencil(sample), batch, s.stencil_stored);
-        stencil_killed = static_cast<std::uint64_t>(stencil_test(
-            state.stencil, {batch.front_facing.data(), s.depth_pass.data(), alive.data(), s.stencil_stored.data(),
-                            s.saturated.data(), batch.count}));
-        scatter_plane(stencil.stencil(sample), batch, s.stencil_stored);
-        counters.bytes_read += arriving;
-        counters.bytes_written += arriving;
-        report_saturation(batch);
+    if (!state.stencil.enabled) {
+        tested = test_depth(state.depth, depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
+                            batch.code.data(), alive.data());
     } else {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) alive[i] &= s.depth_pass[i];
+        // The depth's answer for every fragment first; it is written when the stencil has had its say.
+        tested.arriving = count_lanes(alive, batch.count);
+        std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
+        if (depth != nullptr)
+            static_cast<void>(test_depth({.enabled = true, .func = state.depth.func, .write = false},
+                                         depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
+                                         batch.code.data(), s.depth_pass.data()));
+        stencil_killed = test_stencil(state, batch, sample, alive);
+        tested.passed = count_lanes(alive, batch.count);
+        if (depth != nullptr && state.depth.write)
+            scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
-    const std::uint64_t passed = count_lanes(alive, batch.count);
     counters.stencil_killed += stencil_killed;
-    counters.depth_killed += arriving - stencil_killed - passed;
+    counters.depth_killed += tested.arriving - stencil_killed - tested.passed;
     if (depth == nullptr) return;
-    counters.bytes_read += pixel_bytes(*depth) * (arriving - stencil_killed);
-    if (!state.depth.write) return;
-    write_depth(batch.code.data(), alive.data(), s.depth_stored.data(), batch.count);
-    scatter_plane(depth->depth(sample), batch, s.depth_stored);
-    counters.bytes_written += pixel_bytes(*depth) * passed;
+    counters.bytes_read += pixel_bytes(*depth) * (tested.arriving - stencil_killed);
+    if (state.depth.write) counters.bytes_written += pixel_bytes(*depth) * tested.passed;
+}
+
+std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                   Lanes<std::uint32_t>& alive) {
+    Scratch& s = *scratch_;
+    const Texels stencil = codes_in(at(state.stencil_target).stencil_plane(sample));
+    const std::uint64_t arriving = count_lanes(alive, batch.count);
+    gather_codes(stencil, lanes_of(batch), &s.stencil_stored);
+    const int killed = stencil_test(state.stencil, {batch.front_facing.data(), s.depth_pass.data(), alive.data(),
+                                                    s.stencil_stored.data(), s.saturated.data(), batch.count});
+    scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
+    record().counters.bytes_read += arriving;
+    record().counters.bytes_written += arriving;
+    report_saturation(batch);
+    return static_cast<std::uint64_t>(killed);
 }
 
 void Region::report_saturation(const FragmentBatch& batch) {

@@ -8,6 +8,7 @@
 
 #include "pipeline/format.h"
 #include "pipeline/image.h"
+#include "pipeline/lane_words.h"
 #include "rasterizer/fragment_batch.h"
 
 namespace strata::pipeline {
@@ -32,8 +33,9 @@ struct ClearValue {
 using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;  // per channel: u8 codes, half bits or binary32 bits, zero-extended
 using ColorLanes = std::array<Lanes<float>, 4>;
 
-// One sample plane after another, each row-major; a colour pixel's channels lie together. Only the vectors that the format
-// needs are filled.
+// Planes of 32-bit words, row-major: so that any pixels of a batch are fetched and put back by vector, whatever the
+// format. A colour pixel has one word of rgba8, two of rgba16f (r g, b a) and rg32f, four of rgba32f, one of r16f and
+// r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes.
 class TargetStorage {
   public:
     TargetStorage(Format format, int samples, std::size_t pixels);
@@ -42,15 +44,18 @@ class TargetStorage {
     [[nodiscard]] int samples() const noexcept { return samples_; }
     [[nodiscard]] std::size_t pixels() const noexcept { return pixels_; }
 
-    // Lanes i < count of the listed pixels; scatter touches lanes with alive[i] != 0 and channels in `mask` only.
+    // Lanes i < count of the listed pixels, and scratch beyond; scatter touches lanes with alive[i] != 0 and channels in
+    // `mask` only.
     void gather(const Lanes<std::uint32_t>& pixel, int count, int sample, ColorCodes& codes) const;
     void scatter(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
                  unsigned mask, const ColorCodes& codes);
 
-    [[nodiscard]] std::uint32_t* depth(int sample) noexcept { return words_.data() + plane(sample); }
-    [[nodiscard]] const std::uint32_t* depth(int sample) const noexcept { return words_.data() + plane(sample); }
-    [[nodiscard]] std::uint8_t* stencil(int sample) noexcept { return bytes_.data() + plane(sample); }
-    [[nodiscard]] const std::uint8_t* stencil(int sample) const noexcept { return bytes_.data() + plane(sample); }
+    [[nodiscard]] Plane depth_plane(int sample) noexcept { return texels(sample).plane(0); }
+    [[nodiscard]] Plane stencil_plane(int sample) noexcept { return texels(sample).plane(stencil_word()); }
+    [[nodiscard]] const std::uint32_t* depth(int sample) const noexcept { return texels(sample).plane(0).words; }
+    [[nodiscard]] const std::uint32_t* stencil(int sample) const noexcept {
+        return texels(sample).plane(stencil_word()).words;
+    }
 
     // The code of one channel of one sample, as Image holds it. A d24s8 target answers with its depth.
     [[nodiscard]] std::uint32_t code(std::size_t pixel, int channel, int sample) const;
@@ -58,14 +63,22 @@ class TargetStorage {
     void fill_stencil(std::uint8_t value, unsigned sample_mask);
 
   private:
-    [[nodiscard]] std::size_t plane(int sample) const noexcept { return static_cast<std::size_t>(sample) * pixels_; }
+    [[nodiscard]] std::size_t stencil_word() const noexcept { return format_ == Format::d24s8 ? 1 : 0; }
+    [[nodiscard]] std::size_t words_per_sample() const noexcept {
+        return (layout_.words() + stencil_word()) * (pixels_ + spare_words);
+    }
+    [[nodiscard]] Texels texels(int sample) const noexcept {
+        Texels result = layout_;
+        result.first = {const_cast<std::uint32_t*>(words_.data()) + static_cast<std::size_t>(sample) * words_per_sample(), pixels_};
+        return result;
+    }
+    void fill_word(std::uint32_t value, std::size_t word, unsigned sample_mask);
 
     Format format_;
     int samples_;
     std::size_t pixels_;
-    std::vector<std::uint8_t> bytes_;   // unorm8 colours; stencil
-    std::vector<std::uint16_t> halves_;
-    std::vector<std::uint32_t> words_;  // binary32 colours; depth codes
+    Texels layout_;  // without a place
+    std::vector<std::uint32_t> words_;
 };
 
 }  // namespace strata::pipeline

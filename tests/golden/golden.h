@@ -5,15 +5,18 @@
 #include <string>
 
 #include "peeling/render.h"
+#include "rasterizer/simd.h"
 
 namespace strata::golden {
 
-// What must not change a bit. Given as words: threads=N tile=N execution=literal|tiled effects=needed|all check=FILE
+// What must not change a bit. Given as words: threads=N tile=N execution=literal|tiled effects=needed|all
+// simd=scalar|sse4|avx2|avx512 check=FILE. An instruction set that this processor lacks is replaced by the best it has.
 struct Settings {
     int threads = 1;
     int tile_size = 32;
     pipeline::Execution execution = pipeline::Execution::tiled;
     pipeline::Effects effects = pipeline::Effects::needed;
+    Simd simd = Simd::best;
     std::string check;  // the file to compare with; empty: print
 };
 

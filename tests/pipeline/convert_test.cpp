@@ -10,9 +10,9 @@
 using namespace strata::pipeline;
 using strata::rasterizer::Lanes;
 
-// The loops of convert.cpp become vector code; the scalar rules are proved elsewhere, and here each lane of each
+// The loops of convert.h become vector code; the scalar rules are proved elsewhere, and here each lane of each
 // length.
-TEST_CASE("a batch converts like its fragments one by one, whatever its length, and leaves the lanes beyond alone") {
+TEST_CASE("a batch converts like its fragments one by one, whatever its length, and leaves the vectors beyond alone") {
     Random random{20};
     Tally tally;
     for (int count = 0; count <= strata::rasterizer::batch_capacity; ++count) {
@@ -25,6 +25,7 @@ TEST_CASE("a batch converts like its fragments one by one, whatever its length, 
         encode(ChannelType::half, HalfRounding::toward_zero, values, zero, count);
         encode(ChannelType::single, HalfRounding::nearest_even, values, words, count);
         for (int lane = 0; lane < strata::rasterizer::batch_capacity; ++lane) {
+            if (lane >= count && lane < (count + 15) / 16 * 16) continue;  // scratch
             const auto i = static_cast<std::size_t>(lane);
             const std::uint32_t bits = bits_of(values[i]);
             const bool holds =

@@ -8,10 +8,10 @@
 using namespace strata::pipeline;
 using namespace strata::rasterizer;
 
-TEST_CASE("the built-in profiles are geforce3, geforce8, geforce8_dx101 and ideal") {
+TEST_CASE("the built-in profiles are geforce3, geforce8, geforce8_dx101, ideal and llvmpipe") {
     std::vector<std::string> names;
     for (const DeviceProfile& profile : builtin_profiles()) names.push_back(profile.name);
-    CHECK(names == std::vector<std::string>{"geforce3", "geforce8", "geforce8_dx101", "ideal"});
+    CHECK(names == std::vector<std::string>{"geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe"});
     CHECK(find_profile("geforce4") == nullptr);
 }
 
@@ -56,6 +56,20 @@ TEST_CASE("ideal computes depth exactly, keeps denormals and holds every frame t
     CHECK(p.denormals == DenormalRule::keep);
     CHECK((p.has_d16 && p.has_d24 && p.has_d32f && p.has_ordered_rmw));
     CHECK(p.max_viewport_px == 16384);
+}
+
+// The fragments themselves are compared with Mesa's by tools/bench/side_by_side.py.
+TEST_CASE("llvmpipe snaps 8 subpixel bits of x * (1 / w), and a bottom or left edge owns its ties") {
+    const DeviceProfile& p = *find_profile("llvmpipe");
+    CHECK(p.raster.subpixel_bits == 8);
+    CHECK(p.raster.snap == Snap::nearest_even);
+    CHECK(p.raster.w_divide == WDivide::reciprocal);
+    CHECK(p.raster.viewport == ViewportArithmetic::separate);
+    CHECK(p.raster.tie_rule == TieRule::bottom_left);
+    CHECK(p.raster.plane_origin == PlaneOrigin::unsnapped);
+    CHECK(p.raster.depth_path == DepthPath::float32);
+    CHECK((p.has_d32f && p.has_float_targets && p.has_independent_blend && !p.has_ordered_rmw));
+    for (const ProfileEntry& e : describe(p)) CHECK(e.source.starts_with("["));
 }
 
 TEST_CASE("each field of a profile has one row, a source on every device, and reads back what was set") {

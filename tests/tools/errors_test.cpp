@@ -39,7 +39,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --algorithm: expected names of algorithms (strata algorithms lists them) or all, found 'duel' (did "
          "you mean 'dual'?)"},
         {{"render", "teapot", "--profile", "geforce4"},
-         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, or a JSON file, found "
+         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
          "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, found 'teapt' "
@@ -83,7 +83,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"digest", "none.exr"}, "strata: none.exr: ..."},
         {{"layers", "teapot"}, "strata: ..."},
         {{"profiles", "ideel"},
-         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, or a JSON file, found 'ideel' "
+         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, found "
+         "'ideel' "
          "(did you mean 'ideal'?)"},
     }));
     const Folder folder;

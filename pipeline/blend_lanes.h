@@ -1,15 +1,16 @@
-#include "pipeline/blend.h"
-
+// pipeline/blend_lanes.h - the loops of blend.h, compiled once an instruction set. Included by blend_simd.cpp alone.
+#pragma once
 #include <bit>
 
+#include "pipeline/blend.h"
 #include "pipeline/blend_float.h"
 #include "pipeline/blend_kernels.h"
 #include "pipeline/blend_unorm8.h"
 #include "pipeline/convert.h"
-#include "pipeline/unorm8.h"
 
 namespace strata::pipeline {
-namespace {
+inline namespace strict {
+namespace scalar {
 
 using rasterizer::Lanes;
 using ColorLanes = std::array<Lanes<float>, 4>;
@@ -28,6 +29,24 @@ struct Job {
     }
 };
 
+// How halves become binary32 and are rounded to nearest even. A kernel may bring the machine's own instructions, even if
+// they make a signalling NaN quiet: no NaN leaves a blend but the canonical one.
+struct PlainHalves {
+    static void decode(const std::uint32_t* codes, float* values, std::size_t count) noexcept {
+        scalar::decode(ChannelType::half, codes, values, count);
+    }
+    static void encode_nearest(const float* values, std::uint32_t* codes, std::size_t count) noexcept {
+        encode_half<HalfRounding::nearest_even>(values, codes, count);
+    }
+};
+
+template <class Halves>
+void store(ChannelType type, HalfRounding rounding, const float* values, std::uint32_t* codes, std::size_t count) noexcept {
+    if (type == ChannelType::half && rounding == HalfRounding::nearest_even)
+        return Halves::encode_nearest(values, codes, count);
+    encode(type, rounding, values, codes, count);
+}
+
 template <class T>
 void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto convert) noexcept {
     for (std::size_t i = 0; i < count; ++i) operand[i] = convert(source[i]);
@@ -37,7 +56,7 @@ void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto
 template <class Arithmetic>
 void blend_channels(const Job& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
                     auto store) noexcept {
-    Lanes<float> out;
+    alignas(64) Lanes<float> out;
     for (int channel = 0; channel < 4; ++channel) {
         if (!job.writes(channel)) continue;
         const auto c = static_cast<std::size_t>(channel);
@@ -50,7 +69,7 @@ void blend_channels(const Job& job, const std::array<float, 4>& constant, const 
 
 template <BlendRounding rounding>
 void blend_unorm8(const Job& job) noexcept {
-    ColorLanes s, d;
+    alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
     for (int channel = 0; channel < 4; ++channel) {
         const auto c = static_cast<std::size_t>(channel);
@@ -68,11 +87,10 @@ void blend_unorm8(const Job& job) noexcept {
     });
 }
 
-template <DenormalRule denormals, MinMaxNan nan_rule>
+template <class Halves, DenormalRule denormals, MinMaxNan nan_rule>
 void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexcept {
     const auto flush = [](float x) { return flushed<denormals>(x); };
-    const int count = static_cast<int>(job.count);
-    ColorLanes s, d;
+    alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
     for (int channel = 0; channel < 4; ++channel) {
         const auto c = static_cast<std::size_t>(channel);
@@ -82,35 +100,36 @@ void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexce
         if (type == ChannelType::single) {
             load(job.codes[c], d[c], job.count, [&](std::uint32_t code) { return flush(std::bit_cast<float>(code)); });
         } else {
-            decode(type, job.codes[c], d[c], count);  // widened halves are never denormal
+            Halves::decode(job.codes[c].data(), d[c].data(), job.count);  // widened halves are never denormal
         }
     }
     if (job.channels < 4) d[3].fill(1.0f);
     blend_channels<FloatArithmetic<denormals, nan_rule>>(
         job, constant, s, d,
-        [&](std::size_t c, const Lanes<float>& out) { encode(type, rounding, out, job.codes[c], count); });
+        [&](std::size_t c, const Lanes<float>& out) { store<Halves>(type, rounding, out.data(), job.codes[c].data(), job.count); });
 }
 
+template <class Halves>
 void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile) noexcept {
     using enum DenormalRule;
     using enum MinMaxNan;
     const bool flushes = profile.denormals == flush, propagates = profile.min_max_nan == propagate;
-    if (flushes && !propagates) return blend_float<flush, other_operand>(job, type, profile.half_rounding);
-    if (flushes) return blend_float<flush, propagate>(job, type, profile.half_rounding);
-    if (!propagates) return blend_float<keep, other_operand>(job, type, profile.half_rounding);
-    return blend_float<keep, propagate>(job, type, profile.half_rounding);
+    if (flushes && !propagates) return blend_float<Halves, flush, other_operand>(job, type, profile.half_rounding);
+    if (flushes) return blend_float<Halves, flush, propagate>(job, type, profile.half_rounding);
+    if (!propagates) return blend_float<Halves, keep, other_operand>(job, type, profile.half_rounding);
+    return blend_float<Halves, keep, propagate>(job, type, profile.half_rounding);
 }
 
-}  // namespace
-
+template <class Halves = PlainHalves>
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
-           ColorCodes& codes, int count) noexcept {
-    const Job job{state, channels, src, codes, static_cast<std::size_t>(count)};
+           ColorCodes& codes, std::size_t count) noexcept {
+    const Job job{state, channels, src, codes, count};
     if (!state.enabled) {
         for (std::size_t c = 0; c < 4; ++c)
-            if (job.writes(static_cast<int>(c))) encode(type, profile.half_rounding, src[c], codes[c], count);
+            if (job.writes(static_cast<int>(c)))
+                store<Halves>(type, profile.half_rounding, src[c].data(), codes[c].data(), count);
     } else if (type != ChannelType::unorm8) {
-        blend_float(job, type, profile);
+        blend_float<Halves>(job, type, profile);
     } else if (profile.blend_rounding == BlendRounding::nearest) {
         blend_unorm8<BlendRounding::nearest>(job);
     } else {
@@ -118,4 +137,6 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
     }
 }
 
+}  // namespace scalar
+}  // namespace strict
 }  // namespace strata::pipeline

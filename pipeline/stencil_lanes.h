@@ -1,13 +1,13 @@
-#include "pipeline/stencil.h"
-
+// pipeline/stencil_lanes.h - the loops of stencil.h, compiled once an instruction set. Included by stages_simd.cpp alone.
+#pragma once
 #include <algorithm>
 #include <type_traits>
 
 #include "pipeline/compare.h"
+#include "pipeline/stencil.h"
 #include "rasterizer/fragment_batch.h"
 
-namespace strata::pipeline {
-namespace {
+namespace strata::pipeline::strict::scalar {
 
 using Mask = rasterizer::Lanes<std::uint32_t>;
 
@@ -27,7 +27,7 @@ void with_op(StencilOp op, Body&& body) {
 }
 
 // Applies `op` to the lanes in `chosen`; every lane is chosen for one of the three outcomes at most.
-void update(const StencilFace& face, StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
+inline void update(const StencilFace& face, StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
     const std::uint32_t ref = face.ref, write_mask = face.write_mask;
     const auto count = static_cast<std::size_t>(lanes.count);
     std::uint32_t* const stored = lanes.stored;
@@ -37,20 +37,20 @@ void update(const StencilFace& face, StencilOp op, const Mask& chosen, const Ste
     });
 }
 
-void mark_saturated(StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
+inline void mark_saturated(StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
     if (lanes.saturated == nullptr || (op != StencilOp::incr && op != StencilOp::decr)) return;
     const std::uint32_t limit = op == StencilOp::incr ? 255 : 0;
     const auto count = static_cast<std::size_t>(lanes.count);
     for (std::size_t i = 0; i < count; ++i) lanes.saturated[i] |= chosen[i] & mask(lanes.stored[i] == limit);
 }
 
-void finish(const StencilFace& face, StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
+inline void finish(const StencilFace& face, StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
     mark_saturated(op, chosen, lanes);
     update(face, op, chosen, lanes);
 }
 
 // One face's test for the lanes in `subject`; `survivors` gathers who passes stencil and depth. Answers how many fail.
-int test_face(const StencilFace& face, const Mask& subject, const StencilLanes& lanes, Mask& survivors) noexcept {
+inline int test_face(const StencilFace& face, const Mask& subject, const StencilLanes& lanes, Mask& survivors) noexcept {
     const auto count = static_cast<std::size_t>(lanes.count);
     const std::uint32_t* const depth_pass = lanes.depth_pass;
     Mask passed, fail, depth_fail, pass;
@@ -73,9 +73,7 @@ int test_face(const StencilFace& face, const Mask& subject, const StencilLanes& 
     return static_cast<int>(failed);
 }
 
-}  // namespace
-
-int stencil_test(const StencilTest& state, const StencilLanes& lanes) noexcept {
+inline int stencil_test(const StencilTest& state, const StencilLanes& lanes) noexcept {
     const auto count = static_cast<std::size_t>(lanes.count);
     if (lanes.saturated != nullptr) std::fill_n(lanes.saturated, count, 0u);
     if (!state.enabled) {
@@ -97,4 +95,4 @@ int stencil_test(const StencilTest& state, const StencilLanes& lanes) noexcept {
     return failed;
 }
 
-}  // namespace strata::pipeline
+}  // namespace strata::pipeline::strict::scalar

@@ -1,0 +1,191 @@
+// peeling/front_to_back_closed.cpp - front-to-back peeling as a closed form: pass i composites the i-th depth of every pixel.
+//
+// Ties       the first arrival of a depth is its layer; the others are never seen.
+// Counters   pass i discards what lies at or before depth i - 1 (behind a pixel's last layer: at or before the opaque surface), and
+//            the depth test passes whatever is nearer than all that came before it and still counts. Fragment f does so in
+//            the passes whose threshold lies in [depth of m, depth of f), where m is the farthest of the earlier arrivals that
+//            are not behind f: from no depth at all (pass 1) if there is none.
+#include <algorithm>
+
+#include "peeling/closed_form.h"
+#include "pipeline/arena.h"
+#include "pipeline/blend.h"
+#include "pipeline/convert.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// What the passes count, summed over pixels. Index i is pass i, from 1.
+struct PassTallies {
+    std::vector<std::uint64_t> first_passed, no_longer_passed;  // fragments that begin, and cease, to pass the depth test there
+    std::vector<std::uint64_t> discarded;                       // by pixels that have a layer i - 1
+    std::vector<std::uint64_t> exhausted;                       // discarded from there on by pixels that have none
+};
+
+class ColumnTallies {
+  public:
+    explicit ColumnTallies(PassTallies& tallies) : tallies_{tallies} {}
+
+    void add(const Columns& columns, std::size_t pixel) {
+        const std::uint32_t n = columns.visible[pixel];
+        rank_.resize(n);
+        std::uint32_t depths = 0;
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const bool is_new = k == 0 || columns.key[columns.slot(pixel, k)] != columns.key[columns.slot(pixel, k - 1)];
+            if (is_new && k > 0) tally(tallies_.discarded, depths + 1, k);  // at or before depth `depths`
+            depths += is_new ? 1 : 0;
+            rank_[k] = depths;
+        }
+        if (n > 0) tally(tallies_.discarded, depths + 1, n);
+        tally(tallies_.exhausted, depths + 2, n + columns.at_surface[pixel]);
+        add_passed(columns, pixel, n);
+    }
+
+  private:
+    // Takes the arrivals out of the sorted column, last one first: what then stands before an arrival came before it.
+    void add_passed(const Columns& columns, std::size_t pixel, std::uint32_t n) {
+        before_.resize(n);
+        after_.resize(n);
+        place_.resize(n);
+        for (std::uint32_t k = 0; k < n; ++k) {
+            before_[k] = k;  // one more than the place before; 0: none
+            after_[k] = k + 1;
+            place_[columns.order[columns.slot(pixel, k)]] = k;
+        }
+        for (std::uint32_t arrival = n; arrival-- > 0;) {
+            const std::uint32_t k = place_[arrival], before = before_[k], after = after_[k];
+            if (before > 0) after_[before - 1] = after;
+            if (after < n) before_[after] = before;
+            const std::uint32_t threshold = before > 0 ? rank_[before - 1] : 0;
+            if (threshold == rank_[k]) continue;
+            tally(tallies_.first_passed, threshold + 1);
+            tally(tallies_.no_longer_passed, rank_[k] + 1);
+        }
+    }
+
+    PassTallies& tallies_;
+    std::vector<std::uint32_t> rank_, before_, after_, place_;
+};
+
+// Composites the layers of up to 256 neighbouring pixels as `peel` and `composite` do: stored, loaded, blended UNDER.
+class GroupComposite {
+  public:
+    GroupComposite(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region)
+        : region_{region}, columns_{columns}, group_{group}, first_{first_in_region}, n_{static_cast<std::size_t>(group.count)} {
+        std::fill_n(next_.begin(), n_, 0u);
+    }
+
+    // The last layer is an empty one, as in the last pass.
+    void run(ColorCodes& accumulated) {
+        const Format format = region_.frame().color_format;
+        for (bool any = true; any;) {
+            any = take_layer();
+            for (std::size_t c = 0; c < 4; ++c) {
+                encode(info(format).type, region_.profile().half_rounding, layer_[c], codes_, group_.count);
+                decode(info(format).type, codes_, layer_[c], group_.count);
+            }
+            blend(blend_mode::under, info(format).type, region_.profile(), 4, layer_, accumulated, group_.count);
+        }
+    }
+
+  private:
+    [[nodiscard]] bool take_layer() {
+        bool any = false;
+        for (std::size_t i = 0; i < n_; ++i) {
+            const std::size_t pixel = group_.first + i;
+            const std::uint32_t k = next_[i], end = columns_.visible[pixel];
+            const bool has = k < end;
+            const std::size_t slot = has ? columns_.sorted(pixel, k) : 0;
+            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? columns_.color[c][slot] : 0.0f;
+            if (!has) continue;
+            any = true;
+            const std::uint32_t key = columns_.key[columns_.slot(pixel, k)];
+            if (region_.frame().trace) region_.trace({static_cast<std::uint32_t>(first_ + i), key, 0, Side::front, false});
+            while (next_[i] < end && columns_.key[columns_.slot(pixel, next_[i])] == key) ++next_[i];
+        }
+        premultiply(color_, layer_, n_);
+        return any;
+    }
+
+    Region& region_;
+    const Columns& columns_;
+    PixelGroup group_;
+    std::size_t first_, n_;
+    Lanes<std::uint32_t> next_, codes_;
+    ColorLanes color_, layer_;
+};
+
+// Everything that one iteration counts; called with 1, 2, 3 ...
+class PassCounters {
+  public:
+    PassCounters(const Region& region, const RegionFragments& fragments, const PassTallies& tallies)
+        : tallies_{tallies}, fragments_{fragments}, area_{region.rect().area()},
+          color_{bytes_per_pixel(region.frame().color_format)},
+          depth_{bytes_per_pixel(target_format(region.frame().key_request().format))} {}
+
+    [[nodiscard]] Counters of(std::size_t pass) {
+        passed_ += at(tallies_.first_passed, pass) - at(tallies_.no_longer_passed, pass);
+        exhausted_ += at(tallies_.exhausted, pass);
+        const std::uint64_t discarded = at(tallies_.discarded, pass) + exhausted_;
+        const std::uint64_t arriving = fragments_.rasterized - fragments_.masked - discarded;
+        const std::uint64_t loads = pass > 1 ? depth_ * fragments_.rasterized : 0;
+        const std::uint64_t clear_and_copy = (color_ + depth_) * area_, quad = (2 * color_ + 2 * depth_) * area_;
+        return {.fragments_rasterized = fragments_.rasterized, .discarded = discarded, .alpha_killed = fragments_.masked,
+                .depth_killed = arriving - passed_, .blended = passed_,
+                .bytes_read = loads + depth_ * arriving + depth_ * area_ + quad,
+                .bytes_written = (color_ + depth_) * passed_ + clear_and_copy + color_ * area_};
+    }
+    [[nodiscard]] std::uint64_t passed() const noexcept { return passed_; }  // in the latest pass
+
+  private:
+    [[nodiscard]] static std::uint64_t bytes_per_pixel(Format format) {
+        return static_cast<std::uint64_t>(info(format).bytes_per_pixel);
+    }
+    [[nodiscard]] static std::uint64_t at(const std::vector<std::uint64_t>& tally, std::size_t i) {
+        return i < tally.size() ? tally[i] : 0;
+    }
+
+    const PassTallies& tallies_;
+    RegionFragments fragments_;
+    std::uint64_t area_, color_, depth_;
+    std::uint64_t passed_ = 0, exhausted_ = 0;
+};
+
+}  // namespace
+
+bool front_to_back_closed(Region& region) {
+    if (!peels_to_the_end(region.frame())) return false;
+    PassTallies tallies;
+    ColumnTallies pixel_tallies{tallies};
+    Target accumulated;
+    const auto fragments = for_each_band(region, [&](const Columns& columns) {
+        if (!accumulated.exists()) {
+            accumulated = region.make_color();
+            region.clear(accumulated, {.color = {0, 0, 0, 1}});
+        }
+        for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) pixel_tallies.add(columns, pixel);
+        const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
+                                  static_cast<std::size_t>(region.rect().width());
+        for_each_group(columns, [&](const PixelGroup& group) {
+            const auto first = static_cast<std::uint32_t>(above + group.first);
+            ColorCodes codes;
+            region.load_pixels(accumulated, first, group.count, codes);
+            GroupComposite{region, columns, group, first}.run(codes);
+            region.store_pixels(accumulated, first, group.count, codes);
+        });
+    });
+    if (!fragments) return false;
+    PassCounters counters{region, *fragments, tallies};
+    for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
+        region.begin_iteration();
+        region.count(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
+        if (!region.any(Region::counted(counters.passed()), Idle::when_zero)) break;
+    }
+    publish_over_background(region, accumulated, region.opaque_color());
+    return true;
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,180 @@
+// tools/bench/mesa/dual.cpp - the nearest and the farthest layer a pass, under one MAX equation, to the last layer.
+// Bavoil and Myers 2008; algorithms.md 5. Passes: 1 + max(1, ceil(N/2)), its end by a query of the pixels whose min-max
+// depth is not empty. The background is black, so OVER starts from a clear.
+#include <array>
+#include <memory>
+
+#include "tools/bench/mesa/job.h"
+
+namespace strata::mesa {
+
+namespace {
+
+constexpr std::array<float, 4> zero{}, empty_min_max{-1, -1, 0, 0};
+
+constexpr auto min_max_text = R"(
+layout(location = 0) out vec2 min_max;
+void main() { min_max = vec2(-gl_FragCoord.z, gl_FragCoord.z); }
+)";
+
+// Nothing is discarded: the front colour survives MAX by passing through (E13).
+constexpr auto dual_text = R"(
+layout(binding = 0) uniform sampler2D last_min_max;
+layout(binding = 1) uniform sampler2D last_front;
+layout(location = 0) out vec2 min_max;
+layout(location = 1) out vec4 front;
+layout(location = 2) out vec4 back;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float z = gl_FragCoord.z;
+    vec2 range = texelFetch(last_min_max, pixel, 0).rg;
+    float near = -range.x, far = range.y;
+    min_max = vec2(-1.0);
+    front = texelFetch(last_front, pixel, 0);
+    back = vec4(0.0);
+    if (z < near || z > far) return;
+    if (z > near && z < far) {
+        min_max = vec2(-z, z);
+        return;
+    }
+    vec4 color = shade();
+    if (z == near) {
+        float transmitted = 1.0 - front.a;
+        front.rgb += transmitted * (color.a * color.rgb);
+        front.a = 1.0 - transmitted * (1.0 - color.a);
+    } else {
+        back = color;
+    }
+}
+)";
+
+constexpr auto blend_back_text = R"(
+layout(binding = 0) uniform sampler2D back;
+layout(location = 0) out vec4 color;
+void main() {
+    color = texelFetch(back, ivec2(gl_FragCoord.xy), 0);
+    if (color.a == 0.0) discard;
+}
+)";
+
+constexpr auto what_is_left_text = R"(
+layout(binding = 0) uniform sampler2D min_max;
+layout(location = 0) out vec4 color;
+void main() {
+    if (texelFetch(min_max, ivec2(gl_FragCoord.xy), 0).rg == vec2(-1.0)) discard;
+    color = vec4(0.0);
+}
+)";
+
+constexpr auto front_over_back_text = R"(
+layout(binding = 0) uniform sampler2D front;
+layout(binding = 1) uniform sampler2D back;
+layout(location = 0) out vec4 result;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 near = texelFetch(front, pixel, 0);
+    result = vec4(near.rgb + (1.0 - near.a) * texelFetch(back, pixel, 0).rgb, 1.0);
+}
+)";
+
+struct DualTargets {
+    std::array<Handle, 2> min_max, front, initialize, peel;
+    Handle back_dump, back, result, blend, finish, query;
+    Handle min_max_program, peel_program, blend_program, left_program, finish_program;
+
+    DualTargets(const GpuScene& scene, Size size)
+        : min_max{make_texture(GL_RG32F, size), make_texture(GL_RG32F, size)},
+          front{make_texture(GL_RGBA8, size), make_texture(GL_RGBA8, size)},
+          back_dump{make_texture(GL_RGBA8, size)},
+          back{make_texture(GL_RGBA8, size)},
+          result{make_texture(GL_RGBA8, size)},
+          blend{make_framebuffer({back.name()})},
+          finish{make_framebuffer({result.name()})},
+          query{make_query()},
+          min_max_program{scene.make_program(min_max_text)},
+          peel_program{scene.make_program(dual_text)},
+          blend_program{make_full_screen_program(blend_back_text)},
+          left_program{make_full_screen_program(what_is_left_text)},
+          finish_program{make_full_screen_program(front_over_back_text)} {
+        for (std::size_t i = 0; i < 2; ++i) {
+            initialize[i] = make_framebuffer({min_max[i].name()});
+            peel[i] = make_framebuffer({min_max[i].name(), front[i].name(), back_dump.name()});
+        }
+    }
+};
+
+void use_max() {
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_MAX);
+}
+
+void initialize(const GpuScene& scene, const DualTargets& t) {
+    glBindFramebuffer(GL_FRAMEBUFFER, t.peel[0].name());
+    glClearBufferfv(GL_COLOR, 1, zero.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
+    glClearBufferfv(GL_COLOR, 0, zero.data());
+    glBindFramebuffer(GL_FRAMEBUFFER, t.initialize[0].name());
+    glClearBufferfv(GL_COLOR, 0, empty_min_max.data());
+    use_max();
+    glUseProgram(t.min_max_program.name());
+    scene.draw();
+}
+
+void peel_both_ends(const GpuScene& scene, const DualTargets& t, std::size_t last) {
+    glBindFramebuffer(GL_FRAMEBUFFER, t.peel[1 - last].name());
+    glClearBufferfv(GL_COLOR, 0, empty_min_max.data());
+    glClearBufferfv(GL_COLOR, 1, zero.data());
+    glClearBufferfv(GL_COLOR, 2, zero.data());
+    use_max();
+    glBindTextureUnit(0, t.min_max[last].name());
+    glBindTextureUnit(1, t.front[last].name());
+    glUseProgram(t.peel_program.name());
+    scene.draw();
+}
+
+// OVER of the far layers; then the number of pixels that `min_max` leaves something to peel.
+std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
+    glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    glBindTextureUnit(0, t.back_dump.name());
+    draw_full_screen(t.blend_program);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glBindTextureUnit(0, t.min_max[min_max].name());
+    glBeginQuery(GL_SAMPLES_PASSED, t.query.name());
+    draw_full_screen(t.left_program);
+    glEndQuery(GL_SAMPLES_PASSED);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    return samples_passed(t.query);
+}
+
+int dual(const GpuScene& scene, const DualTargets& t, int max_passes) {
+    initialize(scene, t);
+    int passes = 1;
+    std::size_t last = 0;
+    for (bool left = true; left && passes < max_passes; ++passes) {
+        peel_both_ends(scene, t, last);
+        last = 1 - last;
+        left = blend_back(t, last) > 0;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, t.finish.name());
+    glDisable(GL_BLEND);
+    glBindTextureUnit(0, t.front[last].name());
+    glBindTextureUnit(1, t.back.name());
+    draw_full_screen(t.finish_program);
+    return passes;
+}
+
+}  // namespace
+
+Job dual_job(const GpuScene& scene, Size size) {
+    const auto t = std::make_shared<DualTargets>(scene, size);
+    return {"dual", pipeline::Format::rgba8, [&scene, size, t](std::vector<std::uint32_t>& pixels, int max_passes) {
+                const int passes = dual(scene, *t, max_passes);
+                read_rgba8(t->finish, size, pixels);
+                return passes;
+            }};
+}
+
+}  // namespace strata::mesa

@@ -1,0 +1,115 @@
+// tools/bench/mesa/front_to_back.cpp - one layer a pass, nearest first, to the last layer.
+// Everitt 2001, Bavoil and Myers 2008; algorithms.md 4. Passes: N + 1, its end by an occlusion query of the peel.
+#include <array>
+#include <memory>
+
+#include "tools/bench/mesa/job.h"
+
+namespace strata::mesa {
+
+namespace {
+
+constexpr std::array<float, 4> zero{}, transparent{0, 0, 0, 1};
+
+constexpr auto peel_first_text = R"(
+layout(location = 0) out vec4 layer;
+void main() {
+    vec4 color = shade();
+    layer = vec4(color.rgb * color.a, color.a);
+}
+)";
+
+constexpr auto peel_next_text = R"(
+layout(binding = 0) uniform sampler2D peeled;
+layout(location = 0) out vec4 layer;
+void main() {
+    if (gl_FragCoord.z <= texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).r) discard;
+    vec4 color = shade();
+    layer = vec4(color.rgb * color.a, color.a);
+}
+)";
+
+constexpr auto copy_text = R"(
+layout(binding = 0) uniform sampler2D source;
+layout(location = 0) out vec4 copied;
+void main() { copied = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }
+)";
+
+constexpr auto opaque_copy_text = R"(
+layout(binding = 0) uniform sampler2D source;
+layout(location = 0) out vec4 copied;
+void main() { copied = vec4(texelFetch(source, ivec2(gl_FragCoord.xy), 0).rgb, 1.0); }
+)";
+
+struct PeelTargets {
+    std::array<Handle, 2> depth, peel;
+    Handle layer, accumulated, result, under, finish, query;
+    Handle first_program, next_program, under_program, finish_program;
+
+    PeelTargets(const GpuScene& scene, Size size)
+        : depth{make_texture(GL_DEPTH_COMPONENT32F, size), make_texture(GL_DEPTH_COMPONENT32F, size)},
+          layer{make_texture(GL_RGBA8, size)},
+          accumulated{make_texture(GL_RGBA8, size)},
+          result{make_texture(GL_RGBA8, size)},
+          under{make_framebuffer({accumulated.name()})},
+          finish{make_framebuffer({result.name()})},
+          query{make_query()},
+          first_program{scene.make_program(peel_first_text)},
+          next_program{scene.make_program(peel_next_text)},
+          under_program{make_full_screen_program(copy_text)},
+          finish_program{make_full_screen_program(opaque_copy_text)} {
+        for (std::size_t i = 0; i < 2; ++i) peel[i] = make_framebuffer({layer.name()}, depth[i].name());
+    }
+};
+
+// Pass number `pass`: the nearest layer behind that of the pass before. Returns the samples that it drew.
+std::uint64_t peel_layer(const GpuScene& scene, const PeelTargets& t, int pass) {
+    constexpr float far = 1.0f;
+    const std::size_t nearest = static_cast<std::size_t>(pass) % 2;
+    glBindFramebuffer(GL_FRAMEBUFFER, t.peel[nearest].name());
+    glClearBufferfv(GL_COLOR, 0, zero.data());
+    glClearBufferfv(GL_DEPTH, 0, &far);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glBindTextureUnit(0, t.depth[1 - nearest].name());
+    glUseProgram((pass == 0 ? t.first_program : t.next_program).name());
+    glBeginQuery(GL_SAMPLES_PASSED, t.query.name());
+    scene.draw();
+    glEndQuery(GL_SAMPLES_PASSED);
+    return samples_passed(t.query);
+}
+
+void blend_under(const PeelTargets& t) {
+    glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFuncSeparate(GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+    glBindTextureUnit(0, t.layer.name());
+    draw_full_screen(t.under_program);
+}
+
+int front_to_back(const GpuScene& scene, const PeelTargets& t, int max_passes) {
+    glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
+    glClearBufferfv(GL_COLOR, 0, transparent.data());
+    int passes = 0;
+    while (passes < max_passes && peel_layer(scene, t, passes++) > 0) blend_under(t);
+    glBindFramebuffer(GL_FRAMEBUFFER, t.finish.name());
+    glDisable(GL_BLEND);
+    glBindTextureUnit(0, t.accumulated.name());
+    draw_full_screen(t.finish_program);
+    return passes;
+}
+
+}  // namespace
+
+Job front_to_back_job(const GpuScene& scene, Size size) {
+    const auto t = std::make_shared<PeelTargets>(scene, size);
+    return {"front_to_back", pipeline::Format::rgba8,
+            [&scene, size, t](std::vector<std::uint32_t>& pixels, int max_passes) {
+                const int passes = front_to_back(scene, *t, max_passes);
+                read_rgba8(t->finish, size, pixels);
+                return passes;
+            }};
+}
+
+}  // namespace strata::mesa

@@ -1,0 +1,180 @@
+// tools/bench/mesa/main.cpp - strata_mesa: a scene by OpenGL on llvmpipe, one line of JSON a job; fragments and pictures
+// compared with Strata's on request.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "rasterizer/input_error.h"
+#include "scenes/camera.h"
+#include "scenes/image_io.h"
+#include "scenes/profile_json.h"
+#include "tools/bench/mesa/context.h"
+#include "tools/bench/mesa/job.h"
+#include "tools/bench/mesa/reference.h"
+
+namespace strata::mesa {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Options {
+    std::string scene, camera, size = "1024x1024", profile = "llvmpipe", coverage, image;
+    std::optional<float> alpha;
+    std::vector<std::string> algorithms;
+    int threads = 2, repeat = 3;
+    double budget = 10;
+    bool check = false, compare = false;
+};
+
+Size parse_size(const std::string& text) {
+    Size size;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 1 ||
+        size.height < 1)
+        throw InputError("the command line", "--size", "WIDTHxHEIGHT", "'" + text + "'");
+    return size;
+}
+
+Subject load(const Options& options) {
+    Subject subject;
+    subject.size = parse_size(options.size);
+    subject.alpha = options.alpha;
+    subject.threads = options.threads;
+    subject.scene = scenes::load_scene(options.scene, {});
+    const double aspect = double(subject.size.width) / subject.size.height;
+    subject.view = options.camera.empty() ? scenes::orbit_view(subject.scene.bounds, 30, 20, aspect)
+                                          : scenes::load_camera(options.camera, aspect);
+    return subject;
+}
+
+pipeline::Image as_image(const Job& job, Size size, const std::vector<std::uint32_t>& words) {
+    pipeline::Image image(job.format, size.width, size.height);
+    const auto channels = static_cast<std::size_t>(image.channels());
+    if (channels == 1) image.codes = words;
+    for (std::size_t i = 0; channels == 4 && i < image.codes.size(); ++i)
+        image.codes[i] = words[i / 4] >> (8 * (i % 4)) & 0xff;
+    return image;
+}
+
+// Codes: 1/255 of a colour, units in the last place of a float depth.
+std::uint32_t largest_difference(const pipeline::Image& a, const pipeline::Image& b) {
+    std::uint32_t largest = 0;
+    for (std::size_t i = 0; i < a.codes.size(); ++i)
+        largest = std::max(largest, a.codes[i] > b.codes[i] ? a.codes[i] - b.codes[i] : b.codes[i] - a.codes[i]);
+    return largest;
+}
+
+// Compiles every program and touches every target: two passes do. Then one time after another until `budget` is spent.
+ordered_json measure(const Job& job, const Options& options, std::vector<std::uint32_t>& pixels) {
+    static_cast<void>(job.draw(pixels, 2));
+    ordered_json seconds = ordered_json::array();
+    int passes = 0;
+    double spent = 0;
+    for (int i = 0; i < options.repeat && (i == 0 || spent < options.budget); ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        passes = job.draw(pixels, 1000000);
+        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        spent += seconds.back().get<double>();
+    }
+    return {{"algorithm", job.name}, {"geometry_passes", passes}, {"seconds", seconds}};
+}
+
+void run(const Job& job, const Options& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
+    std::vector<std::uint32_t> pixels;
+    ordered_json line = measure(job, options, pixels);
+    const pipeline::Image image = as_image(job, subject.size, pixels);
+    line["digest"] = pipeline::digest(image);
+    if (options.compare) {
+        const Rendered ours = render(subject, profile, job.name);
+        line["strata"] = {{"geometry_passes", ours.geometry_passes},
+                          {"largest_difference", largest_difference(image, ours.image)}};
+    }
+    fmt::print("{}\n", line.dump());
+    std::fflush(stdout);
+    if (!options.image.empty() && image.channels() == 4) scenes::write_image(options.image, {.color = image});
+}
+
+// The number of pixels in which the two programs draw another number of fragments.
+std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, const Options& options, Size size,
+                  const pipeline::DeviceProfile& profile) {
+    const auto theirs = count_fragments(scene, size), ours = count_fragments(soup, profile, size);
+    std::size_t differ = 0, first = 0;
+    std::uint64_t fragments = 0;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        fragments += theirs[i];
+        if (ours[i] != theirs[i] && differ++ == 0) first = i;
+    }
+    ordered_json line{{"pixels", ours.size()}, {"differ", differ}, {"fragments", fragments}};
+    const auto width = static_cast<std::size_t>(size.width);
+    if (differ > 0)
+        line["first"] = {
+            {"x", first % width}, {"y", first / width}, {"llvmpipe", theirs[first]}, {"strata", ours[first]}};
+    fmt::print("{}\n", ordered_json{{"coverage", line}}.dump());
+    if (options.coverage.empty()) return differ;
+    std::ofstream file(options.coverage, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(theirs.data()),
+               static_cast<std::streamsize>(theirs.size() * sizeof(theirs[0])));
+    if (!file.flush()) throw std::runtime_error(options.coverage + ": could not be written");
+    return differ;
+}
+
+int run_all(const Options& options) {
+    const Subject subject = load(options);
+    const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
+    const rasterizer::TriangleSoup soup = clip_vertices(subject);
+    const HeadlessContext context(options.threads);
+    std::fprintf(stderr, "%s\n", context.renderer().c_str());
+    glViewport(0, 0, subject.size.width, subject.size.height);
+    glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);  // row 0 of memory is the top, as in Strata
+    glDepthFunc(GL_LESS);
+    const GpuScene scene(soup);
+    for (const std::string& name : options.algorithms)
+        run(make_job(name, scene, subject.size), options, subject, profile);
+    const bool counts = options.check || !options.coverage.empty();
+    return counts && check(scene, soup, options, subject.size, profile) > 0 && options.check ? 1 : 0;
+}
+
+void add_options(CLI::App& app, Options& o) {
+    app.add_option("SCENE", o.scene, "a scene as `strata render` takes it")->required();
+    app.add_option("--camera", o.camera, "a camera file (default: the orbit 30,20)");
+    app.add_option("--alpha", o.alpha, "every material transparent, its alpha times this");
+    app.add_option("--size", o.size, "WIDTHxHEIGHT (default 1024x1024)");
+    app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
+    app.add_option("--algorithm", o.algorithms, "of depth, front_to_back, dual, weighted_average, with commas between")
+        ->delimiter(',')
+        ->check(CLI::IsMember(job_names()));
+    app.add_option("--repeat", o.repeat, "times of each (default 3)")->check(CLI::PositiveNumber);
+    app.add_option("--budget", o.budget, "seconds of an algorithm after which it is not repeated (default 10)");
+    app.add_option("--profile", o.profile, "Strata's device for --check and --compare (default llvmpipe)");
+    app.add_flag("--check", o.check, "compare the number of fragments of every pixel; exit status 1 if one differs");
+    app.add_flag("--compare", o.compare, "compare passes and pictures with Strata's");
+    app.add_option("--coverage", o.coverage, "write the number of fragments of every pixel: u32, rows from the top");
+    app.add_option("--image", o.image, "write the last colour picture, .png or .exr");
+}
+
+}  // namespace
+
+}  // namespace strata::mesa
+
+int main(int count, char** words) {
+    CLI::App app{"Depth, front_to_back, dual and weighted_average by OpenGL on Mesa's llvmpipe.", "strata_mesa"};
+    strata::mesa::Options options;
+    strata::mesa::add_options(app, options);
+    try {
+        app.parse(count, words);
+        return strata::mesa::run_all(options);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const strata::InputError& error) {
+        std::fprintf(stderr, "strata_mesa: %s\n", error.what());
+        return 2;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "strata_mesa: %s\n", error.what());
+        return 3;
+    }
+}

@@ -1,0 +1,63 @@
+// tools/bench/mesa/objects.h - OpenGL objects that end with their owner, and the few calls the algorithms share.
+#pragma once
+#include <GL/glcorearb.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace strata::mesa {
+
+struct Size {
+    int width = 0, height = 0;
+    [[nodiscard]] std::size_t area() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+};
+
+// A name that `destroy` gives back.
+class Handle {
+  public:
+    Handle() = default;
+    Handle(GLuint name, void (*destroy)(GLuint)) : name_{name}, destroy_{destroy} {}
+    Handle(Handle&& other) noexcept
+        : name_{std::exchange(other.name_, 0)}, destroy_{std::exchange(other.destroy_, nullptr)} {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(name_, other.name_);
+        std::swap(destroy_, other.destroy_);
+        return *this;
+    }
+    ~Handle() {
+        if (destroy_ != nullptr) destroy_(name_);
+    }
+    [[nodiscard]] GLuint name() const noexcept { return name_; }
+
+  private:
+    GLuint name_ = 0;
+    void (*destroy_)(GLuint) = nullptr;
+};
+
+[[nodiscard]] Handle make_texture(GLenum format, Size size);
+[[nodiscard]] Handle make_query();  // GL_SAMPLES_PASSED
+
+// Draw buffer k is color[k]; `depth` may be 0.
+[[nodiscard]] Handle make_framebuffer(std::initializer_list<GLuint> color, GLuint depth = 0);
+
+// `defines` stands before the vertex and the fragment text; std::runtime_error with the compiler's words.
+[[nodiscard]] Handle make_program(const std::string& defines, const std::string& vertex, const std::string& fragment);
+
+// One triangle over the viewport with `program`; depth test off. Blending and targets are the caller's.
+void draw_full_screen(const Handle& program);
+
+// A program that runs once a pixel.
+[[nodiscard]] Handle make_full_screen_program(const std::string& fragment);
+
+// Waits for the answer.
+[[nodiscard]] std::uint64_t samples_passed(const Handle& query);
+
+// Colour attachment 0, rows as they lie in memory: RGBA8 words, r in the lowest byte.
+void read_rgba8(const Handle& framebuffer, Size size, std::vector<std::uint32_t>& pixels);
+
+}  // namespace strata::mesa

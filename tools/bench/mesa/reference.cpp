@@ -1,0 +1,63 @@
+#include "tools/bench/mesa/reference.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "peeling/render.h"
+#include "pipeline/prepare.h"
+#include "rasterizer/input_error.h"
+#include "rasterizer/tile_rasterizer.h"
+
+namespace strata::mesa {
+
+namespace {
+
+void check_materials(const Subject& subject) {
+    for (const pipeline::Material& m : subject.scene.list.materials) {
+        if (m.texture >= 0) throw InputError(subject.scene.name, m.name, "a material without texture", "one with");
+        if (m.alpha_mode == pipeline::AlphaMode::mask ||
+            (m.alpha_mode == pipeline::AlphaMode::opaque && !subject.alpha))
+            throw InputError(subject.scene.name, m.name, "a transparent material (or --alpha)",
+                             "an opaque or MASK one");
+    }
+}
+
+}  // namespace
+
+rasterizer::TriangleSoup clip_vertices(const Subject& subject) {
+    check_materials(subject);
+    return pipeline::transform(subject.scene.list, subject.view,
+                               {.alpha_scale = subject.alpha.value_or(1.0f), .threads = subject.threads});
+}
+
+std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
+                                           Size size) {
+    rasterizer::RasterState state;
+    state.viewport = {0, 0, size.width, size.height};
+    const rasterizer::Geometry geometry = rasterizer::set_up(soup, state, profile.raster, 0);
+    std::vector<std::uint32_t> triangles(geometry.triangles.size()), counts(size.area());
+    std::iota(triangles.begin(), triangles.end(), 0u);
+    auto count = [&counts](const rasterizer::FragmentBatch& batch) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++counts[batch.pixel[i]];
+    };
+    rasterizer::TileRasterizer(state.viewport)
+        .draw(geometry, triangles, {}, {.shader_z = false, .code = false, .color = false},
+              rasterizer::BatchSink{count});
+    return counts;
+}
+
+Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job) {
+    const bool depth = job == "depth";
+    peeling::RenderOptions options;
+    options.width = subject.size.width;
+    options.height = subject.size.height;
+    options.alpha = subject.alpha;
+    options.threads = subject.threads;
+    options.audit = false;
+    options.nearest_depth = depth;
+    peeling::Renderer renderer(subject.scene.list, subject.view, profile, options);
+    auto result = renderer.render(*peeling::find_algorithm(depth ? "weighted_average" : job));
+    return {depth ? std::move(result.frame.depth) : std::move(result.frame.color), result.frame.passes.geometry};
+}
+
+}  // namespace strata::mesa
