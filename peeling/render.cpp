@@ -157,6 +157,7 @@ struct Renderer::State {
         f.keep_layers = options.keep_layers;
         f.trust_idle = options.trust_idle;
         f.trace = options.audit;
+        f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
         f.average_count = options.average_count;
         return f;

@@ -32,6 +32,7 @@ struct RenderOptions {
     bool trust_idle = true;      // pipeline/frame.h
     bool audit = true;           // order_errors and the other comparisons with the a_buffer
     bool nearest_depth = true;   // make the Z image
+    pipeline::PassLog* pass_log = nullptr;  // pipeline/frame.h
     // Conventions; the viewport is set from width and height.
     rasterizer::RasterState raster;
 };

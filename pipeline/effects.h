@@ -3,8 +3,11 @@
 // Rule     Needed is what the program declares, and what a stage that is switched on looks at. `all` simulates everything; the
 //          bits are the same.
 // Source   design.md, idea 3.
-// Tests    tests/peeling/execution_test.cpp
+// Tests    tests/peeling/execution_test.cpp, tests/pipeline/effects_test.cpp
 #pragma once
+#include <cstdint>
+#include <vector>
+
 #include "pipeline/frame.h"
 #include "pipeline/pass.h"
 
@@ -20,5 +23,34 @@ namespace strata::pipeline {
     needs.texcoord |= list.needs_texcoord && needs.color;
     return needs;
 }
+
+// One geometry pass as it was decided.
+struct PassRecord {
+    PassState state;
+    rasterizer::FragmentNeeds needs;       // what is simulated
+    rasterizer::FragmentNeeds called_for;  // what is under Effects::needed
+    bool samples_textures = false;
+    bool is_opaque_priming = false;
+    int iteration = 0;  // 0: before the first
+};
+
+// What literal execution did (one region, one thread); Frame::pass_log.
+struct PassLog {
+    std::vector<PassRecord> passes;
+    int queries = 0;  // whose answer was asked for
+};
+
+// The tiles of a frame by what their pixels hold before any test, and the fragments by material.
+struct TileCensus {
+    std::uint64_t tiles = 0;
+    std::uint64_t empty = 0;        // no fragment at all
+    std::uint64_t opaque_only = 0;  // none of the transparent list: nothing to peel
+    std::uint64_t single = 0;       // transparent fragments, but no pixel has two: nothing to order
+    std::uint64_t layered = 0;      // the rest: these need peeling
+    std::uint64_t with_opaque = 0;  // these need opaque priming
+    std::vector<std::uint64_t> transparent_fragments, opaque_fragments;  // by material
+    friend bool operator==(const TileCensus&, const TileCensus&) = default;
+};
+[[nodiscard]] TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque);
 
 }  // namespace strata::pipeline

@@ -31,6 +31,8 @@ struct Replay {
     rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
 };
 
+struct PassLog;
+
 struct Frame {
     const DeviceProfile* profile = nullptr;
     const PreparedDraw* opaque = nullptr;
@@ -48,6 +50,7 @@ struct Frame {
     bool keep_layers = false;
     bool trace = false;
     bool nearest_depth = false;  // also make the frame's Z
+    PassLog* pass_log = nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/effects.h)
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return transparent->geometry.state.viewport; }

@@ -2,6 +2,7 @@
 #include <cassert>
 #include <utility>
 
+#include "pipeline/effects.h"
 #include "pipeline/region.h"
 #include "pipeline/verdict.h"
 
@@ -34,6 +35,7 @@ bool Region::stop_iterating() {
 // more iteration, the probe, because literal execution would: its counters are those of every iteration that the frame still runs.
 bool Region::any(Count count, Idle idle) {
     if (frame_.termination.rule == TerminationRule::fixed) return true;  // no query at all
+    if (frame_.pass_log != nullptr) ++frame_.pass_log->queries;
     if (!frame_.trust_idle) idle = Idle::no;
     const std::size_t index = decisions_.size();
     const bool finished = extent_ == Extent::tile && count.own_ == 0 && idle != Idle::no;

@@ -48,6 +48,9 @@ void Region::replay(rasterizer::BatchSink sink) {
 // every time.
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     FragmentNeeds needs = pass_needs(state, list, frame_.effects);
+    if (frame_.pass_log != nullptr)
+        frame_.pass_log->passes.push_back({state, needs, pass_needs(state, list, Effects::needed),
+                                           needs.color && list.needs_texcoord, &list == frame_.opaque, iterations_});
     const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent;
     FragmentNeeds kept = needs;
     kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture

@@ -22,7 +22,7 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (render, layers, scene, digest, algorithms, profiles or scenes), found 'rendr' "
+         "strata: expected a command (render, layers, bench, effects, scene, digest, algorithms, profiles or scenes), found 'rendr' "
          "(did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},
          "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
@@ -54,6 +54,10 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --fragment-memory: expected bytes such as 65536, 64M or 1G, found '64Q'"},
         {{"render", "teapot", "--execution", "tile"},
          "strata: --execution: expected literal, tiled or replay, found 'tile' (did you mean 'tiled'?)"},
+        {{"bench", "teapot", "--execution", "replay,tile"},
+         "strata: --execution: expected literal, tiled, replay or all, found 'tile' (did you mean 'tiled'?)"},
+        {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
+        {{"bench", "teapot", "--baseline", "none.json"}, "strata: none.json: ..."},
         {{"render", "teapot", "--threads", "-1"}, "strata: --threads: expected a whole number from 0, found '-1'"},
         {{"render", "teapot", "--alpha", "1,5"}, "strata: --alpha: expected a number from 0 to 1, found '1,5'"},
         {{"render", "teapot", "--alpha", "nan"}, "strata: --alpha: expected a number from 0 to 1, found 'nan'"},

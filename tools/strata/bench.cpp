@@ -37,11 +37,6 @@ std::vector<T> values_of(const std::vector<Choice<T>>& choices) {
     return values;
 }
 
-std::optional<int> to_repeat(std::string_view text) {
-    const auto count = to_int(text);
-    return count && *count >= 1 ? count : std::nullopt;
-}
-
 // Innermost the ways of running, so that what is compared is timed side by side.
 std::vector<BenchJob> jobs_of(const BenchOptions& options, const std::vector<BenchScene>& scenes) {
     std::vector<Simd> simds;
@@ -117,7 +112,7 @@ Command add_bench(CLI::App& root) {
                 "needed, all, or needed,all (default needed)");
     add_resource_options(*app, options->run);
     add_option(*app, options->repeat,
-               {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_repeat);
+               {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_positive);
     app->add_option("--json", options->json, "the times as JSON; - is standard output instead of the table")
         ->type_name("FILE|-");
     app->add_option("--baseline", options->baseline, "what --json wrote before: also print old/new")->type_name("FILE");

@@ -28,10 +28,6 @@ class Collector : public benchmark::BenchmarkReporter {
     std::vector<BenchResult>& results_;
 };
 
-peeling::RenderResult depth_pass(peeling::Renderer& renderer) {
-    return renderer.render(*peeling::find_algorithm("unsorted"));
-}
-
 void run_job(benchmark::State& state, BenchResult& result) {
     for ([[maybe_unused]] auto iteration : state) {
         result.last = run_once(result.job);
@@ -48,8 +44,13 @@ void run_job(benchmark::State& state, BenchResult& result) {
 
 std::string algorithm_name(const BenchJob& job) { return job.algorithm == nullptr ? "depth" : job.algorithm->name; }
 
-BenchRun run_once(const BenchJob& job) {
+peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options) {
     const Session& session = job.scene->session;
+    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options);
+    return job.algorithm == nullptr ? renderer.depth_pass() : renderer.render(*job.algorithm);
+}
+
+BenchRun run_once(const BenchJob& job) {
     peeling::RenderOptions options = job.scene->options.render;
     options.execution = job.execution;
     options.effects = job.effects;
@@ -58,14 +59,12 @@ BenchRun run_once(const BenchJob& job) {
     choose_simd(job.simd);
 
     const auto start = std::chrono::steady_clock::now();
-    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options);
-    const peeling::RenderResult result =
-        job.algorithm == nullptr ? depth_pass(renderer) : renderer.render(*job.algorithm);
+    const peeling::RenderResult result = run_algorithm(job, options);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
 
     BenchRun run;
     if (result.refusal) {
-        run.refusal = result.refusal->sentence(session.profile);
+        run.refusal = result.refusal->sentence(job.scene->session.profile);
         return run;
     }
     run.seconds = taken.count();

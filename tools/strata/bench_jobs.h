@@ -19,7 +19,7 @@ struct BenchJob {
     const BenchScene* scene = nullptr;
     const peeling::Algorithm* algorithm = nullptr;  // null: the job `depth`, one opaque depth pass
     pipeline::Execution execution = pipeline::Execution::replay;
-    Simd simd = Simd::scalar;  // never `best`
+    Simd simd = Simd::scalar;
     pipeline::Effects effects = pipeline::Effects::needed;
 };
 
@@ -40,6 +40,9 @@ struct BenchResult {
 };
 
 [[nodiscard]] std::string algorithm_name(const BenchJob& job);
+
+// Set-up and passes with these options: what a job does between the clock's start and its stop.
+[[nodiscard]] peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options);
 
 [[nodiscard]] BenchRun run_once(const BenchJob& job);
 

@@ -14,6 +14,7 @@ struct Command {
 [[nodiscard]] Command add_render(CLI::App& root);
 [[nodiscard]] Command add_layers(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
+[[nodiscard]] Command add_effects(CLI::App& root);
 [[nodiscard]] Command add_scene(CLI::App& root);
 [[nodiscard]] Command add_digest(CLI::App& root);
 [[nodiscard]] Command add_algorithms(CLI::App& root);

@@ -18,6 +18,11 @@ template <std::integral T = int>
     return value;
 }
 
+[[nodiscard]] inline std::optional<int> to_positive(std::string_view text) {
+    const auto value = to_int(text);
+    return value && *value >= 1 ? value : std::nullopt;
+}
+
 // Nearest to the decimal; neither infinite nor NaN.
 template <std::floating_point T>
 [[nodiscard]] std::optional<T> to_number(std::string_view text) {

@@ -1,0 +1,88 @@
+// Model: scenes whose effects are known by what they hold.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json plans(const Folder& folder, std::vector<std::string> words) {
+    words.insert(words.begin(), "effects");
+    words.insert(words.end(), {"--size", "64x48", "--repeat", "1", "--json"});
+    const Ended ended = run_strata(folder, words);
+    INFO(ended.err);
+    REQUIRE(ended.status == 0);
+    return ordered_json::parse(ended.out);
+}
+
+ordered_json row(const ordered_json& plan, const std::string& effect) {
+    for (const auto& row : plan.at("effects"))
+        if (row.at("effect") == effect) return row;
+    return {{"effect", "missing: " + effect}};
+}
+
+// One triangle of a MASK material in front of one of a BLEND material.
+const char* const two_triangles = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
+"nodes":[{"mesh":0},{"mesh":1,"translation":[0,0,1]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]},{"primitives":[{"attributes":{"POSITION":0},"material":1}]}],
+"materials":[{"name":"glass","alphaMode":"BLEND","doubleSided":true},{"name":"leaf","alphaMode":"MASK","doubleSided":true}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
+
+}  // namespace
+
+TEST_CASE("the plan names the material that calls for MASK, in opaque priming or with --alpha in every pass") {
+    const Folder folder;
+    std::ofstream(folder / "leaf.gltf") << two_triangles;
+    const auto plan = plans(folder, {"leaf.gltf", "--no-light"})[0];
+    const auto mask = row(plan, "alphaMode MASK"), priming = row(plan, "opaque priming");
+    CHECK(mask.at("simulated") == true);
+    CHECK(mask["why"].get<std::string>().find("leaf") != std::string::npos);
+    CHECK(mask["why"].get<std::string>().find("glass") == std::string::npos);
+    CHECK(mask["passes"] == 1);
+    CHECK(mask["fragments"] > 0);
+    CHECK(mask["fragments"] == priming.at("fragments"));
+    CHECK(row(plan, "lighting, at the vertices").at("simulated") == false);
+
+    const auto everything = plans(folder, {"leaf.gltf", "--alpha", "0.5"})[0];
+    const auto passes = everything.at("geometry_passes");
+    CHECK(row(everything, "alphaMode MASK").at("passes") == passes);
+    CHECK(row(everything, "alphaMode MASK").at("fragments") == passes.get<int>() * mask["fragments"].get<int>());
+    CHECK(row(everything, "opaque priming").at("simulated") == false);
+}
+
+TEST_CASE("the plan's passes are those of the statistics, and its tiles are all there, for every algorithm") {
+    const Folder folder;
+    const std::vector<std::string> scene{"volume-beam:slices=6", "--algorithm", "all"};
+    auto words = scene;
+    words.insert(words.begin(), "render");
+    words.insert(words.end(), {"--size", "64x48", "--stats", "-", "--no-audit"});
+    const auto rows = ordered_json::parse(run_strata(folder, words).out);
+    const auto all = plans(folder, scene);
+    REQUIRE(all.size() == rows.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        INFO(all[i].dump());
+        CHECK(all[i].at("geometry_passes") == rows[i].at("geometry_passes"));
+        if (rows[i]["outcome"] == "refused") continue;
+        const auto& tiles = all[i].at("tiles");
+        CHECK(tiles["empty"].get<int>() + tiles["opaque_only"].get<int>() + tiles["single"].get<int>() +
+                  tiles["layered"].get<int>() == tiles["all"].get<int>());
+        CHECK(tiles["all"] == 4);
+        CHECK(row(all[i], "stencil test").at("simulated") == false);
+    }
+}
+
+TEST_CASE("what --effects all simulates the plan says, and where it is needed it names the pass's own reason") {
+    const Folder folder;
+    const auto needed = plans(folder, {"volume-beam:slices=2", "--algorithm", "dual"})[0];
+    const auto all = plans(folder, {"volume-beam:slices=2", "--algorithm", "dual", "--effects", "all"})[0];
+    CHECK(row(needed, "texture coordinates").at("simulated") == false);
+    CHECK(row(all, "texture coordinates").at("simulated") == true);
+    CHECK(row(all, "texture coordinates")["why"] == "--effects all");
+    CHECK(row(needed, "program depth").at("passes") == needed.at("geometry_passes"));
+}

@@ -1,0 +1,261 @@
+#!/usr/bin/env python3
+"""Writes tools/bench/PERFORMANCE.md: runs `strata bench` over the scenes and, where it is built, the side-by-side with Mesa.
+
+    tools/bench/performance.py [--models ../shared/models] [--size 1024x1024] [--repeat 3] [--quick]
+
+Standard library alone. Ratios count, times tell the scale: every table's numbers come from one command run in turn.
+"""
+import argparse
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+ALGORITHMS = ["depth", "dual", "front_to_back", "weighted_average"]
+# Camera of the bunny and of the planes (column-major matrices are strata's business: it takes eye and centre as JSON views).
+SETTINGS = {"bunny": ["--alpha", "0.3"], "dragon": ["--alpha", "0.3"], "planes": ["--alpha", "1"]}
+
+
+class Scene:
+    def __init__(self, name, spec, heavy):
+        self.name, self.spec, self.heavy = name, spec, heavy  # heavy: literal and tiled take minutes at full size
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--strata", default=str(ROOT / "build/release/strata"), help="the built command")
+    parser.add_argument("--models", default=str(ROOT / "../shared/models"), help="folder with bunny.glb and dragon.glb")
+    parser.add_argument("--size", default="1024x1024")
+    parser.add_argument("--small", default="256x256", help="size where every pass of every algorithm is rasterized")
+    parser.add_argument("--slices", type=int, default=256)
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--side-by-side", default=None, help="folder of the Mesa build; default: the command's own")
+    parser.add_argument("--out", default=str(HERE / "PERFORMANCE.md"))
+    parser.add_argument("--quick", action="store_true", help="128x128, 16 slices, one repetition: to try the script")
+    options = parser.parse_args()
+    if options.quick:
+        options.size, options.small, options.slices, options.repeat = "128x128", "64x64", 16, 1
+    if not pathlib.Path(options.strata).exists():
+        sys.exit(f"performance.py: --strata: expected the built command, found nothing at {options.strata}")
+    return options
+
+
+def scenes_of(options):
+    found = []
+    for model in ("bunny", "dragon"):
+        path = pathlib.Path(options.models) / f"{model}.glb"
+        if path.exists():
+            found.append(Scene(model, str(path), False))
+        else:
+            print(f"performance.py: no {path}: its rows are missing", file=sys.stderr)
+    found.append(Scene("planes", f"volume-beam:slices={options.slices}", True))
+    return found
+
+
+def bench(options, scene, *, size=None, algorithms=ALGORITHMS, execution="replay", simd="best", effects="needed", threads=2,
+          extra=()):
+    """One run of strata bench; its jobs. Prints what it runs."""
+    command = [options.strata, "bench", scene.spec, "--size", size or options.size, *SETTINGS[scene.name],
+               "--algorithm", ",".join(algorithms), "--execution", execution, "--simd", simd, "--effects", effects,
+               "--threads", str(threads), "--repeat", str(options.repeat), "--json", "-", *extra]
+    print(" ".join(command), file=sys.stderr)
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(f"performance.py: strata bench ended with exit status {done.returncode}")
+    return json.loads(done.stdout)["jobs"]
+
+
+def milliseconds(job):
+    return job["seconds"]["median"] * 1e3
+
+
+def table(titles, rows):
+    lines = ["| " + " | ".join(titles) + " |", "|" + "---|" * len(titles)]
+    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def times_section(options, scenes, cache):
+    rows = []
+    for scene in scenes:
+        cache[scene.name] = bench(options, scene)
+        for job in cache[scene.name]:
+            ns = job["ns_per_fragment_pass"]
+            rows.append([scene.name, job["algorithm"], job["geometry_passes"], f'{job["fragments"]:,}',
+                         f"{milliseconds(job):.1f}", f'{job["seconds"]["min"] * 1e3:.1f} to {job["seconds"]["max"] * 1e3:.1f}',
+                         f'{job["geometry_seconds"] * 1e3:.1f}', f'{ns:.2f}' if ns else "-",
+                         f'{job["bytes_per_fragment"]:.0f}' if ns else "-"])
+    return ("## Times\n\nReplay, the best instruction set, needed effects, 2 threads, " + options.size + ". A fragment-pass is "
+            "one fragment of one pass of the literal definition, whether it was looked at again or not.\n\n" +
+            table(["scene", "job", "passes", "fragment-passes", "median ms", "least to most", "geometry ms",
+                   "ns a fragment-pass", "bytes a fragment-pass, on paper"], rows))
+
+
+def within_section(options, scenes, cache):
+    rows = []
+    for scene in scenes:
+        by_name = {job["algorithm"]: milliseconds(job) for job in cache[scene.name]}
+        rows.append([scene.name, f'{by_name["dual"] / by_name["depth"]:.2f}',
+                     f'{by_name["dual"] / by_name["weighted_average"]:.2f}',
+                     f'{by_name["front_to_back"] / by_name["depth"]:.2f}'])
+    return ("## What exactness costs\n\nTo the last layer, over one pass of the same scene.\n\n" +
+            table(["scene", "dual : depth", "dual : weighted_average", "front_to_back : depth"], rows))
+
+
+def side_by_side_of(jobs, key, values):
+    """Rows of algorithm, milliseconds for each value of `key`, and each over the last."""
+    rows = []
+    for algorithm in ALGORITHMS:
+        times = {job[key]: milliseconds(job) for job in jobs if job["algorithm"] == algorithm}
+        used = [value for value in values if value in times]
+        if used:
+            rows.append([algorithm] + [f"{times[v]:.1f}" if v in times else "-" for v in values] +
+                        [" : ".join(f"{times[v] / times[used[-1]]:.2f}" for v in used)])
+    return rows
+
+
+def ways_section(options, scenes, key, values, title, words):
+    """A table a scene, at the small size, where the slow way can be waited for."""
+    text = f"## {title}\n\n{words} {options.small}, 2 threads, ms.\n"
+    for scene in scenes:
+        jobs = bench(options, scene, size=options.small, **{key: "all" if key == "simd" else ",".join(values)})
+        shown = [v for v in values if any(job[key] == v for job in jobs)]
+        text += f"\n**{scene.name}**\n\n" + table(["job", *shown, "ratio"], side_by_side_of(jobs, key, shown))
+    return text
+
+
+def scaling_section(options, scenes, cache):
+    rows, serial_shares = [], []
+    for scene in scenes:
+        one = {job["algorithm"]: milliseconds(job) for job in bench(options, scene, threads=1)}
+        for job in cache[scene.name]:
+            speed_up = one[job["algorithm"]] / milliseconds(job)
+            serial = min(1.0, max(0.0, 2 / speed_up - 1))  # Amdahl: t2 / t1 = s + (1 - s) / 2
+            serial_shares.append(serial)
+            rows.append([scene.name, job["algorithm"], f'{one[job["algorithm"]]:.1f}', f"{milliseconds(job):.1f}",
+                         f"{speed_up:.2f}", f"{serial:.3f}", f"{1 / (serial + (1 - serial) / 64):.1f}"])
+    median = statistics.median(serial_shares)
+    ceiling = 1 / (median + (1 - median) / 64)
+    side = [int(n) for n in options.size.split("x")]
+    tiles = -(-side[0] // 32) * -(-side[1] // 32)
+    return ("## Threads\n\n" + table(["scene", "job", "1 thread ms", "2 threads ms", "speed-up", "serial share",
+                                      "ceiling for 64"], rows) +
+            f"""
+The serial share s solves t2 / t1 = s + (1 - s) / 2 (Amdahl), and so counts everything that does not double: joining sources in
+submission order, the prefix sums of the bins, the last tiles, and the memory that both threads share. Its median here is
+{median:.3f}: 64 threads would be at most {ceiling:.1f} times as fast as one. Two bounds stand beside it. Tiles: {options.size} has
+{tiles} tiles of 32; with 64 threads a thread has {tiles / 64:.0f}, and the frame waits for the costliest one, so a frame whose
+fragments crowd into a few tiles scales with these. Memory: what a thread keeps of fragments is --fragment-memory divided by the
+threads; a tile that does not fit rasterizes every pass.
+""")
+
+
+def items_section(options, scenes):
+    """Each item switched off alone, against everything on."""
+    rows = []
+    for scene in scenes:
+        size = options.small
+        on = {j["algorithm"]: milliseconds(j) for j in bench(options, scene, size=size)}
+        off = {
+            "replay": bench(options, scene, size=size, execution="tiled"),
+            "tiles and replay": bench(options, scene, size=size, execution="literal"),
+            "SIMD": bench(options, scene, size=size, simd="scalar"),
+            "threads": bench(options, scene, size=size, threads=1),
+            "needed effects (tiled)": bench(options, scene, size=size, execution="tiled", effects="all"),
+        }
+        tiled = {j["algorithm"]: milliseconds(j) for j in off["replay"]}
+        for item, jobs in off.items():
+            base = tiled if "effects" in item else on
+            times = {j["algorithm"]: milliseconds(j) for j in jobs}
+            rows.append([scene.name, item] + [f"{times[a] / base[a]:.2f}" for a in ALGORITHMS])
+        passes = {j["algorithm"]: j for j in bench(options, scene, size=size)}
+        # Without it a pass would transform, clip, set up and bin again.
+        rows.append([scene.name, "geometry once (computed)"] +
+                    [f'{1 + (passes[a]["geometry_passes"] - 1) * passes[a]["geometry_seconds"] * 1e3 / on[a]:.2f}'
+                     for a in ALGORITHMS])
+    return ("## What each item bought\n\nTime with the item switched off over time with everything on, at " + options.small +
+            ". Effects are compared tile by tile, for replay does not join `--effects all`. Geometry once cannot be switched off: "
+            "its row adds the measured geometry part for every pass after the first.\n\n" +
+            table(["scene", "without", *ALGORITHMS], rows))
+
+
+def roofline_section(options, scenes, cache):
+    rows = []
+    for scene in scenes:
+        for job in cache[scene.name]:
+            if not job["fragments"]:
+                continue
+            paper = job["bytes_per_fragment"] * job["fragments"]
+            rows.append([scene.name, job["algorithm"], f'{job["bytes_per_fragment"]:.0f}', f"{paper / 1e9:.2f}",
+                         f'{paper / job["seconds"]["median"] / 1e9:.1f}'])
+    return ("""## The roofline on paper
+
+Bytes that a fragment-pass moves between stages and targets if no cache exists, as the counters count them: loads of the program,
+tests, blending, and each pass's clears, copies and full-screen quads, all divided by the fragments.
+
+| job | read by a fragment | written by a fragment | operations a fragment, at least |
+|---|---|---|---|
+| depth | 4 (stored depth) | 4 if it passes | edges 3 x 1 add, depth plane 2 multiplies 2 adds, 1 compare |
+| weighted_average | 4 (opaque depth), 8 + 2 (sum and count) | 8 + 2 | the depth's, 4 channels of 2 multiplies 2 adds 1 divide, 3 multiplies, 5 adds, conversions |
+| front_to_back | 4 (peeled depth), 4 (stored depth) | 4 + 4 if nearest | the depth's, colour as above, 2 compares |
+| dual | 8 (min-max), 4 (front), 4 (opaque), 8 + 4 + 4 (blending) | 8 + 4 + 4 | the depth's, colour as above, UNDER 4 x 3, MAX 10 |
+
+One pass over a captured fragment needs its pixel (4 bytes), depth (4) and colour (16): 24 bytes, whatever the number of passes, so with
+M bytes a second from memory no replay ends before fragments x 24 / M, and no execution that rasterizes each pass before
+(fragment-passes x bytes below) / (bandwidth of the cache that holds a tile's targets). A column of demand above what the memory of
+the machine gives says that the tile's targets stayed in cache or were not touched again.
+
+""" + table(["scene", "job", "bytes a fragment-pass", "GB of the literal definition", "GB/s that literal would need for this time"],
+            rows))
+
+
+def mesa_section(options):
+    scripts = sorted(HERE.glob("side_by_side.*"))
+    if not scripts:
+        return "## Beside Mesa llvmpipe\n\nNot built here (-DSTRATA_BENCH_MESA=ON).\n"
+    command = [str(scripts[0])] if scripts[0].suffix != ".py" else [sys.executable, str(scripts[0])]
+    if options.side_by_side:
+        command.append(options.side_by_side)
+    print(" ".join(command), file=sys.stderr)
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    if done.returncode != 0:
+        print("performance.py: the side-by-side failed: its section says so", file=sys.stderr)
+        return f"## Beside Mesa llvmpipe\n\nNot run here: {scripts[0].name} ended with exit status {done.returncode}.\n"
+    return "## Beside Mesa llvmpipe\n\nBoth in turn, same scene, camera, size and threads.\n\n```\n" + done.stdout + "```\n"
+
+
+def machine():
+    names = [line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
+    return f"{names[0]}, {len(names)} threads" if names else "unknown processor"
+
+
+def main():
+    options = parse_arguments()
+    scenes = scenes_of(options)
+    cache = {}
+    parts = [f"# Performance\n\nMade by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds.\n",
+             times_section(options, scenes, cache),
+             mesa_section(options),
+             within_section(options, scenes, cache),
+             ways_section(options, scenes, "execution", ["literal", "tiled", "replay"], "literal : tiled : replay",
+                          "The same bits three ways, each over replay."),
+             ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets",
+                          "Each over the last."),
+             items_section(options, scenes),
+             scaling_section(options, scenes, cache),
+             roofline_section(options, scenes, cache)]
+    tried = HERE / "tried.md"
+    parts.append("## Tried and dropped\n\n" + (tried.read_text() if tried.exists() else "Nothing yet.\n"))
+    with tempfile.NamedTemporaryFile("w", dir=pathlib.Path(options.out).parent, delete=False) as file:
+        file.write("\n".join(parts))
+    pathlib.Path(file.name).chmod(0o644)
+    pathlib.Path(file.name).replace(options.out)
+    print(f"wrote {options.out}", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
