@@ -13,16 +13,23 @@ import subprocess
 import sys
 import tempfile
 
+sys.dont_write_bytecode = True
+import side_by_side  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-ALGORITHMS = ["depth", "dual", "front_to_back", "weighted_average"]
-# Camera of the bunny and of the planes (column-major matrices are strata's business: it takes eye and centre as JSON views).
-SETTINGS = {"bunny": ["--alpha", "0.3"], "dragon": ["--alpha", "0.3"], "planes": ["--alpha", "1"]}
+ALGORITHMS = side_by_side.ALGORITHMS
 
 
 class Scene:
-    def __init__(self, name, spec, heavy):
-        self.name, self.spec, self.heavy = name, spec, heavy  # heavy: literal and tiled take minutes at full size
+    """One of side_by_side.py's scenes, with its camera in a file of `folder`."""
+    def __init__(self, name, spec, folder):
+        described = side_by_side.SCENES[name]
+        camera = pathlib.Path(folder) / f"{name}.json"
+        camera.write_text(json.dumps(described["camera"]))
+        self.name, self.spec, self.options = name, spec, ["--camera", str(camera)]
+        if described["alpha"]:
+            self.options += ["--alpha", described["alpha"]]
 
 
 def parse_arguments():
@@ -33,7 +40,6 @@ def parse_arguments():
     parser.add_argument("--small", default="256x256", help="size where every pass of every algorithm is rasterized")
     parser.add_argument("--slices", type=int, default=256)
     parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--side-by-side", default=None, help="folder of the Mesa build; default: the command's own")
     parser.add_argument("--out", default=str(HERE / "PERFORMANCE.md"))
     parser.add_argument("--quick", action="store_true", help="128x128, 16 slices, one repetition: to try the script")
     options = parser.parse_args()
@@ -44,29 +50,35 @@ def parse_arguments():
     return options
 
 
-def scenes_of(options):
+def scenes_of(options, folder):
     found = []
     for model in ("bunny", "dragon"):
         path = pathlib.Path(options.models) / f"{model}.glb"
         if path.exists():
-            found.append(Scene(model, str(path), False))
+            found.append(Scene(model, str(path), folder))
         else:
             print(f"performance.py: no {path}: its rows are missing", file=sys.stderr)
-    found.append(Scene("planes", f"volume-beam:slices={options.slices}", True))
+    found.append(Scene("planes", f"volume-beam:slices={options.slices}", folder))
     return found
 
 
-def bench(options, scene, *, size=None, algorithms=ALGORITHMS, execution="replay", simd="best", effects="needed", threads=2,
-          extra=()):
-    """One run of strata bench; its jobs. Prints what it runs."""
-    command = [options.strata, "bench", scene.spec, "--size", size or options.size, *SETTINGS[scene.name],
-               "--algorithm", ",".join(algorithms), "--execution", execution, "--simd", simd, "--effects", effects,
-               "--threads", str(threads), "--repeat", str(options.repeat), "--json", "-", *extra]
-    print(" ".join(command), file=sys.stderr)
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit(f"performance.py: strata bench ended with exit status {done.returncode}")
-    return json.loads(done.stdout)["jobs"]
+MEASURED = {}
+
+
+def bench(options, scene, *, small=False, execution="replay", simd="best", effects="needed", threads=2):
+    """The jobs of one run of strata bench, which is done once. `small`: where the slow ways can be waited for."""
+    spec = f"volume-beam:slices={options.slices // 4}" if small and scene.name == "planes" else scene.spec
+    command = [options.strata, "bench", spec, *scene.options, "--size", options.small if small else options.size,
+               "--profile", "llvmpipe", "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--simd", simd,
+               "--effects", effects, "--threads", str(threads), "--repeat", str(options.repeat), "--json", "-"]
+    line = " ".join(command)
+    if line not in MEASURED:
+        print(line, file=sys.stderr)
+        done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+        if done.returncode != 0:
+            sys.exit(f"performance.py: strata bench ended with exit status {done.returncode}")
+        MEASURED[line] = json.loads(done.stdout)["jobs"]
+    return MEASURED[line]
 
 
 def milliseconds(job):
@@ -79,11 +91,10 @@ def table(titles, rows):
     return "\n".join(lines) + "\n"
 
 
-def times_section(options, scenes, cache):
+def times_section(options, scenes):
     rows = []
     for scene in scenes:
-        cache[scene.name] = bench(options, scene)
-        for job in cache[scene.name]:
+        for job in bench(options, scene):
             ns = job["ns_per_fragment_pass"]
             rows.append([scene.name, job["algorithm"], job["geometry_passes"], f'{job["fragments"]:,}',
                          f"{milliseconds(job):.1f}", f'{job["seconds"]["min"] * 1e3:.1f} to {job["seconds"]["max"] * 1e3:.1f}',
@@ -95,10 +106,10 @@ def times_section(options, scenes, cache):
                    "ns a fragment-pass", "bytes a fragment-pass, on paper"], rows))
 
 
-def within_section(options, scenes, cache):
+def within_section(options, scenes):
     rows = []
     for scene in scenes:
-        by_name = {job["algorithm"]: milliseconds(job) for job in cache[scene.name]}
+        by_name = {job["algorithm"]: milliseconds(job) for job in bench(options, scene)}
         rows.append([scene.name, f'{by_name["dual"] / by_name["depth"]:.2f}',
                      f'{by_name["dual"] / by_name["weighted_average"]:.2f}',
                      f'{by_name["front_to_back"] / by_name["depth"]:.2f}'])
@@ -120,19 +131,19 @@ def side_by_side_of(jobs, key, values):
 
 def ways_section(options, scenes, key, values, title, words):
     """A table a scene, at the small size, where the slow way can be waited for."""
-    text = f"## {title}\n\n{words} {options.small}, 2 threads, ms.\n"
+    text = f"## {title}\n\n{words} {options.small}, a quarter of the planes, 2 threads, ms.\n"
     for scene in scenes:
-        jobs = bench(options, scene, size=options.small, **{key: "all" if key == "simd" else ",".join(values)})
+        jobs = bench(options, scene, small=True, **{key: "all" if key == "simd" else ",".join(values)})
         shown = [v for v in values if any(job[key] == v for job in jobs)]
         text += f"\n**{scene.name}**\n\n" + table(["job", *shown, "ratio"], side_by_side_of(jobs, key, shown))
     return text
 
 
-def scaling_section(options, scenes, cache):
+def scaling_section(options, scenes):
     rows, serial_shares = [], []
     for scene in scenes:
         one = {job["algorithm"]: milliseconds(job) for job in bench(options, scene, threads=1)}
-        for job in cache[scene.name]:
+        for job in bench(options, scene):
             speed_up = one[job["algorithm"]] / milliseconds(job)
             serial = min(1.0, max(0.0, 2 / speed_up - 1))  # Amdahl: t2 / t1 = s + (1 - s) / 2
             serial_shares.append(serial)
@@ -158,35 +169,34 @@ def items_section(options, scenes):
     """Each item switched off alone, against everything on."""
     rows = []
     for scene in scenes:
-        size = options.small
-        on = {j["algorithm"]: milliseconds(j) for j in bench(options, scene, size=size)}
+        on = {j["algorithm"]: milliseconds(j) for j in bench(options, scene, small=True)}
         off = {
-            "replay": bench(options, scene, size=size, execution="tiled"),
-            "tiles and replay": bench(options, scene, size=size, execution="literal"),
-            "SIMD": bench(options, scene, size=size, simd="scalar"),
-            "threads": bench(options, scene, size=size, threads=1),
-            "needed effects (tiled)": bench(options, scene, size=size, execution="tiled", effects="all"),
+            "replay": bench(options, scene, small=True, execution="tiled"),
+            "tiles and replay": bench(options, scene, small=True, execution="literal"),
+            "SIMD": bench(options, scene, small=True, simd="scalar"),
+            "threads": bench(options, scene, small=True, threads=1),
+            "needed effects (tiled)": bench(options, scene, small=True, execution="tiled", effects="all"),
         }
         tiled = {j["algorithm"]: milliseconds(j) for j in off["replay"]}
         for item, jobs in off.items():
             base = tiled if "effects" in item else on
             times = {j["algorithm"]: milliseconds(j) for j in jobs}
             rows.append([scene.name, item] + [f"{times[a] / base[a]:.2f}" for a in ALGORITHMS])
-        passes = {j["algorithm"]: j for j in bench(options, scene, size=size)}
+        passes = {j["algorithm"]: j for j in bench(options, scene, small=True)}
         # Without it a pass would transform, clip, set up and bin again.
         rows.append([scene.name, "geometry once (computed)"] +
                     [f'{1 + (passes[a]["geometry_passes"] - 1) * passes[a]["geometry_seconds"] * 1e3 / on[a]:.2f}'
                      for a in ALGORITHMS])
     return ("## What each item bought\n\nTime with the item switched off over time with everything on, at " + options.small +
-            ". Effects are compared tile by tile, for replay does not join `--effects all`. Geometry once cannot be switched off: "
+            " and a quarter of the planes. Effects are compared tile by tile, for replay does not join `--effects all`. Geometry once cannot be switched off: "
             "its row adds the measured geometry part for every pass after the first.\n\n" +
             table(["scene", "without", *ALGORITHMS], rows))
 
 
-def roofline_section(options, scenes, cache):
+def roofline_section(options, scenes):
     rows = []
     for scene in scenes:
-        for job in cache[scene.name]:
+        for job in bench(options, scene):
             if not job["fragments"]:
                 continue
             paper = job["bytes_per_fragment"] * job["fragments"]
@@ -214,18 +224,18 @@ the machine gives says that the tile's targets stayed in cache or were not touch
 
 
 def mesa_section(options):
-    scripts = sorted(HERE.glob("side_by_side.*"))
-    if not scripts:
-        return "## Beside Mesa llvmpipe\n\nNot built here (-DSTRATA_BENCH_MESA=ON).\n"
-    command = [str(scripts[0])] if scripts[0].suffix != ".py" else [sys.executable, str(scripts[0])]
-    if options.side_by_side:
-        command.append(options.side_by_side)
+    title = "## Beside Mesa llvmpipe\n\n"
+    build = pathlib.Path(options.strata).parent
+    if not (build / "strata_mesa").exists():
+        return title + "Not built here (`-DSTRATA_BENCH_MESA=ON`).\n"
+    command = [sys.executable, str(HERE / "side_by_side.py"), options.models, "--build", str(build), "--size", options.size]
+    if options.quick:
+        command += ["--quick", "--pairs", "1", "--repeat", "1"]
     print(" ".join(command), file=sys.stderr)
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, cwd=ROOT)
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
-        print("performance.py: the side-by-side failed: its section says so", file=sys.stderr)
-        return f"## Beside Mesa llvmpipe\n\nNot run here: {scripts[0].name} ended with exit status {done.returncode}.\n"
-    return "## Beside Mesa llvmpipe\n\nBoth in turn, same scene, camera, size and threads.\n\n```\n" + done.stdout + "```\n"
+        return title + f"Failed here: side_by_side.py ended with exit status {done.returncode}.\n\n```\n{done.stdout}```\n"
+    return title + f"Both in turn, same scene, camera, size and threads (README.md).\n\n```\n{done.stdout}```\n"
 
 
 def machine():
@@ -233,27 +243,23 @@ def machine():
     return f"{names[0]}, {len(names)} threads" if names else "unknown processor"
 
 
+def page(options, scenes):
+    tried = HERE / "tried.md"
+    return "\n".join([
+        f"# Performance\n\nMade by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds.\n",
+        times_section(options, scenes), mesa_section(options), within_section(options, scenes),
+        ways_section(options, scenes, "execution", ["literal", "tiled", "replay"], "literal : tiled : replay",
+                     "The same bits three ways, each over replay."),
+        ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets", "Each over the last."),
+        items_section(options, scenes), scaling_section(options, scenes), roofline_section(options, scenes),
+        "## Tried and dropped\n\n" + (tried.read_text() if tried.exists() else "Nothing yet.\n")])
+
+
 def main():
     options = parse_arguments()
-    scenes = scenes_of(options)
-    cache = {}
-    parts = [f"# Performance\n\nMade by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds.\n",
-             times_section(options, scenes, cache),
-             mesa_section(options),
-             within_section(options, scenes, cache),
-             ways_section(options, scenes, "execution", ["literal", "tiled", "replay"], "literal : tiled : replay",
-                          "The same bits three ways, each over replay."),
-             ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets",
-                          "Each over the last."),
-             items_section(options, scenes),
-             scaling_section(options, scenes, cache),
-             roofline_section(options, scenes, cache)]
-    tried = HERE / "tried.md"
-    parts.append("## Tried and dropped\n\n" + (tried.read_text() if tried.exists() else "Nothing yet.\n"))
-    with tempfile.NamedTemporaryFile("w", dir=pathlib.Path(options.out).parent, delete=False) as file:
-        file.write("\n".join(parts))
-    pathlib.Path(file.name).chmod(0o644)
-    pathlib.Path(file.name).replace(options.out)
+    with tempfile.TemporaryDirectory() as folder:
+        text = page(options, scenes_of(options, folder))
+    pathlib.Path(options.out).write_text(text)
     print(f"wrote {options.out}", file=sys.stderr)
 
 
