@@ -18,7 +18,7 @@ constexpr std::uint32_t most_arrivals = 0xffff;               // `order` is 16 b
 
 [[nodiscard]] std::size_t blocks_of(std::size_t pixels) noexcept { return (pixels + block_lanes - 1) / block_lanes; }
 
-// How much the pixels [begin, end) of the region take as one band.
+// How much these pixels take, the first of them a block's first.
 [[nodiscard]] std::size_t slots_of(std::span<const std::uint32_t> coverage) noexcept {
     std::size_t slots = 0;
     for (std::size_t first = 0; first < coverage.size(); first += block_lanes) {
@@ -41,21 +41,21 @@ class Bands {
     [[nodiscard]] bool plan(std::uint64_t bytes) {
         if (std::ranges::any_of(coverage_, [](std::uint32_t n) { return n > most_arrivals; })) return false;
         const rasterizer::Rect rect = region_.rect();
+        const std::uint64_t band_bytes = std::min<std::uint64_t>(bytes, cached_bytes);
+        std::size_t slots = 0;
         int begin = rect.y0;
-        while (begin < rect.y1) {
-            int end = begin + 1;
-            std::size_t slots = slots_of(rows(begin, end));
-            while (end < rect.y1) {
-                const std::size_t more = slots_of(rows(begin, end + 1));
-                if (more * slot_bytes > std::min<std::uint64_t>(bytes, cached_bytes)) break;
-                slots = more;
-                ++end;
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            const std::size_t row = slots_of_row(y);
+            if (row * slot_bytes > bytes) return false;
+            if (y > begin && (slots + row) * slot_bytes > band_bytes) {
+                bands_.push_back({rect.x0, begin, rect.x1, y});
+                begin = y;
+                slots = 0;
             }
-            if (slots * slot_bytes > bytes) return false;
-            bands_.push_back({rect.x0, begin, rect.x1, end});
+            slots += row;
             most_slots_ = std::max(most_slots_, slots);
-            begin = end;
         }
+        bands_.push_back({rect.x0, begin, rect.x1, rect.y1});
         return true;
     }
 
@@ -77,6 +77,13 @@ class Bands {
         const auto width = static_cast<std::size_t>(rect.width());
         return coverage_.subspan(static_cast<std::size_t>(begin - rect.y0) * width,
                                  static_cast<std::size_t>(end - begin) * width);
+    }
+
+    // At most; blocks that reach from one row into the next are as deep as the deeper of the two.
+    [[nodiscard]] std::size_t slots_of_row(int y) const {
+        const auto row = rows(y, y + 1);
+        if (row.size() % block_lanes == 0) return slots_of(row);
+        return (blocks_of(row.size()) + 1) * block_lanes * *std::ranges::max_element(row);
     }
 
     void take_memory() {

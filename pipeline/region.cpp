@@ -193,8 +193,13 @@ void Region::read_row(const TargetStorage& from, int y, std::uint32_t* out) cons
             Lanes<std::uint32_t>& pixel = scratch_->screen.pixel;
             for (std::size_t i = 0; i < count; ++i) pixel[i] = static_cast<std::uint32_t>(first + x + i);
             from.gather(pixel, static_cast<int>(count), static_cast<int>(sample), codes);
-            for (std::size_t c = 0; c < channels; ++c)
-                for (std::size_t i = 0; i < count; ++i) out[((x + i) * samples + sample) * channels + c] = codes[c][i];
+            if (samples * channels == 1) std::copy_n(codes[0].begin(), count, out + x);
+            else if (samples == 1 && channels == 4)
+                for (std::size_t i = 0; i < count; ++i)
+                    for (std::size_t c = 0; c < 4; ++c) out[(x + i) * 4 + c] = codes[c][i];
+            else
+                for (std::size_t c = 0; c < channels; ++c)
+                    for (std::size_t i = 0; i < count; ++i) out[((x + i) * samples + sample) * channels + c] = codes[c][i];
         }
     }
 }
