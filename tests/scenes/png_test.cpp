@@ -17,17 +17,18 @@ using namespace strata::scenes;
 using strata::pipeline::ColorSpace;
 using strata::pipeline::Format;
 using strata::pipeline::Image;
+using strata::pipeline::ImageCodes;
 using strata::test::TemporaryFolder;
 
 namespace {
 
-OutputColor one_pixel(Format format, std::vector<std::uint32_t> codes) {
+OutputColor one_pixel(Format format, ImageCodes codes) {
     OutputColor output{.color = Image{format, 1, 1}};
     output.color.codes = std::move(codes);
     return output;
 }
 
-std::vector<std::uint32_t> floats(float r, float g, float b, float a) {
+ImageCodes floats(float r, float g, float b, float a) {
     return {std::bit_cast<std::uint32_t>(r), std::bit_cast<std::uint32_t>(g), std::bit_cast<std::uint32_t>(b),
             std::bit_cast<std::uint32_t>(a)};
 }
@@ -62,19 +63,19 @@ TEST_CASE("the same image written twice, a second later, gives the same PNG byte
 TEST_CASE("a float target becomes 8 bits by clamping and rounding the exact product with 255 half up") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(-1, 2, nan, 0.5f))).codes ==
-          std::vector<std::uint32_t>{0, 255, 0, 128});
+          ImageCodes{0, 255, 0, 128});
     const float half_code = 100.5f / 255;  // whichever side of the half the float lies
     const auto expected = static_cast<std::uint32_t>(std::floor(double{half_code} * 255 + 0.5));
     CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(half_code, 0, 1, 1))).codes ==
-          std::vector<std::uint32_t>{expected, 0, 255, 255});
+          ImageCodes{expected, 0, 255, 255});
     CHECK(as_straight_rgba8(one_pixel(Format::rgba16f, {0x3800, 0x3c00, 0xbc00, 0x7c00})).codes ==
-          std::vector<std::uint32_t>{128, 255, 0, 255});  // 0.5, 1, -1, infinity
+          ImageCodes{128, 255, 0, 255});  // 0.5, 1, -1, infinity
 }
 
 TEST_CASE("a premultiplied target is divided by its alpha, and is black where alpha is 0") {
     OutputColor float_target = one_pixel(Format::rgba32f, floats(0.25f, 0.5f, 0.75f, 0.5f));
     float_target.premultiplied = true;
-    CHECK(as_straight_rgba8(float_target).codes == std::vector<std::uint32_t>{128, 255, 255, 128});
+    CHECK(as_straight_rgba8(float_target).codes == ImageCodes{128, 255, 255, 128});
     int wrong = 0;
     for (std::uint32_t a = 0; a < 256; ++a) {
         for (std::uint32_t c = 0; c < 256; ++c) {
@@ -91,11 +92,11 @@ TEST_CASE("a linear target is encoded as sRGB, and its alpha is not") {
     OutputColor output = one_pixel(Format::rgba32f, floats(0.5f, 0.0f, 1.0f, 0.5f));
     output.space = ColorSpace::linear;
     CHECK(as_straight_rgba8(output).codes ==
-          std::vector<std::uint32_t>{188, 0, 255, 128});  // the textbook's middle grey
+          ImageCodes{188, 0, 255, 128});  // the textbook's middle grey
     OutputColor codes = one_pixel(Format::rgba8, {55, 0, 255, 7});
     codes.space = ColorSpace::linear;
     CHECK(as_straight_rgba8(codes).codes ==
-          std::vector<std::uint32_t>{128, 0, 255, 7});  // 55/255 = 0.2157 encodes to 0.5018
+          ImageCodes{128, 0, 255, 7});  // 55/255 = 0.2157 encodes to 0.5018
 }
 
 TEST_CASE("another ending, a missing file and a damaged one are input errors; a missing folder is the system's") {
@@ -126,7 +127,7 @@ TEST_CASE("a PNG without alpha is digested as opaque, and one that is grey or ha
     write("grey.png", 1, OIIO::TypeDesc::UINT8);
     write("wide.png", 4, OIIO::TypeDesc::UINT16);
     CHECK(read_images(folder / "rgb.png")[0].image.codes ==
-          std::vector<std::uint32_t>{77, 77, 77, 255, 77, 77, 77, 255});
+          ImageCodes{77, 77, 77, 255, 77, 77, 77, 255});
     CHECK_THROWS_AS(read_images(folder / "grey.png"), strata::InputError);
     CHECK_THROWS_AS(read_images(folder / "wide.png"), strata::InputError);
 }

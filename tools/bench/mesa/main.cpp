@@ -55,7 +55,7 @@ Subject load(const Options& options) {
 pipeline::Image as_image(const Job& job, Size size, const std::vector<std::uint32_t>& words) {
     pipeline::Image image(job.format, size.width, size.height);
     const auto channels = static_cast<std::size_t>(image.channels());
-    if (channels == 1) image.codes = words;
+    if (channels == 1) image.codes.assign(words.begin(), words.end());
     for (std::size_t i = 0; channels == 4 && i < image.codes.size(); ++i)
         image.codes[i] = words[i / 4] >> (8 * (i % 4)) & 0xff;
     return image;
