@@ -70,7 +70,7 @@ class ColumnTallies {
     std::vector<std::uint32_t> rank_, before_, after_, place_;
 };
 
-// Composites the layers of up to 256 neighbouring pixels as `peel` and `composite` do: stored, loaded, blended UNDER.
+// Composites the layers of up to sixteen neighbouring pixels as `peel` and `composite` do: stored, loaded, blended UNDER.
 class GroupComposite {
   public:
     GroupComposite(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region)
@@ -118,6 +118,19 @@ class GroupComposite {
     ColorLanes color_, layer_;
 };
 
+// The same where no column has equal depths.
+void peel_layers(Region& region, const Columns& columns, std::size_t number, const PixelGroup& group, std::uint32_t first,
+                 ColorCodes& accumulated) {
+    PeelBlock block = peel_block(columns, number);
+    for (std::size_t c = 0; c < 4; ++c) std::copy_n(accumulated[c].begin(), block_lanes, block.front[c].begin());
+    peel_front(block, region.profile().blend_rounding);
+    for (std::size_t c = 0; c < 4; ++c) std::copy_n(block.front[c].begin(), block_lanes, accumulated[c].begin());
+    if (!region.frame().trace) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(group.count); ++i)
+        for (std::uint32_t k = 0; k < block.visible[i]; ++k)
+            region.trace({first + static_cast<std::uint32_t>(i), columns.key[columns.slot(group.first + i, k)], 0, Side::front, false});
+}
+
 // Everything that one iteration counts; called with 1, 2, 3 ...
 class PassCounters {
   public:
@@ -161,6 +174,7 @@ bool front_to_back_closed(Region& region) {
     PassTallies tallies;
     ColumnTallies pixel_tallies{tallies};
     Target accumulated;
+    const bool rgba8 = region.frame().color_format == Format::rgba8;
     const auto fragments = for_each_band(region, [&](const Columns& columns) {
         if (!accumulated.exists()) {
             accumulated = region.make_color();
@@ -169,11 +183,12 @@ bool front_to_back_closed(Region& region) {
         for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) pixel_tallies.add(columns, pixel);
         const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
                                   static_cast<std::size_t>(region.rect().width());
-        for_each_group(columns, [&](const PixelGroup& group) {
+        for_each_block(columns, [&](std::size_t number, const PixelGroup& group) {
             const auto first = static_cast<std::uint32_t>(above + group.first);
             ColorCodes codes;
             region.load_pixels(accumulated, first, group.count, codes);
-            GroupComposite{region, columns, group, first}.run(codes);
+            if (rgba8 && !columns.blocks[number].has_ties) peel_layers(region, columns, number, group, first, codes);
+            else GroupComposite{region, columns, group, first}.run(codes);
             region.store_pixels(accumulated, first, group.count, codes);
         });
     });
