@@ -235,8 +235,9 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
 
 RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     RenderResult result;
-    if (auto lacking = check_depth(state_->profile, state_->depth)) {
-        result.refusal = lacking;
+    result.refusal = check_depth(state_->profile, state_->depth);
+    if (!result.refusal) result.refusal = check(state_->profile, state_->color_format);
+    if (result.refusal) {
         result.outcome = Outcome::refused;
         return result;
     }

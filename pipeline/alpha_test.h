@@ -25,7 +25,8 @@ namespace strata::pipeline {
 void alpha_test(const AlphaTest& state, bool eight_bit, const float* alpha, std::uint32_t* alive, int count) noexcept;
 
 // Its meaning; alpha_test is the same compiled for the chosen instruction set (stages_simd.cpp).
-namespace strict::scalar {
+inline namespace strict {
+namespace scalar {
 inline void alpha_test(const AlphaTest& state, bool eight_bit, const float* __restrict alpha,
                        std::uint32_t* __restrict alive, int count) noexcept {
     if (!state.enabled || state.func == CompareFunc::always) return;
@@ -39,6 +40,7 @@ inline void alpha_test(const AlphaTest& state, bool eight_bit, const float* __re
         }
     });
 }
-}  // namespace strict::scalar
+}  // namespace scalar
+}  // namespace strict
 
 }  // namespace strata::pipeline

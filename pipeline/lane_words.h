@@ -68,7 +68,8 @@ void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, un
 DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* code,
                        Word* alive) noexcept;
 
-namespace strict::scalar {
+inline namespace strict {
+namespace scalar {
 
 [[nodiscard]] inline std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept {
     Word living = 0;
@@ -109,5 +110,6 @@ inline DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane 
     return {arriving, count_lanes(alive, at.count)};
 }
 
-}  // namespace strict::scalar
+}  // namespace scalar
+}  // namespace strict
 }  // namespace strata::pipeline

@@ -38,7 +38,7 @@ sanitized() {
     local slow='NOT_BUILT|all 19,531 sequences|tiles, threads, effects and mistrust'  # a minute each under instrumentation
     if command -v clang++ >/dev/null; then
         preset=fuzz
-        targets+=(make_corpus load_render_fuzz)
+        targets+=(make_corpus load_render_fuzz differential_fuzz)
     fi
     step "the fast tests under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
@@ -48,7 +48,7 @@ sanitized() {
         step "no clang++: fuzzing left out"
         return
     fi
-    step "fuzzing the loader and the renderer with glTF bytes for a minute"
+    step "fuzzing for a minute: the loader with glTF bytes, the ways of running a frame against each other"
     quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure
 }
 

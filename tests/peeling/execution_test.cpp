@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "rendering.h"
+#include "tests/support/difference.h"
 #include "tests/support/host_environment.h"
 #include "tests/support/random_triangles.h"
 
@@ -14,21 +15,6 @@ using strata::pipeline::Effects;
 using strata::pipeline::Execution;
 using strata::pipeline::Termination;
 using strata::pipeline::TerminationRule;
-
-// What differs between two results, by name; empty if nothing does. `work` may differ.
-std::string difference(const RenderResult& a, const RenderResult& b) {
-    const auto same_layer = [](const auto& x, const auto& y) { return x.color == y.color && x.depth == y.depth; };
-    if (a.outcome != b.outcome || a.refusal != b.refusal) return "outcome";
-    if (a.frame.color != b.frame.color) return "colour";
-    if (a.frame.depth != b.frame.depth) return "depth";
-    if (a.frame.iterations != b.frame.iterations) return "iterations";
-    if (a.frame.passes != b.frame.passes) return "passes";
-    if (a.frame.counters != b.frame.counters) return "counters";
-    if (a.frame.layers.size() != b.frame.layers.size()) return "number of layers";
-    if (!std::ranges::equal(a.frame.layers, b.frame.layers, same_layer)) return "layers";
-    if (a.frame.diagnostics != b.frame.diagnostics) return "diagnostics";
-    return a.audit == b.audit ? "" : "audit";
-}
 
 struct Ending {
     const char* name;

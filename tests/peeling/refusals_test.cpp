@@ -95,6 +95,21 @@ TEST_CASE("float colour on geforce3 is refused") {
     }
 }
 
+TEST_CASE("a depth pass is refused for a colour format as any algorithm is: by its outcome, opaque surfaces or none") {
+    const strata::peeling::Algorithm& unsorted = *strata::peeling::find_algorithm("unsorted");
+    for (const bool has_opaque : {false, true}) {
+        FragmentScene scene = one_fragment();
+        if (has_opaque) scene.pixels[0].opaque = GivenFragment{.depth = 0.75f};
+        RenderOptions options = options_for(scene);
+        options.color_format = Format::rgba16f;
+        const auto list = draw_list(scene);
+        strata::peeling::Renderer renderer{list, {}, *strata::pipeline::find_profile("geforce3"), options};
+        const auto found = renderer.depth_pass();
+        CHECK(found.outcome == strata::peeling::Outcome::refused);
+        CHECK(found.refusal == renderer.render(unsorted).refusal);
+    }
+}
+
 TEST_CASE("depth paths run where their machine exists, and those of a later issue are refused by name") {
     using strata::rasterizer::DepthPath;
     const auto with_path = [](const Machine& machine, DepthPath path) {

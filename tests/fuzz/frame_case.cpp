@@ -1,0 +1,133 @@
+#include "tests/fuzz/frame_case.h"
+
+#include <algorithm>
+
+#include "tests/fuzz/scene_of_bytes.h"
+
+namespace strata::fuzz {
+
+using namespace pipeline;
+using rasterizer::DepthPath;
+
+namespace {
+
+constexpr std::array executions{Execution::replay, Execution::tiled, Execution::literal};
+
+// A profile that can run the algorithm; now and then any.
+std::string profile_for(ByteSource& bytes, const peeling::Algorithm* algorithm) {
+    std::vector<std::string> names;
+    const bool any = bytes.one_in(16);
+    for (const DeviceProfile& p : builtin_profiles())
+        if (any || algorithm == nullptr || !refusal(*algorithm, p)) names.push_back(p.name);
+    return names[static_cast<std::size_t>(bytes.below(static_cast<int>(names.size())))];
+}
+
+void choose_formats(ByteSource& bytes, const DeviceProfile& profile, peeling::RenderOptions& o) {
+    const bool any = bytes.one_in(32);
+    if (bytes.one_in(2)) {
+        const DepthFormat format = bytes.pick(std::array{DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16});
+        if (any || profile.has_depth(format)) o.depth = format;
+    }
+    if (bytes.one_in(4)) o.depth_path = bytes.pick(std::array{DepthPath::float32, DepthPath::exact});
+    if (any) o.depth_path = bytes.pick(std::array{DepthPath::window_z, DepthPath::perspective_rq});
+    if (profile.has_float_targets || any) {
+        if (bytes.one_in(2)) o.color_format = bytes.pick(std::array{Format::rgba16f, Format::rgba32f, Format::rgba8});
+        if (bytes.one_in(3)) o.average_count = Format::r32f;
+    }
+}
+
+Termination termination(ByteSource& bytes) {
+    switch (bytes.below(8)) {
+        case 4: return {.rule = TerminationRule::paper};
+        case 5: return {.rule = TerminationRule::any};
+        case 6:
+            return {.rule = TerminationRule::ratio,
+                    .ratio = bytes.pick(std::array{0.0, 0.015625, 0.125, 0.5, 1.0, 40.0})};
+        case 7: return {.rule = TerminationRule::fixed, .passes = 1 + bytes.below(10)};
+        default: return {};
+    }
+}
+
+rasterizer::Rect rect(ByteSource& bytes, int width, int height) {
+    const int x = bytes.below(width / 2 + 4) - 2, y = bytes.below(height / 2 + 4) - 2;
+    return {x, y, x + bytes.below(width + 2), y + bytes.below(height + 2)};
+}
+
+rasterizer::RasterState raster_state(ByteSource& bytes, const DeviceProfile& profile, int width, int height) {
+    using namespace rasterizer;
+    RasterState state;
+    if (bytes.one_in(6)) state.scissor = rect(bytes, width, height);
+    if (bytes.one_in(4))
+        state.polygon_offset = {true, 4 * bytes.fraction() - 2, static_cast<float>(bytes.below(9) - 4)};
+    if (bytes.one_in(6))
+        state.cull = bytes.pick(std::array{CullFace::none, CullFace::front, CullFace::none, CullFace::front_and_back});
+    if (bytes.one_in(4)) state.front_face = FrontFace::clockwise;
+    if (bytes.one_in(4)) state.y_direction = YDirection::down;
+    if (bytes.one_in(4)) state.clip_depth = ClipDepth::zero_to_one;
+    if (profile.has_depth_clamp && bytes.one_in(4)) state.depth_clamp = true;
+    if (bytes.one_in(6)) state.depth_near = 0.5f * bytes.fraction();
+    if (bytes.one_in(6)) state.depth_far = 0.5f + 0.5f * bytes.fraction();
+    if (bytes.one_in(12)) {
+        state.clip_plane_count = 1 + bytes.below(bytes.one_in(4) ? 6 : 2);
+        for (ClipPlane& p : state.clip_planes)
+            p = {2 * bytes.fraction() - 1, 2 * bytes.fraction() - 1, 2 * bytes.fraction() - 1, 2 * bytes.fraction()};
+    }
+    return state;
+}
+
+peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, const peeling::Algorithm* algorithm) {
+    peeling::RenderOptions o;
+    const int largest = bytes.one_in(10) ? 48 : 20;
+    o.width = 1 + bytes.below(largest);
+    o.height = 1 + bytes.below(largest);
+    o.threads = 1;
+    choose_formats(bytes, profile, o);
+    if (bytes.one_in(6)) o.alpha = bytes.fraction();
+    if (bytes.one_in(2))
+        for (float& channel : o.background) channel = bytes.fraction();
+    o.termination = termination(bytes);
+    if (bytes.one_in(6)) o.max_passes = 1 + bytes.below(8);
+    o.keep_layers = algorithm != nullptr && algorithm->makes_layers && bytes.one_in(4);
+    o.audit = !bytes.one_in(3);
+    o.nearest_depth = !bytes.one_in(4);
+    o.raster = raster_state(bytes, profile, o.width, o.height);
+    return o;
+}
+
+Way way(ByteSource& bytes, Execution execution, Simd simd) {
+    constexpr std::array<std::uint64_t, 6> memories{std::uint64_t{256} << 20, 300 << 10, 40 << 10, 4 << 10, 600, 0};
+    Way w{.execution = execution, .simd = simd};
+    w.tile_size = bytes.pick(std::array{8, 16, 32, 64, 128});
+    if (bytes.one_in(4)) w.effects = Effects::all;
+    if (bytes.one_in(4)) w.trust_idle = false;
+    if (bytes.one_in(2)) w.fragment_memory = bytes.pick(memories);
+    return w;
+}
+
+std::vector<Way> ways(ByteSource& bytes) {
+    std::vector<Way> all{way(bytes, Execution::literal, Simd::best), way(bytes, Execution::tiled, Simd::best),
+                         way(bytes, Execution::replay, Simd::best)};
+    all.push_back(way(bytes, bytes.pick(executions), Simd::scalar));
+    if (bytes.one_in(6))
+        all.push_back(way(bytes, bytes.pick(executions), bytes.pick(std::array{Simd::avx2, Simd::sse4})));
+    return all;
+}
+
+}  // namespace
+
+FrameCase make_case(std::span<const std::uint8_t> data) {
+    ByteSource bytes{data};
+    const auto& algorithms = peeling::algorithms();
+    const auto number = static_cast<std::size_t>(bytes.below(static_cast<int>(algorithms.size()) + 1));
+    const peeling::Algorithm* const algorithm = number < algorithms.size() ? &algorithms[number] : nullptr;
+    FrameCase frame;
+    frame.algorithm = algorithm != nullptr ? algorithm->name : "depth_pass";
+    frame.profile = profile_for(bytes, algorithm);
+    frame.options = options(bytes, *find_profile(frame.profile), algorithm);
+    frame.ways = ways(bytes);
+    frame.view = view_of(bytes);
+    frame.list = list_of(bytes, frame.view, frame.options.width, frame.options.height);
+    return frame;
+}
+
+}  // namespace strata::fuzz

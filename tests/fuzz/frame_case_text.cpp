@@ -1,0 +1,108 @@
+// A case as a list that a person can read and type in again; numbers with all their digits.
+#include <algorithm>
+#include <iomanip>
+#include <ostream>
+
+#include "tests/fuzz/frame_case.h"
+
+namespace strata::fuzz {
+
+namespace {
+
+template <class Numbers>
+void print_numbers(std::ostream& out, const char* name, const Numbers& numbers) {
+    out << name << " {";
+    for (std::size_t i = 0; i < std::size(numbers); ++i) out << (i > 0 ? ", " : "") << numbers[i];
+    out << '}';
+}
+
+void print_options(std::ostream& out, const peeling::RenderOptions& o) {
+    const auto number = [](auto value) { return static_cast<int>(value); };
+    out << "size " << o.width << 'x' << o.height << ", termination " << number(o.termination.rule) << " ratio "
+        << o.termination.ratio << " passes " << o.termination.passes << ", max_passes " << o.max_passes
+        << ", average_count " << number(o.average_count);
+    if (o.depth) out << ", depth " << number(*o.depth);
+    if (o.depth_path) out << ", depth_path " << number(*o.depth_path);
+    if (o.color_format) out << ", color_format " << number(*o.color_format);
+    if (o.alpha) out << ", alpha " << *o.alpha;
+    out << ", keep_layers " << o.keep_layers << ", audit " << o.audit << ", nearest_depth " << o.nearest_depth;
+    print_numbers(out, ", background", o.background);
+    const rasterizer::RasterState& r = o.raster;
+    out << "\nraster: depth range " << r.depth_near << " to " << r.depth_far << ", clip_depth " << number(r.clip_depth)
+        << ", y " << number(r.y_direction) << ", depth_clamp " << r.depth_clamp << ", cull " << number(r.cull)
+        << ", front_face " << number(r.front_face) << ", offset " << r.polygon_offset.enabled << ' '
+        << r.polygon_offset.factor << ' ' << r.polygon_offset.units;
+    if (r.scissor)
+        out << ", scissor {" << r.scissor->x0 << ", " << r.scissor->y0 << ", " << r.scissor->x1 << ", " << r.scissor->y1
+            << '}';
+    for (int i = 0; i < r.clip_plane_count; ++i) {
+        const auto& p = r.clip_planes[static_cast<std::size_t>(i)];
+        out << ", plane {" << p.a << ", " << p.b << ", " << p.c << ", " << p.d << '}';
+    }
+    out << '\n';
+}
+
+// Only what its triangles use.
+void print_mesh(std::ostream& out, const pipeline::Mesh& mesh) {
+    print_numbers(out, " indices", mesh.indices);
+    out << '\n';
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (std::ranges::find(mesh.indices, v) == mesh.indices.end()) continue;
+        print_numbers(out, ("  vertex " + std::to_string(v) + ": position").c_str(), mesh.positions[v]);
+        print_numbers(out, " normal", mesh.normals[v]);
+        print_numbers(out, " texcoord", mesh.texcoords[v]);
+        if (!mesh.colors.empty()) print_numbers(out, " color", mesh.colors[v]);
+        out << '\n';
+    }
+}
+
+void print_material(std::ostream& out, const pipeline::Material& m) {
+    print_numbers(out, "  material: front", m.front);
+    print_numbers(out, " back", m.back);
+    out << " mode " << static_cast<int>(m.alpha_mode) << " cutoff " << m.alpha_cutoff << " texture " << m.texture
+        << " double_sided " << m.double_sided << " unlit " << m.unlit << '\n';
+}
+
+void print_texture(std::ostream& out, const pipeline::Texture& t) {
+    out << "texture: target " << static_cast<int>(t.target) << ' ' << t.width << 'x' << t.height << " filter "
+        << static_cast<int>(t.filter) << " wrap " << static_cast<int>(t.wrap_s) << ' ' << static_cast<int>(t.wrap_t)
+        << " decode_srgb " << t.decode_srgb;
+    print_numbers(out, " texels", std::vector<int>(t.texels.begin(), t.texels.end()));
+    out << '\n';
+}
+
+}  // namespace
+
+void print(std::ostream& out, const Way& w) {
+    constexpr const char* executions[]{"literal", "tiled", "replay"};
+    constexpr const char* sets[]{"scalar", "sse4", "avx2", "avx512", "best"};
+    out << executions[static_cast<int>(w.execution)] << ", " << sets[static_cast<int>(w.simd)] << ", tile "
+        << w.tile_size << (w.effects == pipeline::Effects::all ? ", all effects" : "")
+        << (w.trust_idle ? "" : ", mistrusting") << ", fragment memory " << w.fragment_memory;
+}
+
+void print(std::ostream& out, const FrameCase& f) {
+    out << std::setprecision(9) << f.algorithm << " on " << f.profile << ", ";
+    print_options(out, f.options);
+    for (const Way& way : f.ways) {
+        out << "way: ";
+        print(out, way);
+        out << '\n';
+    }
+    print_numbers(out, "view", f.view.view);
+    print_numbers(out, " projection", f.view.projection);
+    out << '\n';
+    bool is_textured = false;
+    for (const pipeline::Instance& i : f.list.instances) {
+        const pipeline::Material& material = f.list.materials[i.material];
+        is_textured |= material.texture >= 0;
+        print_numbers(out, "instance: model", i.model);
+        out << '\n';
+        print_material(out, material);
+        print_mesh(out, f.list.meshes[i.mesh]);
+    }
+    for (const pipeline::Texture& t : f.list.textures)
+        if (is_textured) print_texture(out, t);
+}
+
+}  // namespace strata::fuzz

@@ -1,0 +1,12 @@
+// tests/fuzz/scene_of_bytes.h - what a case draws: few triangles, but every trouble that triangles know.
+#pragma once
+#include "pipeline/draw_list.h"
+#include "tests/fuzz/byte_source.h"
+
+namespace strata::fuzz {
+
+[[nodiscard]] pipeline::View view_of(ByteSource& bytes);
+// For a frame of this size in pixels: some meshes have their corners on pixel corners and centres.
+[[nodiscard]] pipeline::DrawList list_of(ByteSource& bytes, const pipeline::View& view, int width, int height);
+
+}  // namespace strata::fuzz
