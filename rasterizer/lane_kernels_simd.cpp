@@ -58,43 +58,6 @@ struct AppendRow {
     return scalar::emit_rows(run, claims, batch, span_of, AppendRow{});
 }
 
-// The covered pixels of a row of a small triangle, a bit each.
-class SmallRows {
-  public:
-    HWY_INLINE explicit SmallRows(const SmallEdges& edges) : edges_{edges} {}
-
-    RowSpan operator()(int row) const {
-        std::uint32_t bits = covered(row, 0);
-        for (int first = lanes; first < SmallEdges::max_width && first < edges_.width; first += lanes)
-            bits |= covered(row, first) << first;
-        bits &= (1u << edges_.width) - 1;
-        const int first = bits == 0 ? 0 : std::countr_zero(bits);
-        return {edges_.x0 + first, edges_.x0 + static_cast<int>(std::bit_width(bits))};
-    }
-
-  private:
-    static constexpr int lanes = static_cast<int>(hn::MaxLanes(Row32{}));
-
-    HWY_INLINE std::uint32_t covered(int row, int first) const {
-        const Row32 d;
-        const auto k = hn::LoadU(d, counting32 + first);
-        const auto at = [&](int i) HWY_ATTR {
-            const auto start = hn::Set(d, edges_.value[i] + row * edges_.down[i]);
-            return hn::Add(start, hn::Mul(k, hn::Set(d, edges_.step[i])));  // the product is hoisted from the rows
-        };
-        const auto inside = hn::Gt(hn::Or(hn::Or(at(0), at(1)), at(2)), hn::Set(d, -1));
-        std::uint64_t bits = 0;
-        hn::StoreMaskBits(d, inside, reinterpret_cast<std::uint8_t*>(&bits));
-        return static_cast<std::uint32_t>(bits);
-    }
-    const SmallEdges edges_;
-};
-
-[[gnu::flatten]] bool emit_small(const SmallEdges& edges, RowRun& run, PixelClaims& claims,
-                                 FragmentBatch& batch) noexcept {
-    return scalar::emit_rows(run, claims, batch, SmallRows{edges}, AppendRow{});
-}
-
 // Pixel coordinates as binary64.
 HWY_INLINE V64 coordinates(const std::uint16_t* p) {
     return hn::PromoteTo(F64{}, hn::PromoteTo(I32{}, hn::LoadU(U16{}, p)));
@@ -252,7 +215,7 @@ bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t*
 }
 
 const LaneKernels* table() {
-    static constexpr LaneKernels kernels{emit, emit_small, weights, attributes, depth};
+    static constexpr LaneKernels kernels{emit, weights, attributes, depth};
     return &kernels;
 }
 
@@ -266,7 +229,7 @@ HWY_EXPORT(table);
 inline namespace strict {
 
 const LaneKernels& lane_kernels() noexcept {
-    static constexpr LaneKernels twins{scalar::emit, scalar::emit_small, scalar::weights, scalar::attributes, nullptr};
+    static constexpr LaneKernels twins{scalar::emit, scalar::weights, scalar::attributes, nullptr};
     return simd_is_scalar() ? twins : *HWY_DYNAMIC_DISPATCH(table)();
 }
 
