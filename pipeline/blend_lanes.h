@@ -76,9 +76,9 @@ void blend_unorm8(const Job& job) noexcept {
         constant[c] = static_cast<float>(to_unorm8(job.state.constant[c]));
         if (job.writes(channel) || channel == 3)
             load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8(x)}); });
-        if (channel < job.channels)
+        if (channel < job.channels)  // the mask is for lanes beyond the batch, which fill up a vector and hold anything
             load(job.codes[c], d[c], job.count,
-                 [](std::uint32_t code) { return static_cast<float>(static_cast<int>(code)); });
+                 [](std::uint32_t code) { return static_cast<float>(static_cast<int>(code & 0xff)); });
     }
     if (job.channels < 4) d[3].fill(255.0f);
     blend_channels<Unorm8Arithmetic<rounding>>(job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {

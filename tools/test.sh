@@ -38,7 +38,7 @@ sanitized() {
     local slow='NOT_BUILT|all 19,531 sequences|tiles, threads, effects and mistrust'  # a minute each under instrumentation
     if command -v clang++ >/dev/null; then
         preset=fuzz
-        targets+=(make_corpus load_render_fuzz differential_fuzz)
+        targets+=(make_corpus load_render_fuzz differential_seeds differential_fuzz)
     fi
     step "the fast tests under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"

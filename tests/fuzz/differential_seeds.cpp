@@ -1,7 +1,10 @@
 // tests/fuzz/differential_seeds.cpp - the same frames without libFuzzer: the bytes of each come from its seed.
-// Run: differential_seeds --seeds A..B (B is left out). Exit status 1 at the first difference.
+// Run: differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference;
+//      differential_seeds --write FOLDER: the bytes of the first hundred as files for libFuzzer to start from.
 #include <charconv>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <random>
@@ -34,13 +37,26 @@ std::vector<std::uint8_t> bytes_of(std::uint64_t seed) {
     return bytes;
 }
 
+void write(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        const std::vector<std::uint8_t> bytes = bytes_of(seed);
+        std::ofstream(folder / std::to_string(seed), std::ios::binary)
+            .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
+    if (count == 3 && std::string_view{words[1]} == "--write") {
+        write(words[2]);
+        return 0;
+    }
     const std::optional<Seeds> seeds =
         count == 3 && std::string_view{words[1]} == "--seeds" ? parse(words[2]) : std::nullopt;
     if (!seeds) {
-        std::cerr << "differential_seeds --seeds A..B\n";
+        std::cerr << "differential_seeds --seeds A..B | --write FOLDER\n";
         return 2;
     }
     for (std::uint64_t seed = seeds->first; seed < seeds->end; ++seed) {

@@ -84,16 +84,57 @@ FrameResult execute(const TestFrame& test, const Body& body, Execution execution
     return run(test.frame, body, execution, 2);
 }
 
-// Tiled execution of the test's tiles equals literal; literal is what is returned.
+// Tiled execution of the test's tiles, and replay with memory for every fragment and for none, equal literal; literal is what
+// is returned.
 FrameResult both(const TestFrame& test, const Body& body) {
     FrameResult literal = execute(test, body, Execution::literal);
-    const FrameResult tiled = execute(test, body, Execution::tiled);
-    CHECK(tiled.color == literal.color);
-    CHECK(tiled.iterations == literal.iterations);
-    CHECK(tiled.passes == literal.passes);
-    CHECK(tiled.counters == literal.counters);
-    CHECK(tiled.diagnostics == literal.diagnostics);
+    constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
+    for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1}, megabyte}) {  // 0: tiled
+        Frame frame = test.frame;
+        frame.replay.bytes = memory;
+        const FrameResult found = run(frame, body, memory > 0 ? Execution::replay : Execution::tiled, 2);
+        INFO(memory << " bytes of fragments a region");
+        CHECK(found.color == literal.color);
+        CHECK(found.iterations == literal.iterations);
+        CHECK(found.passes == literal.passes);
+        CHECK(found.counters == literal.counters);
+        CHECK(found.diagnostics == literal.diagnostics);
+    }
     return literal;
+}
+
+// Two codes that tell every pixel of these frames from every other.
+void write_place(Region& region, Target target) {
+    PassState state;
+    state.color[0] = target;
+    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            out.color[0][0][i] = static_cast<float>(in.x[i]) / 255.0f;
+            out.color[0][1][i] = static_cast<float>(in.y[i]) / 255.0f;
+            out.color[0][2][i] = out.color[0][3][i] = 0;
+        }
+    }));
+}
+
+// Loads must be of the fragment's own place: red counts the fragments and the screen's pixels of which they are.
+void read_place(Region& region) {
+    const Target places = region.make(Format::rgba8), sum = region.make_color();
+    write_place(region, places);
+    PassState state;
+    state.reads[0] = places;
+    state.color[0] = sum;
+    state.blend[0] = blend_mode::sum;
+    const auto program = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            const bool same = own.color(0)[0][i] == static_cast<float>(in.x[i]) / 255.0f &&
+                              own.color(0)[1][i] == static_cast<float>(in.y[i]) / 255.0f;
+            out.color[0][0][i] = same ? 1.0f / 255.0f : 0.0f;
+            for (std::size_t c = 1; c < 4; ++c) out.color[0][c][i] = 0;
+        }
+    };
+    for (int pass = 0; pass < 2; ++pass) static_cast<void>(region.draw(state, program));  // the second may be recalled
+    static_cast<void>(region.full_screen(state, program));
+    region.publish(sum);
 }
 
 // Every pixel's code in `channel`, if they are all the same; else -1.
@@ -165,6 +206,13 @@ TEST_CASE("counters of idle iterations hold what follows a branch's answer") {
         const TestFrame never{scene(first, 0.5f), "geforce8"};
         CHECK(both(never, branch<Idle::steady>).passes == PassCount{2 * 6 + 6 + 1, 0, 0});
     }
+}
+
+TEST_CASE("what a program loads is its own pixel's, wherever its region lies and wherever its fragments come from") {
+    std::vector<Spot> everywhere_once;
+    for (std::size_t pixel = 0; pixel < 32 * 16; ++pixel) everywhere_once.push_back({pixel, {static_cast<int>(pixel % slots)}});
+    const TestFrame test{spots(everywhere_once), "geforce8"};
+    CHECK(everywhere(both(test, read_place), 0) == 3);  // two draws and one screen
 }
 
 TEST_CASE("max_passes and fixed:N count geometry passes in every region alike") {
