@@ -13,6 +13,7 @@
 
 #include "rasterizer/coverage.h"
 #include "rasterizer/fragment_batch.h"
+#include "rasterizer/geometry.h"
 #include "rasterizer/pixel_claims.h"
 
 namespace strata::rasterizer {
@@ -32,7 +33,25 @@ struct alignas(64) TriangleGroup {
     Row small;                         // 1: all that follows holds
     Row area, turned;                  // twice the area, without its sign; its sign as a mask
     std::array<Row, 3> value, step, down, tie;
+
+    [[nodiscard]] Rect box(std::size_t k) const noexcept {
+        const auto left = static_cast<int>(x0[k]), top = static_cast<int>(y0[k]);
+        return {left, top, left + static_cast<int>(width[k]), top + static_cast<int>(height[k])};
+    }
 };
+
+// The corners of triangles index(0) .. index(count - 1); the last one's stand in the rest of the group.
+template <class Index>
+void load_corners(const Geometry& geometry, std::size_t count, const Index& index, TriangleGroup& group) noexcept {
+    for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
+        const TriangleRecord& record = geometry.triangles[index(std::min(k, count - 1))];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const SubpixelPoint p = geometry.corners[record.vertex[i]].p;
+            group.x[i][k] = static_cast<std::uint32_t>(p.x);
+            group.y[i][k] = static_cast<std::uint32_t>(p.y);
+        }
+    }
+}
 
 // What is the same for all triangles of a draw.
 struct GroupRules {
