@@ -164,8 +164,9 @@ void find_homes(const Geometry& geometry, const TileWalk& walk, std::size_t firs
     TriangleGroup group;
     for (std::size_t at = 0; at < home.size(); at += TriangleGroup::size) {
         const std::size_t triangles = std::min<std::size_t>(TriangleGroup::size, home.size() - at);
+        const TriangleRecord* const record = &geometry.triangles[first + at];
         load_corners(
-            geometry, triangles, [&](std::size_t k) { return first + at + k; }, group);
+            geometry.corners, triangles, [&](std::size_t k) -> const auto& { return record[k].vertex; }, group);
         kernels.set_up(rules, group);
         for (std::size_t k = 0; k < triangles; ++k) {
             TileBlock block;

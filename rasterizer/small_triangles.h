@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "rasterizer/coverage.h"
 #include "rasterizer/fragment_batch.h"
@@ -40,13 +41,14 @@ struct alignas(64) TriangleGroup {
     }
 };
 
-// The corners of triangles index(0) .. index(count - 1); the last one's stand in the rest of the group.
-template <class Index>
-void load_corners(const Geometry& geometry, std::size_t count, const Index& index, TriangleGroup& group) noexcept {
+// The corners of `count` triangles, vertices(k) naming those of one; the last one's stand in the rest of the group.
+template <class Vertices>
+void load_corners(std::span<const WindowCorner> corners, std::size_t count, const Vertices& vertices,
+                  TriangleGroup& group) noexcept {
     for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
-        const TriangleRecord& record = geometry.triangles[index(std::min(k, count - 1))];
+        const std::array<std::uint32_t, 3>& vertex = vertices(std::min(k, count - 1));
         for (std::size_t i = 0; i < 3; ++i) {
-            const SubpixelPoint p = geometry.corners[record.vertex[i]].p;
+            const SubpixelPoint p = corners[vertex[i]].p;
             group.x[i][k] = static_cast<std::uint32_t>(p.x);
             group.y[i][k] = static_cast<std::uint32_t>(p.y);
         }

@@ -45,8 +45,8 @@ class TileRasterizer::Pass {
 
     // At most TriangleGroup::size triangles.
     void draw(std::span<const std::uint32_t> triangles) {
-        load_corners(
-            geometry_, triangles.size(), [&](std::size_t k) { return triangles[k]; }, group_);
+        const auto vertices = [&](std::size_t k) -> const auto& { return geometry_.triangles[triangles[k]].vertex; };
+        load_corners(geometry_.corners, triangles.size(), vertices, group_);
         small_.set_up(rules_, group_);
         for (std::size_t k = 0; k < triangles.size(); ++k) {
             if (group_.box(k).area() == 0) continue;
