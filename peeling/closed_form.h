@@ -8,7 +8,7 @@
 #pragma once
 #include <vector>
 
-#include "peeling/columns.h"
+#include "peeling/block_passes.h"
 #include "peeling/programs.h"
 
 namespace strata::peeling {
@@ -23,16 +23,31 @@ namespace strata::peeling {
     return frame.replay.bytes > 0 && exact && frame.max_passes == 0 && !frame.keep_layers;
 }
 
-// Neighbouring pixels of a band that are blended side by side: as many as a batch has lanes.
+// A block of a band for block_passes.h; its targets' codes are the caller's.
+[[nodiscard]] inline PeelBlock peel_block(const Columns& columns, std::size_t number) {
+    const ColumnBlock& place = columns.blocks[number];
+    PeelBlock block;
+    block.order = columns.order.data() + place.first;
+    for (std::size_t c = 0; c < 4; ++c) block.color[c] = columns.color[c].data() + place.first;
+    std::copy_n(&columns.visible[number * block_lanes], block_lanes, block.visible.begin());
+    std::copy_n(&columns.alive[number * block_lanes], block_lanes, block.alive.begin());
+    block.depth = place.depth;
+    return block;
+}
+
+// Neighbouring pixels of a band, at most a block.
 struct PixelGroup {
     std::size_t first = 0;  // in the band
     int count = 0;
 };
 
+// visit(block number, its pixels)
 template <class Visit>
-void for_each_group(const Columns& columns, Visit&& visit) {
-    for (std::size_t first = 0; first < columns.pixels(); first += pipeline::batch_capacity)
-        visit(PixelGroup{first, static_cast<int>(std::min<std::size_t>(columns.pixels() - first, pipeline::batch_capacity))});
+void for_each_block(const Columns& columns, Visit&& visit) {
+    for (std::size_t b = 0; b < columns.blocks.size(); ++b) {
+        const std::size_t first = b * block_lanes;
+        visit(b, PixelGroup{first, static_cast<int>(std::min(columns.pixels() - first, block_lanes))});
+    }
 }
 
 // histogram[i] = how many pixels have exactly i of something; grows as needed.

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t slot_bytes = 4 + 2 + 4 * sizeof(float);
 constexpr std::size_t cached_bytes = std::size_t{768} << 10;  // of one band: what a second-level cache holds beside the targets
+// What the fragments of small triangles fit into: cheaper to keep than to rasterize twice.
+constexpr std::size_t remembered_bytes = std::size_t{1} << 20;
 constexpr std::uint32_t most_arrivals = 0xffff;               // `order` is 16 bits wide
 
 [[nodiscard]] std::size_t blocks_of(std::size_t pixels) noexcept { return (pixels + block_lanes - 1) / block_lanes; }
@@ -34,6 +36,7 @@ class Bands {
         : region_{region}, body_{body}, coverage_{region.arena().take<std::uint32_t>(region.rect().area())},
           by_shader_z_{region.frame().key == DepthKey::shader_z} {
         std::ranges::fill(coverage_, 0u);
+        remembers_ = region.remember(needs(), std::min<std::uint64_t>(remembered_bytes, region.frame().replay.bytes));
         region.count_coverage(coverage_);
     }
 
@@ -41,7 +44,7 @@ class Bands {
     [[nodiscard]] bool plan(std::uint64_t bytes) {
         if (std::ranges::any_of(coverage_, [](std::uint32_t n) { return n > most_arrivals; })) return false;
         const rasterizer::Rect rect = region_.rect();
-        const std::uint64_t band_bytes = std::min<std::uint64_t>(bytes, cached_bytes);
+        const std::uint64_t band_bytes = remembers_ ? bytes : std::min<std::uint64_t>(bytes, cached_bytes);
         std::size_t slots = 0;
         int begin = rect.y0;
         for (int y = rect.y0; y < rect.y1; ++y) {
@@ -72,6 +75,10 @@ class Bands {
     }
 
   private:
+    [[nodiscard]] rasterizer::FragmentNeeds needs() const noexcept {
+        return {by_shader_z_, !by_shader_z_, false, true, false, false};
+    }
+
     [[nodiscard]] std::span<const std::uint32_t> rows(int begin, int end) const {
         const rasterizer::Rect rect = region_.rect();
         const auto width = static_cast<std::size_t>(rect.width());
@@ -92,6 +99,7 @@ class Bands {
         all_.blocks = arena.take<ColumnBlock>(blocks);
         for (auto* const pixels : {&all_.visible, &all_.alive, &all_.at_surface})
             *pixels = arena.take<std::uint32_t>(blocks * block_lanes);
+        next_ = arena.take<std::uint32_t>(blocks * block_lanes);
         all_.key = arena.take<std::uint32_t>(most_slots_);
         all_.order = arena.take<std::uint16_t>(most_slots_);
         for (auto& channel : all_.color) channel = arena.take<float>(most_slots_);
@@ -114,14 +122,15 @@ class Bands {
             *pixels = pixels->first(columns_.blocks.size() * block_lanes);
             std::ranges::fill(*pixels, 0u);
         }
+        for (std::size_t pixel = 0; pixel < columns_.visible.size(); ++pixel)
+            next_[pixel] = static_cast<std::uint32_t>(columns_.slot(pixel, 0));
     }
 
     void place(RegionFragments& fragments) {
-        const rasterizer::FragmentNeeds needs{by_shader_z_, !by_shader_z_, false, true, false, false};
         const std::size_t first = static_cast<std::size_t>(columns_.band.y0 - region_.rect().y0) *
                                   static_cast<std::size_t>(region_.rect().width());
         opaque_ = region_.storage(region_.opaque_depth()).depth(0) + first;
-        region_.look(needs, columns_.band, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+        region_.look(needs(), columns_.band, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
             fragments.rasterized += lanes(in);
             Lanes<std::uint32_t> key, is_visible;
             if (by_shader_z_) key_of_shader_z(in, opaque_, key, is_visible);
@@ -145,7 +154,8 @@ class Bands {
             columns_.at_surface[pixel] += !by_shader_z_ && key == opaque_[pixel] ? 1 : 0;
             return;
         }
-        const std::size_t slot = columns_.slot(pixel, columns_.visible[pixel]++);
+        const std::size_t slot = next_[pixel];
+        next_[pixel] += block_lanes;
         columns_.key[slot] = key;
         for (std::size_t c = 0; c < 4; ++c) columns_.color[c][slot] = in.color[c][i];
     }
@@ -157,19 +167,18 @@ class Bands {
         const std::uint32_t pixel = in.pixel[i];
         if (pixel % block_lanes != 0 || i + block_lanes > lanes(in) || in.pixel[i + block_lanes - 1] != pixel + block_lanes - 1)
             return false;
-        std::uint32_t* const visible = &columns_.visible[pixel];
-        const std::uint32_t k = visible[0];
+        std::uint32_t* const next = &next_[pixel];
+        const std::uint32_t slot = next[0];
         std::uint32_t all = ~0u, other = 0;
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
             all &= is_visible[i + lane] & alive[i + lane];
-            other |= (visible[lane] ^ k) | (in.pixel[i + lane] - pixel - static_cast<std::uint32_t>(lane));
+            other |= (next[lane] - slot - static_cast<std::uint32_t>(lane)) | (in.pixel[i + lane] - pixel - static_cast<std::uint32_t>(lane));
         }
         if (all == 0 || other != 0) return false;
-        const std::size_t slot = columns_.slot(pixel, k);
         std::copy_n(&key[i], block_lanes, &columns_.key[slot]);
         for (std::size_t c = 0; c < 4; ++c) std::copy_n(&in.color[c][i], block_lanes, &columns_.color[c][slot]);
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-            ++visible[lane];
+            next[lane] += block_lanes;
             ++columns_.alive[pixel + lane];
         }
         return true;
@@ -193,7 +202,9 @@ class Bands {
     // The arrival in the low half makes every value of a column different, and the sort stable.
     void sort(std::size_t b) {
         ColumnBlock& block = columns_.blocks[b];
-        const std::uint32_t* const visible = &columns_.visible[b * block_lanes];
+        std::uint32_t* const visible = &columns_.visible[b * block_lanes];
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            visible[lane] = static_cast<std::uint32_t>((next_[b * block_lanes + lane] - block.first) / block_lanes);
         block.depth = *std::max_element(visible, visible + block_lanes);
         std::uint32_t* const key = columns_.key.data() + block.first;
         for (std::uint32_t k = 0; k < block.depth; ++k)
@@ -217,11 +228,12 @@ class Bands {
     Region& region_;
     const std::function<void(const Columns&)>& body_;
     std::span<std::uint32_t> coverage_;
-    bool by_shader_z_;
+    bool by_shader_z_, remembers_ = false;
     const std::uint32_t* opaque_ = nullptr;  // of the present band
     std::vector<rasterizer::Rect> bands_;
     std::size_t most_slots_ = 0;
     Columns all_, columns_;  // the memory, and the part of it that the present band uses
+    std::span<std::uint32_t> next_;  // by pixel of the band: the slot of its next arrival
     std::span<std::uint64_t> sorting_;
 };
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "peeling/closed_form.h"
-#include "peeling/dual_pass.h"
 #include "peeling/front_and_back.h"
 #include "peeling/min_max.h"
 #include "pipeline/arena.h"
@@ -41,7 +40,7 @@ struct DepthGroup {
     Lanes<std::uint32_t> begin, end;
 };
 
-// The course of up to 256 neighbouring pixels, pass after pass.
+// The course of up to sixteen neighbouring pixels, pass after pass.
 class GroupPeel {
   public:
     GroupPeel(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region)
@@ -197,12 +196,10 @@ struct Course {
         }
         const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
                                   static_cast<std::size_t>(region.rect().width());
-        for (std::size_t b = 0; b < columns.blocks.size(); ++b) {
-            const std::size_t first = b * block_lanes;
-            const PixelGroup group{first, static_cast<int>(std::min(columns.pixels() - first, block_lanes))};
-            if (columns.blocks[b].has_ties) peel_group(region, columns, group, above + first);
-            else peel_block(region, columns, group, above + first);
-        }
+        for_each_block(columns, [&](std::size_t number, const PixelGroup& group) {
+            if (columns.blocks[number].has_ties) peel_group(region, columns, group, above + group.first);
+            else peel_passes(region, columns, number, group, above + group.first);
+        });
     }
 
     void peel_group(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first) {
@@ -212,21 +209,15 @@ struct Course {
         transfer(peel.back(), first, group.count, back);
     }
 
-    void peel_block(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first) {
-        const ColumnBlock& place = columns.blocks[group.first / block_lanes];
-        DualBlock block;
-        block.order = &columns.order[place.first];
-        for (std::size_t c = 0; c < 4; ++c) block.color[c] = &columns.color[c][place.first];
-        std::copy_n(&columns.visible[group.first], block_lanes, block.visible.begin());
-        std::copy_n(&columns.alive[group.first], block_lanes, block.alive.begin());
-        block.depth = place.depth;
+    void peel_passes(Region& region, const Columns& columns, std::size_t number, const PixelGroup& group, std::size_t first) {
+        PeelBlock block = peel_block(columns, number);
         ColorCodes opaque;
         region.load_pixels(region.opaque_color(), static_cast<std::uint32_t>(first), group.count, opaque);
         for (std::size_t c = 0; c < 4; ++c) {
             block.front[c].fill(0);
             std::copy_n(opaque[c].begin(), block_lanes, block.back[c].begin());
         }
-        peel_dual_block(block, region.profile().blend_rounding);
+        peel_both_ends(block, region.profile().blend_rounding);
         for (std::size_t c = 0; c < 4; ++c) {
             std::copy_n(block.front[c].begin(), group.count, &front.channel[c][first]);
             std::copy_n(block.back[c].begin(), group.count, &back.channel[c][first]);

@@ -6,6 +6,7 @@
 //            the passes whose threshold lies in [depth of m, depth of f), where m is the farthest of the earlier arrivals that
 //            are not behind f: from no depth at all (pass 1) if there is none.
 #include <algorithm>
+#include <bit>
 
 #include "peeling/closed_form.h"
 #include "pipeline/arena.h"
@@ -23,6 +24,28 @@ struct PassTallies {
     std::vector<std::uint64_t> first_passed, no_longer_passed;  // fragments that begin, and cease, to pass the depth test there
     std::vector<std::uint64_t> discarded;                       // by pixels that have a layer i - 1
     std::vector<std::uint64_t> exhausted;                       // discarded from there on by pixels that have none
+
+    void make_room(std::size_t passes) {
+        if (exhausted.size() > passes) return;
+        for (auto* const tally : {&first_passed, &no_longer_passed, &discarded, &exhausted}) tally->resize(2 * passes + 1);
+    }
+};
+
+// A set of places in a column.
+class PlaceSet {
+  public:
+    void clear(std::size_t places) { words_.assign(places / 64 + 1, 0); }
+    void add(std::size_t place) { words_[place / 64] |= std::uint64_t{1} << (place % 64); }
+    // How many places there are up to the last member before `place`; 0 if there is none.
+    [[nodiscard]] std::size_t before(std::size_t place) const {
+        std::size_t word = place / 64;
+        std::uint64_t bits = words_[word] & ((std::uint64_t{1} << (place % 64)) - 1);
+        while (bits == 0 && word > 0) bits = words_[--word];
+        return bits == 0 ? 0 : word * 64 + static_cast<std::size_t>(std::bit_width(bits));
+    }
+
+  private:
+    std::vector<std::uint64_t> words_;
 };
 
 class ColumnTallies {
@@ -31,46 +54,43 @@ class ColumnTallies {
 
     void add(const Columns& columns, std::size_t pixel) {
         const std::uint32_t n = columns.visible[pixel];
+        if (columns.alive[pixel] == 0) return;
+        tallies_.make_room(n + 2);
         rank_.resize(n);
+        place_.resize(n);
         std::uint32_t depths = 0;
         for (std::uint32_t k = 0; k < n; ++k) {
-            const bool is_new = k == 0 || columns.key[columns.slot(pixel, k)] != columns.key[columns.slot(pixel, k - 1)];
-            if (is_new && k > 0) tally(tallies_.discarded, depths + 1, k);  // at or before depth `depths`
+            const std::size_t slot = columns.slot(pixel, k);
+            const bool is_new = k == 0 || columns.key[slot] != columns.key[slot - block_lanes];
+            if (is_new && k > 0) tallies_.discarded[depths + 1] += k;  // at or before depth `depths`
             depths += is_new ? 1 : 0;
             rank_[k] = depths;
+            place_[columns.order[slot]] = k;
         }
-        if (n > 0) tally(tallies_.discarded, depths + 1, n);
-        tally(tallies_.exhausted, depths + 2, n + columns.at_surface[pixel]);
-        add_passed(columns, pixel, n);
+        if (n > 0) tallies_.discarded[depths + 1] += n;
+        tallies_.exhausted[depths + 2] += n + columns.at_surface[pixel];
+        add_passed(n);
     }
 
   private:
-    // Takes the arrivals out of the sorted column, last one first: what then stands before an arrival came before it.
-    void add_passed(const Columns& columns, std::size_t pixel, std::uint32_t n) {
-        before_.resize(n);
-        after_.resize(n);
-        place_.resize(n);
-        for (std::uint32_t k = 0; k < n; ++k) {
-            before_[k] = k;  // one more than the place before; 0: none
-            after_[k] = k + 1;
-            place_[columns.order[columns.slot(pixel, k)]] = k;
-        }
-        for (std::uint32_t arrival = n; arrival-- > 0;) {
-            const std::uint32_t k = place_[arrival], before = before_[k], after = after_[k];
-            if (before > 0) after_[before - 1] = after;
-            if (after < n) before_[after] = before;
+    void add_passed(std::uint32_t n) {
+        arrived_.clear(n);
+        for (const std::uint32_t place : place_) {
+            const std::size_t before = arrived_.before(place);
             const std::uint32_t threshold = before > 0 ? rank_[before - 1] : 0;
-            if (threshold == rank_[k]) continue;
-            tally(tallies_.first_passed, threshold + 1);
-            tally(tallies_.no_longer_passed, rank_[k] + 1);
+            arrived_.add(place);
+            if (threshold == rank_[place]) continue;
+            ++tallies_.first_passed[threshold + 1];
+            ++tallies_.no_longer_passed[rank_[place] + 1];
         }
     }
 
     PassTallies& tallies_;
-    std::vector<std::uint32_t> rank_, before_, after_, place_;
+    std::vector<std::uint32_t> rank_, place_;  // by place in the column; by arrival
+    PlaceSet arrived_;
 };
 
-// Composites the layers of up to 256 neighbouring pixels as `peel` and `composite` do: stored, loaded, blended UNDER.
+// Composites the layers of up to sixteen neighbouring pixels as `peel` and `composite` do: stored, loaded, blended UNDER.
 class GroupComposite {
   public:
     GroupComposite(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region)
@@ -118,6 +138,19 @@ class GroupComposite {
     ColorLanes color_, layer_;
 };
 
+// The same where no column has equal depths.
+void peel_layers(Region& region, const Columns& columns, std::size_t number, const PixelGroup& group, std::uint32_t first,
+                 ColorCodes& accumulated) {
+    PeelBlock block = peel_block(columns, number);
+    for (std::size_t c = 0; c < 4; ++c) std::copy_n(accumulated[c].begin(), block_lanes, block.front[c].begin());
+    peel_front(block, region.profile().blend_rounding);
+    for (std::size_t c = 0; c < 4; ++c) std::copy_n(block.front[c].begin(), block_lanes, accumulated[c].begin());
+    if (!region.frame().trace) return;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(group.count); ++i)
+        for (std::uint32_t k = 0; k < block.visible[i]; ++k)
+            region.trace({first + static_cast<std::uint32_t>(i), columns.key[columns.slot(group.first + i, k)], 0, Side::front, false});
+}
+
 // Everything that one iteration counts; called with 1, 2, 3 ...
 class PassCounters {
   public:
@@ -161,6 +194,7 @@ bool front_to_back_closed(Region& region) {
     PassTallies tallies;
     ColumnTallies pixel_tallies{tallies};
     Target accumulated;
+    const bool rgba8 = region.frame().color_format == Format::rgba8;
     const auto fragments = for_each_band(region, [&](const Columns& columns) {
         if (!accumulated.exists()) {
             accumulated = region.make_color();
@@ -169,11 +203,12 @@ bool front_to_back_closed(Region& region) {
         for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) pixel_tallies.add(columns, pixel);
         const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
                                   static_cast<std::size_t>(region.rect().width());
-        for_each_group(columns, [&](const PixelGroup& group) {
+        for_each_block(columns, [&](std::size_t number, const PixelGroup& group) {
             const auto first = static_cast<std::uint32_t>(above + group.first);
             ColorCodes codes;
             region.load_pixels(accumulated, first, group.count, codes);
-            GroupComposite{region, columns, group, first}.run(codes);
+            if (rgba8 && !columns.blocks[number].has_ties) peel_layers(region, columns, number, group, first, codes);
+            else GroupComposite{region, columns, group, first}.run(codes);
             region.store_pixels(accumulated, first, group.count, codes);
         });
     });

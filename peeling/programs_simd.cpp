@@ -5,6 +5,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "peeling/average.h"
 #include "peeling/min_max.h"
 #include "peeling/programs.h"
 #include "rasterizer/simd.h"
@@ -45,6 +46,11 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
     scalar::write_layers(color, front, place, next_front, back, padded(count));
 }
 
+[[gnu::flatten]] void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background, ColorLanes& out,
+                                    std::size_t count) {
+    scalar::resolve_average(sums, n, background, out, padded(count));
+}
+
 }  // namespace
 }  // namespace strata::peeling::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -58,6 +64,7 @@ HWY_EXPORT(discard_lanes);
 HWY_EXPORT(classify_lanes);
 HWY_EXPORT(min_max_lanes);
 HWY_EXPORT(layer_lanes);
+HWY_EXPORT(average_lanes);
 
 inline namespace strict {
 
@@ -93,6 +100,12 @@ void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes&
                   pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept {
     if (simd_is_scalar()) return scalar::write_layers(in.color, front, place, next_front, back, lanes(in));
     HWY_DYNAMIC_DISPATCH(layer_lanes)(in.color, front, place, next_front, back, lanes(in));
+}
+
+void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,
+                     const pipeline::ColorLanes& background, pipeline::ColorLanes& out, std::size_t count) noexcept {
+    if (simd_is_scalar()) return scalar::resolve_average(sums, n, background, out, count);
+    HWY_DYNAMIC_DISPATCH(average_lanes)(sums, n, background, out, count);
 }
 
 }  // namespace strict

@@ -154,6 +154,7 @@ struct Renderer::State {
         f.max_passes = options.max_passes;
         f.effects = options.effects;
         f.replay = replay(algorithm);
+        f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
         f.trust_idle = options.trust_idle;
         f.trace = options.audit;

@@ -24,7 +24,7 @@ struct RenderOptions {
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments
-    int tile_size = 32;
+    int tile_size = 64;
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Format average_count = pipeline::Format::r16f;

@@ -4,9 +4,7 @@
 // Needs      fp16 additive blending, two render targets.
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets' precision.
-#include <cmath>
-
-#include "peeling/programs.h"
+#include "peeling/average.h"
 #include "peeling/runs.h"
 
 namespace strata::peeling {
@@ -14,26 +12,6 @@ namespace strata::peeling {
 using namespace pipeline;
 
 namespace {
-
-// base^n in binary32 by repeated squaring from the lowest bit of n, every product rounded.
-float power(float base, std::uint32_t n) noexcept {
-    float result = 1.0f;
-    for (; n != 0; n >>= 1) {
-        if (n & 1u) result = result * base;
-        base = base * base;
-    }
-    return result;
-}
-
-Rgba average(const Rgba& sums, float n, const Rgba& background) noexcept {
-    const float sum_alpha = sums[3];
-    if (!(n > 0.0f) || !(sum_alpha > 0.0f)) return {background[0], background[1], background[2], 1.0f};  // sum 0 is our guard
-    const float transmitted = power(1.0f - sum_alpha / n, static_cast<std::uint32_t>(n < 0x1p31f ? n : 0x1p31f));
-    Rgba color{0, 0, 0, 1};
-    for (std::size_t c = 0; c < 3; ++c)
-        color[c] = (sums[c] / sum_alpha) * (1.0f - transmitted) + background[c] * transmitted;
-    return color;
-}
 
 Target accumulate(Region& region, Target sums, Target count) {
     region.clear(sums, {});
@@ -67,16 +45,13 @@ void weighted_average(Region& region) {
     std::uint64_t stuck = 0;
     std::uint32_t first_stuck = ~0u;
     static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        const ColorLanes& s = own.color(0);
-        const ColorLanes& b = own.color(2);
+        const ColorLanes& sum = own.color(0);
+        const Lanes<float>& n = own.color(1)[0];
+        resolve_average(sum, n, own.color(2), out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            const float n = own.color(1)[0][i];
-            const Rgba color = average({s[0][i], s[1][i], s[2][i], s[3][i]}, n, {b[0][i], b[1][i], b[2][i], b[3][i]});
-            for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = color[c];
-            if ((half_count && n >= 2048.0f) || !(s[3][i] <= 65504.0f)) {
-                ++stuck;
-                first_stuck = std::min(first_stuck, in.pixel[i]);
-            }
+            if (!(half_count && n[i] >= 2048.0f) && sum[3][i] <= 65504.0f) continue;
+            ++stuck;
+            first_stuck = std::min(first_stuck, in.pixel[i]);
         }
     }));
     region.report(Fault::half_saturated, stuck, first_stuck, "an fp16 sum or count has stopped growing (hardware.md 9)");

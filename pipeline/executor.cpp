@@ -36,6 +36,7 @@ class FrameRun {
         const auto& geometry = frame.transparent->geometry;
         const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
         regions_.resize(extent_ == Extent::frame ? 1 : tiles);
+        twin_.assign(regions_.size(), no_twin);
         const rasterizer::Rect rect = frame.rect();
         result_.color = Image{frame.published_format.value_or(frame.color_format), rect.width(), rect.height()};
         if (frame.nearest_depth)
@@ -43,9 +44,8 @@ class FrameRun {
     }
 
     FrameResult finish() {
-        std::vector<std::size_t> all(regions_.size());
-        for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
-        run(all, {});
+        run(run_one_blank_of_each_size(), {});
+        copy_blanks();
         settle();
         gather();
         return std::move(result_);
@@ -63,6 +63,51 @@ class FrameRun {
             std::copy_n(part.codes.begin() + static_cast<std::ptrdiff_t>(part.index(0, y)), row,
                         whole.codes.begin() + static_cast<std::ptrdiff_t>(whole.index(
                                                   at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
+    }
+
+    [[nodiscard]] bool is_blank(std::size_t r) const {
+        const auto is_empty = [&](const PreparedDraw* list) { return list == nullptr || list->geometry.bin(r).empty(); };
+        return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.alike_where_blank &&
+               is_empty(frame_.transparent) && is_empty(frame_.opaque);
+    }
+
+    // What one blank tile does, every blank tile of its size does: the first of them stands for the others.
+    [[nodiscard]] std::vector<std::size_t> run_one_blank_of_each_size() {
+        std::vector<std::size_t> others;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            if (!is_blank(r)) {
+                others.push_back(r);
+                continue;
+            }
+            const auto same_size = [&](std::size_t b) {
+                return rect(b).width() == rect(r).width() && rect(b).height() == rect(r).height();
+            };
+            const auto found = std::find_if(blanks_.begin(), blanks_.end(), same_size);
+            twin_[r] = found == blanks_.end() ? r : *found;
+            if (found != blanks_.end()) continue;
+            run_region(r, {});
+            if (regions_[r].diagnostics.empty()) blanks_.push_back(r);  // they name pixels
+        }
+        return others;
+    }
+
+    void copy_blanks() {
+        parallel_for(regions_.size(), threads_, [&](std::size_t r) {
+            if (twin_[r] == no_twin || twin_[r] == r) return;
+            regions_[r] = regions_[twin_[r]];
+            regions_[r].fragments = 0;
+            copy(twin_[r], r, result_.color);
+            if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
+        });
+    }
+
+    void copy(std::size_t from, std::size_t to, Image& image) const {
+        const auto row = static_cast<std::size_t>(rect(from).width()) * static_cast<std::size_t>(image.channels());
+        const auto at = [&](std::size_t r, int y) {
+            return image.codes.begin() +
+                   static_cast<std::ptrdiff_t>(image.index(rect(r).x0 - frame_.rect().x0, rect(r).y0 - frame_.rect().y0 + y));
+        };
+        for (int y = 0; y < rect(from).height(); ++y) std::copy_n(at(from, y), row, at(to, y));
     }
 
     void run_region(std::size_t r, const std::vector<bool>& script) {
@@ -184,6 +229,8 @@ class FrameRun {
     Extent extent_;
     Region::ScratchPool scratch_;
     std::vector<RegionRun> regions_;
+    static constexpr std::size_t no_twin = ~std::size_t{0};
+    std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
     FrameResult result_;
     std::atomic<std::size_t> finished_{0};
 };

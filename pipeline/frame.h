@@ -45,6 +45,7 @@ struct Frame {
     Termination termination;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
+    bool alike_where_blank = false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
     Replay replay;
     bool keep_layers = false;

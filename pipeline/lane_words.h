@@ -68,6 +68,12 @@ void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, un
 DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* code,
                        Word* alive) noexcept;
 
+// One walk for what weighted averages and sums do to every fragment: each of the texels' fp16 channels plus `source`, as
+// blend_float.h adds with both factors 1, rounded to nearest even, where a lane lives. False, and nothing done, on sets
+// without half conversion: then it is gathered, blended and scattered, which is the definition.
+[[nodiscard]] bool add_halves(const Texels& to, const PixelLanes& at, const Word* alive,
+                              const rasterizer::Lanes<float>* source, bool flushes) noexcept;
+
 inline namespace strict {
 namespace scalar {
 

@@ -119,9 +119,11 @@ class Region {
     [[nodiscard]] Target nearest_depth();
 
     // For closed forms (peeling/closed_form.h): a way to the same bits that is not the machine's, in the machine's own books.
-    // The list's fragments in `band`, a rectangle of this region, after MASK; `pixel` counts from the band's first. Not a pass.
-    // `coverage[i]` = how many fragments pixel i of the region gets, before MASK.
+    // The list's fragments in `band`, whole rows of this region, after MASK; `pixel` counts from the band's first. Not a pass.
+    // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
     void count_coverage(std::span<std::uint32_t> coverage);
+    // Captures the region's fragments, if they fit into `bytes`: then `look` and `count_coverage` recall them.
+    [[nodiscard]] bool remember(const rasterizer::FragmentNeeds& needs, std::uint64_t bytes);
     template <FragmentProgram P>
     void look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
     [[nodiscard]] Arena& arena() noexcept;  // free again when the region is gone
@@ -166,6 +168,7 @@ class Region {
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, rasterizer::BatchSink sink);
     void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink);
     void replay(rasterizer::BatchSink sink);
+    [[nodiscard]] bool holds(rasterizer::FragmentNeeds needs) noexcept;
     [[nodiscard]] FragmentStore& store() noexcept;
     void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);

@@ -38,10 +38,11 @@ void Region::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect
     counts_ = false;
     auto sink = [&](FragmentBatch& batch) {
         Outputs& out = start_batch(batch);
-        shade(*frame_.transparent, batch, out);
+        shade_or_recall(*frame_.transparent, batch, out);
         program(static_cast<const FragmentBatch&>(batch), loads(), out);
     };
-    rasterize_band(needs, band, rasterizer::BatchSink{sink});
+    if (band == rect_ && holds(needs)) replay(rasterizer::BatchSink{sink});
+    else rasterize_band(needs, band, rasterizer::BatchSink{sink});
     counts_ = true;
 }
 

@@ -1,5 +1,6 @@
 // pipeline/region_replay.cpp - where a geometry pass gets its fragments from: the rasterizer, or what an earlier pass captured.
 #include <algorithm>
+#include <utility>
 
 #include "pipeline/effects.h"
 #include "pipeline/region.h"
@@ -20,13 +21,30 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer
 }
 
 void Region::count_coverage(std::span<std::uint32_t> coverage) {
-    const rasterizer::Geometry& geometry = frame_.transparent->geometry;
     auto add = [&](FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
     };
+    const rasterizer::BatchSink sink{add};
     constexpr FragmentNeeds nothing{false, false, false, false, false, false};
-    rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
+    const rasterizer::Geometry& geometry = frame_.transparent->geometry;
+    if (holds(nothing)) replay(sink);
+    else rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, sink);
 }
+
+bool Region::remember(const FragmentNeeds& needs, std::uint64_t bytes) {
+    counts_ = false;
+    source_ = Source::captured;
+    store().start(needs, bytes);
+    auto keep = [&](FragmentBatch& batch) { shade_or_recall(*frame_.transparent, batch, start_batch(batch)); };
+    rasterize_band(needs, rect_, rasterizer::BatchSink{keep});
+    store().finish();
+    source_ = Source::rasterizer;
+    counts_ = true;
+    if (!holds(needs)) store().forget();  // there is more than this, but it may be less than replay is allowed
+    return holds(needs);
+}
+
+bool Region::holds(FragmentNeeds needs) noexcept { return store().serves(needs); }
 
 void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink) {
     const PreparedDraw& list = *frame_.transparent;
@@ -38,10 +56,12 @@ void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, r
 }
 
 void Region::replay(rasterizer::BatchSink sink) {
+    const Source before = std::exchange(source_, Source::store);
     for (std::size_t number = 0; number < store().batches(); ++number) {
         store().recall(number, scratch_->recalled, scratch_->recalled_alive);
         sink(scratch_->recalled);
     }
+    source_ = before;
 }
 
 // The first pass over the transparent list captures what it and all later passes look at; a list that did not fit is rasterized
@@ -55,7 +75,6 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     FragmentNeeds kept = needs;
     kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture
     if (may_replay && store().serves(kept)) {
-        source_ = Source::store;
         replay(sink);
     } else if (may_replay && store().may_start()) {
         source_ = Source::captured;

@@ -242,9 +242,14 @@ void Region::write_colors(const PassState& state, const FragmentBatch& batch, co
         if (!state.color[k].exists() || blending.write_mask == 0) continue;
         TargetStorage& target = at(state.color[k]);
         const FormatInfo format = info(target.format());
+        if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
+        const bool adds_halves = frame_.effects == Effects::needed && format.type == ChannelType::half &&
+                                 profile().half_rounding == HalfRounding::nearest_even && blending == blend_mode::sum;
+        if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],
+                                      profile().denormals == DenormalRule::flush))
+            continue;
         if (blending.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
             target.gather(batch.pixel, batch.count, sample, scratch_->codes);
-        if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
         blend(blending, format.type, profile(), format.channels, out.color[k], scratch_->codes, batch.count);
         target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, scratch_->codes);
     }

@@ -209,6 +209,72 @@ DepthResult test_plane(const DepthTest& state, DepthFormat format, Plane plane, 
     return result;
 }
 
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
+constexpr bool has_halves = true;
+
+using Floats = hn::Repartition<float, Words>;
+using FloatVec = hn::Vec<Floats>;
+using Half16 = hn::Rebind<hwy::float16_t, Floats>;
+using Code16 = hn::Rebind<std::uint16_t, Words>;
+
+// The machine's conversions round as half.h says (blend_simd.cpp).
+HWY_INLINE FloatVec widened(WordVec halves) {
+    const auto narrow = hn::DemoteTo(Code16{}, hn::BitCast(hn::RebindToSigned<Words>{}, halves));
+    return hn::PromoteTo(Floats{}, hn::BitCast(Half16{}, narrow));
+}
+HWY_INLINE WordVec rounded_to_half(FloatVec values) {
+    return hn::PromoteTo(Words{}, hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, values)));
+}
+
+// Source plus destination as blend_float.h adds them. A sum that is denormal in binary32 is a zero of its sign as a half,
+// flushed or not; a denormal source must be flushed, for the sign of its zero shows.
+template <bool flushes>
+HWY_INLINE WordVec sum_of_halves(FloatVec source, WordVec stored) {
+    const Words d;
+    if constexpr (flushes) {
+        const WordVec bits = hn::BitCast(d, source);
+        const WordMask is_small = hn::Eq(hn::And(bits, hn::Set(d, 0x7f800000u)), hn::Zero(d));
+        source = hn::BitCast(Floats{}, hn::IfThenElse(is_small, hn::And(bits, hn::Set(d, 0x80000000u)), bits));
+    }
+    const FloatVec sum = hn::Add(source, widened(stored));
+    const FloatVec nan = hn::BitCast(Floats{}, hn::Set(d, 0x7fffffffu));
+    return rounded_to_half(hn::IfThenElse(hn::Eq(sum, sum), sum, nan));
+}
+
+template <bool flushes, int channels>
+HWY_INLINE void add_to_word(Plane plane, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source) {
+    const Words d;
+    for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
+        const Group group = group_at(at, i);
+        const WordVec stored = load(plane, group);
+        WordVec sum = sum_of_halves<flushes>(hn::LoadU(Floats{}, &source[0][i]), hn::And(stored, hn::Set(d, 0xffffu)));
+        if constexpr (channels == 2) {
+            const WordVec upper = sum_of_halves<flushes>(hn::LoadU(Floats{}, &source[1][i]), hn::ShiftRight<16>(stored));
+            sum = hn::Or(sum, hn::ShiftLeft<16>(upper));
+        }
+        store(plane, group, hn::And(group.in_batch, is_set(alive + i)), sum);
+    }
+}
+
+template <bool flushes>
+void add_to_words(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source) {
+    if (to.channels == 1) return add_to_word<flushes, 1>(to.plane(0), at, alive, source);
+    for (std::size_t word = 0; word < to.words(); ++word)
+        add_to_word<flushes, 2>(to.plane(word), at, alive, source + 2 * word);
+}
+#else
+constexpr bool has_halves = false;
+
+template <bool flushes>
+void add_to_words(const Texels&, const PixelLanes&, const Word*, const rasterizer::Lanes<float>*) {}
+#endif
+
+bool add(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source, bool flushes) {
+    if (flushes) add_to_words<true>(to, at, alive, source);
+    else add_to_words<false>(to, at, alive, source);
+    return has_halves;
+}
+
 [[gnu::flatten]] void decode_lanes(ChannelType type, const std::uint32_t* codes, float* values, std::size_t count) {
     scalar::decode(type, codes, values, padded(count));
 }
@@ -238,6 +304,7 @@ HWY_EXPORT(count_set);
 HWY_EXPORT(gather);
 HWY_EXPORT(scatter);
 HWY_EXPORT(test_plane);
+HWY_EXPORT(add);
 HWY_EXPORT(decode_lanes);
 HWY_EXPORT(encode_lanes);
 HWY_EXPORT(test_alpha);
@@ -262,6 +329,11 @@ DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, 
                        Word* alive) noexcept {
     if (simd_is_scalar()) return scalar::test_depth(state, format, plane, at, code, alive);
     return HWY_DYNAMIC_DISPATCH(test_plane)(state, format, plane, at, code, alive);
+}
+
+bool add_halves(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source,
+                bool flushes) noexcept {
+    return !simd_is_scalar() && HWY_DYNAMIC_DISPATCH(add)(to, at, alive, source, flushes);
 }
 
 void decode(ChannelType type, const rasterizer::Lanes<std::uint32_t>& codes, rasterizer::Lanes<float>& values,

@@ -50,6 +50,12 @@ class TargetStorage {
     void scatter(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
                  unsigned mask, const ColorCodes& codes);
 
+    // As add_halves of lane_words.h; of an fp16 target.
+    [[nodiscard]] bool add(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
+                           const ColorLanes& source, bool flushes) {
+        return add_halves(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, alive.data(), source.data(), flushes);
+    }
+
     [[nodiscard]] Plane depth_plane(int sample) noexcept { return texels(sample).plane(0); }
     [[nodiscard]] Plane stencil_plane(int sample) noexcept { return texels(sample).plane(stencil_word()); }
     [[nodiscard]] const std::uint32_t* depth(int sample) const noexcept { return texels(sample).plane(0).words; }

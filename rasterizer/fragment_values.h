@@ -26,6 +26,9 @@ struct DrawnTriangle {
 
     DrawnTriangle(const Geometry& g, std::uint32_t i) noexcept
         : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record} {}
+    // The same of small triangle `k` of a group.
+    DrawnTriangle(const Geometry& g, std::uint32_t i, const TriangleGroup& group, std::size_t k) noexcept
+        : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record, group, k} {}
     [[nodiscard]] TriangleEdges edges() const noexcept { return {geometry.points(record), geometry.rules.tie_rule}; }
 };
 

@@ -11,23 +11,15 @@
 #include "rasterizer/pixel_claims.h"
 #include "rasterizer/pixel_weights.h"
 #include "rasterizer/plane.h"
+#include "rasterizer/small_triangles.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
 
-inline constexpr int usable_capacity = batch_capacity - 16;
 inline constexpr int max_span_rows = 128;  // found at a time
 
 struct RowSpan {
     int x0, x1;  // pixels [x0, x1) of a row of the surface
-};
-
-// Edge values in 32 bits, less the tie: a centre is covered if all three are >= 0. For triangles of at most 2^14
-// subpixels either way and boxes within theirs: |E| <= 2^14 2^14 2 = 2^29. At lanes beyond the box they may wrap.
-struct SmallEdges {
-    static constexpr int max_width = 16, max_extent = 1 << 14;
-    std::int32_t value[3], step[3], down[3];  // at the centre of the box's first pixel; a pixel right; a pixel down
-    int x0, width;
 };
 
 // Rows of one triangle on their way into a batch, from where it was interrupted.
@@ -68,8 +60,6 @@ struct LaneKernels {
     // Appends the pixels of the spans until the rows are done (true), or the batch is full or holds the next one already
     // (false).
     bool (*emit)(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept;
-    // The same with the covered span of each row.
-    bool (*emit_small)(const SmallEdges& edges, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept;
     // b1 and b2 at `count` pixels; not for Kind::snapped_wide.
     void (*weights)(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count, double* b1,
                     double* b2) noexcept;
@@ -140,21 +130,6 @@ template <class SpanOf, class Append>
 inline bool emit(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept {
     return emit_rows(
         run, claims, batch, [&](int row) { return spans[row]; }, append);
-}
-
-inline bool emit_small(const SmallEdges& edges, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept {
-    const auto span_of = [&](int row) {
-        RowSpan span{0, 0};
-        for (int k = 0; k < edges.width; ++k) {
-            std::int32_t any = 0;
-            for (int i = 0; i < 3; ++i) any |= edges.value[i] + row * edges.down[i] + k * edges.step[i];
-            if (any < 0) continue;
-            if (span.x1 == 0) span.x0 = k;
-            span.x1 = k + 1;
-        }
-        return RowSpan{edges.x0 + span.x0, edges.x0 + span.x1};
-    };
-    return emit_rows(run, claims, batch, span_of, append);
 }
 
 inline void weights(const PixelWeights& w, const std::uint16_t* __restrict x, const std::uint16_t* __restrict y,

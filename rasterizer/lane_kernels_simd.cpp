@@ -27,6 +27,7 @@ using Row16 = hn::Rebind<std::uint16_t, Row32>;
 
 // hn::Iota goes through the stack, and waits for it.
 alignas(64) constexpr std::int32_t counting32[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+alignas(64) constexpr double counting64[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 alignas(64) constexpr std::uint16_t counting16[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 // Writes `count` pixels of a row from lane `held` on.
@@ -57,43 +58,6 @@ struct AppendRow {
     return scalar::emit_rows(run, claims, batch, span_of, AppendRow{});
 }
 
-// The covered pixels of a row of a small triangle, a bit each.
-class SmallRows {
-  public:
-    HWY_INLINE explicit SmallRows(const SmallEdges& edges) : edges_{edges} {}
-
-    RowSpan operator()(int row) const {
-        std::uint32_t bits = covered(row, 0);
-        for (int first = lanes; first < SmallEdges::max_width && first < edges_.width; first += lanes)
-            bits |= covered(row, first) << first;
-        bits &= (1u << edges_.width) - 1;
-        const int first = bits == 0 ? 0 : std::countr_zero(bits);
-        return {edges_.x0 + first, edges_.x0 + static_cast<int>(std::bit_width(bits))};
-    }
-
-  private:
-    static constexpr int lanes = static_cast<int>(hn::MaxLanes(Row32{}));
-
-    HWY_INLINE std::uint32_t covered(int row, int first) const {
-        const Row32 d;
-        const auto k = hn::LoadU(d, counting32 + first);
-        const auto at = [&](int i) HWY_ATTR {
-            const auto start = hn::Set(d, edges_.value[i] + row * edges_.down[i]);
-            return hn::Add(start, hn::Mul(k, hn::Set(d, edges_.step[i])));  // the product is hoisted from the rows
-        };
-        const auto inside = hn::Gt(hn::Or(hn::Or(at(0), at(1)), at(2)), hn::Set(d, -1));
-        std::uint64_t bits = 0;
-        hn::StoreMaskBits(d, inside, reinterpret_cast<std::uint8_t*>(&bits));
-        return static_cast<std::uint32_t>(bits);
-    }
-    const SmallEdges edges_;
-};
-
-[[gnu::flatten]] bool emit_small(const SmallEdges& edges, RowRun& run, PixelClaims& claims,
-                                 FragmentBatch& batch) noexcept {
-    return scalar::emit_rows(run, claims, batch, SmallRows{edges}, AppendRow{});
-}
-
 // Pixel coordinates as binary64.
 HWY_INLINE V64 coordinates(const std::uint16_t* p) {
     return hn::PromoteTo(F64{}, hn::PromoteTo(I32{}, hn::LoadU(U16{}, p)));
@@ -103,32 +67,52 @@ struct Weights {
     V64 b1, b2;
 };
 
-// Of either kind: what does not change from lane to lane is hoisted by the compiler.
+// The weights of a kind, lanes of any rows or of one. What is the same in all lanes is hoisted by the compiler.
 template <bool unsnapped>
-HWY_INLINE Weights weights_at(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y) {
-    const F64 d;
-    const auto set = [&](double v) HWY_ATTR { return hn::Set(d, v); };
-    V64 px = coordinates(x), py = coordinates(y);
-    if constexpr (unsnapped) {
-        px = hn::Sub(hn::Add(px, set(0.5)), set(w.x0));
-        py = hn::Sub(hn::Add(py, set(0.5)), set(w.y0));
-        return {hn::Mul(hn::Sub(hn::Mul(px, set(w.y2)), hn::Mul(py, set(w.x2))), set(w.r)),
-                hn::Mul(hn::Sub(hn::Mul(py, set(w.x1)), hn::Mul(px, set(w.y1))), set(w.r))};
-    } else {
-        const auto at = [&](const PixelWeights::EdgePlane& e) HWY_ATTR {
-            const V64 xy = hn::Add(hn::Mul(px, set(e.step_x)), hn::Mul(py, set(e.step_y)));
-            return hn::Mul(hn::Add(xy, set(e.constant)), set(w.r));
-        };
-        return {at(w.e1), at(w.e2)};
+class WeightsAt {
+  public:
+    HWY_INLINE explicit WeightsAt(const PixelWeights& w) : w_{w} {}
+
+    HWY_INLINE Weights lanes(const std::uint16_t* x, const std::uint16_t* y) const {
+        return at(coordinates(x), row_terms(coordinates(y)));
     }
-}
+    // The pixels from (x, y) on; `terms` are those of row y.
+    HWY_INLINE Weights row(int x, const Weights& terms) const {
+        return at(hn::Add(hn::Set(F64{}, static_cast<double>(x)), hn::Load(F64{}, counting64)), terms);
+    }
+    // What depends on y alone.
+    HWY_INLINE Weights row_terms(V64 y) const {
+        if constexpr (unsnapped) {
+            const V64 dy = hn::Sub(hn::Add(y, set(0.5)), set(w_.y0));
+            return {hn::Mul(dy, set(w_.x2)), hn::Mul(dy, set(w_.x1))};
+        } else {
+            return {hn::Mul(y, set(w_.e1.step_y)), hn::Mul(y, set(w_.e2.step_y))};
+        }
+    }
+
+  private:
+    [[nodiscard]] HWY_INLINE static V64 set(double v) { return hn::Set(F64{}, v); }
+    HWY_INLINE Weights at(V64 x, const Weights& terms) const {
+        if constexpr (unsnapped) {
+            const V64 dx = hn::Sub(hn::Add(x, set(0.5)), set(w_.x0));
+            return {hn::Mul(hn::Sub(hn::Mul(dx, set(w_.y2)), terms.b1), set(w_.r)),
+                    hn::Mul(hn::Sub(terms.b2, hn::Mul(dx, set(w_.y1))), set(w_.r))};
+        } else {
+            const V64 e1 = hn::Add(hn::Add(hn::Mul(x, set(w_.e1.step_x)), terms.b1), set(w_.e1.constant));
+            const V64 e2 = hn::Add(hn::Add(hn::Mul(x, set(w_.e2.step_x)), terms.b2), set(w_.e2.constant));
+            return {hn::Mul(e1, set(w_.r)), hn::Mul(e2, set(w_.r))};
+        }
+    }
+    const PixelWeights w_;
+};
 
 template <bool unsnapped>
 HWY_INLINE void weights_of(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count,
                            double* HWY_RESTRICT b1, double* HWY_RESTRICT b2) {
     const F64 d;
+    const WeightsAt<unsnapped> at{w};
     for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
-        const Weights b = weights_at<unsnapped>(w, x + i, y + i);
+        const Weights b = at.lanes(x + i, y + i);
         hn::StoreU(b.b1, d, b1 + i);
         hn::StoreU(b.b2, d, b2 + i);
     }
@@ -189,13 +173,23 @@ HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthLanes& out) {
     return hn::BitCast(U32{}, hn::DemoteTo(I32{}, hn::Add(scaled, hn::Set(d64, out.half))));
 }
 
-template <bool unsnapped>
+template <bool unsnapped, bool by_rows>
 HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x,
                          const std::uint16_t* y, int count, const DepthLanes& out) {
     const F64 d;
+    const int step = static_cast<int>(hn::Lanes(d));
+    const WeightsAt<unsnapped> at{w};
+    Weights terms{hn::Zero(d), hn::Zero(d)};
+    int row = -1;
     auto unsure = hn::Zero(U32{});
-    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
-        const Weights b = weights_at<unsnapped>(w, x + i, y + i);
+    for (int i = 0; i < count; i += step) {
+        // A vector within a row, as most of a large triangle are, shares what depends on y with the one before.
+        const bool in_row = by_rows && i + step <= count && y[i] == y[i + step - 1];
+        if (in_row && y[i] != row) {
+            row = y[i];
+            terms = at.row_terms(hn::Set(d, static_cast<double>(row)));
+        }
+        const Weights b = in_row ? at.row(x[i], terms) : at.lanes(x + i, y + i);
         const V64 v = plane_at(plane, b);
         auto different = hn::Zero(U32{});
         // The lanes beyond the count hold pixels of no triangle: they may be unsure for nothing, and cost time alone.
@@ -212,12 +206,16 @@ HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const 
 
 bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
            const DepthLanes& out) noexcept {
-    if (w.kind == PixelWeights::Kind::unsnapped) return depth_of<true>(w, plane, x, y, count, out);
-    return depth_of<false>(w, plane, x, y, count, out);
+    const bool by_rows = count >= 64;
+    if (w.kind == PixelWeights::Kind::unsnapped)
+        return by_rows ? depth_of<true, true>(w, plane, x, y, count, out)
+                       : depth_of<true, false>(w, plane, x, y, count, out);
+    return by_rows ? depth_of<false, true>(w, plane, x, y, count, out)
+                   : depth_of<false, false>(w, plane, x, y, count, out);
 }
 
 const LaneKernels* table() {
-    static constexpr LaneKernels kernels{emit, emit_small, weights, attributes, depth};
+    static constexpr LaneKernels kernels{emit, weights, attributes, depth};
     return &kernels;
 }
 
@@ -231,7 +229,7 @@ HWY_EXPORT(table);
 inline namespace strict {
 
 const LaneKernels& lane_kernels() noexcept {
-    static constexpr LaneKernels twins{scalar::emit, scalar::emit_small, scalar::weights, scalar::attributes, nullptr};
+    static constexpr LaneKernels twins{scalar::emit, scalar::weights, scalar::attributes, nullptr};
     return simd_is_scalar() ? twins : *HWY_DYNAMIC_DISPATCH(table)();
 }
 

@@ -39,6 +39,31 @@ class PixelClaims {
         return true;
     }
 
+    struct Place {
+        std::size_t row, column;
+    };
+    // Claims what `bits_of(row)` names, bit 0 at the column of `from`, in `rows` rows of at most 16 pixels; false as above.
+    template <class BitsOf>
+    [[nodiscard, gnu::always_inline]] bool claim_rows(Place from, unsigned width, unsigned rows,
+                                                      const BitsOf& bits_of) noexcept {
+        std::uint64_t* word = &word_[from.row * words_a_row_ + from.column / 32];
+        const std::uint64_t number = std::uint64_t{batch_} << 32;
+        const unsigned shift = from.column % 32;
+        const bool crosses = shift + width > 32;
+        std::uint64_t twice = 0;
+        const auto add = [&](std::uint64_t& to, std::uint32_t bits) {
+            const std::uint64_t held = to >> 32 == batch_ ? to : number;
+            twice |= held & bits;
+            to = held | bits;
+        };
+        for (unsigned row = 0; row < rows; ++row, word += words_a_row_) {
+            const std::uint64_t bits = std::uint64_t{bits_of(row)} << shift;
+            add(word[0], static_cast<std::uint32_t>(bits));
+            if (crosses) add(word[1], static_cast<std::uint32_t>(bits >> 32));
+        }
+        return twice == 0;
+    }
+
   private:
     std::size_t words_a_row_;
     std::vector<std::uint64_t> word_;

@@ -9,6 +9,7 @@
 #include "rasterizer/coverage.h"
 #include "rasterizer/fragment_batch.h"
 #include "rasterizer/geometry.h"
+#include "rasterizer/small_triangles.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
@@ -42,15 +43,24 @@ struct PixelWeights {
         e2 = plane(edges.edge(2), geometry.rules.subpixel_bits);
         kind = std::max(size(e1), size(e2)) > 0x1p53 ? Kind::snapped_wide : Kind::snapped;
     }
+    // Of small triangle `k` of a group: never wide. The same integers.
+    PixelWeights(const Geometry& geometry, const TriangleRecord& triangle, const TriangleGroup& group,
+                 std::size_t k) noexcept {
+        if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
+        r = 1.0 / group.area[k];
+        e1 = plane(group, k, 1);
+        e2 = plane(group, k, 2);
+        kind = Kind::snapped;
+    }
     [[nodiscard]] bool is_exact() const noexcept { return kind != Kind::unsnapped; }
 
   private:
     // False if the unsnapped corners lie on a line and have no plane.
     [[nodiscard]] bool unsnap(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
         const auto& corners = geometry.corners;
-        const auto [p0, p1, p2] =
-            std::array{corners[triangle.vertex[0]].unsnapped, corners[triangle.vertex[1]].unsnapped,
-                       corners[triangle.vertex[2]].unsnapped};
+        const auto& p0 = corners[triangle.vertex[0]].unsnapped;
+        const auto& p1 = corners[triangle.vertex[1]].unsnapped;
+        const auto& p2 = corners[triangle.vertex[2]].unsnapped;
         x0 = p0[0], y0 = p0[1];
         x1 = p1[0] - x0, y1 = p1[1] - y0;
         x2 = p2[0] - x0, y2 = p2[1] - y0;
@@ -63,6 +73,13 @@ struct PixelWeights {
         const auto unit = static_cast<double>(1 << subpixel_bits);
         return {static_cast<double>(edge.step_x()) * unit, static_cast<double>(edge.step_y()) * unit,
                 static_cast<double>(edge.at(pixel_centre(0, 0, subpixel_bits)))};
+    }
+    [[nodiscard]] static EdgePlane plane(const TriangleGroup& g, std::size_t k, std::size_t i) noexcept {
+        const auto number = [k](const TriangleGroup::Row& row) { return std::int64_t{static_cast<std::int32_t>(row[k])}; };
+        const std::int64_t right = number(g.step[i]), down = number(g.down[i]);
+        const std::int64_t first = number(g.value[i]) + number(g.tie[i]);
+        return {static_cast<double>(right), static_cast<double>(down),
+                static_cast<double>(first - number(g.x0) * right - number(g.y0) * down)};
     }
     [[nodiscard]] static constexpr double size(const EdgePlane& e) noexcept {
         const auto magnitude = [](double v) { return v < 0.0 ? -v : v; };

@@ -20,27 +20,8 @@ namespace {
     return true;
 }
 
-[[nodiscard]] bool is_small(const std::array<SubpixelPoint, 3>& p, const Rect& box) noexcept {
-    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
-    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
-    return box.width() <= SmallEdges::max_width && std::max(right - left, bottom - top) <= SmallEdges::max_extent;
-}
-
-[[nodiscard]] SmallEdges small_edges(const std::array<SubpixelPoint, 3>& p, TieRule rule, const Rect& box,
-                                     int subpixel_bits) noexcept {
-    SmallEdges small{{}, {}, {}, box.x0, box.width()};
-    const SubpixelPoint first = pixel_centre(box.x0, box.y0, subpixel_bits);
-    const std::int32_t area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
-    const std::int32_t turn = area > 0 ? 1 : -1;
-    for (std::size_t i = 0; i < 3; ++i) {  // as Edge and TriangleEdges
-        const SubpixelPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];
-        const std::int32_t dx = turn * (to.x - from.x), dy = turn * (to.y - from.y);
-        const std::int32_t tie = Edge::owns_ties(dx, dy, rule) ? 0 : 1;
-        small.value[i] = dx * (first.y - from.y) - dy * (first.x - from.x) - tie;
-        small.step[i] = -dy * (1 << subpixel_bits);
-        small.down[i] = dx * (1 << subpixel_bits);
-    }
-    return small;
+[[nodiscard]] std::span<const std::uint32_t> first_of(std::span<const std::uint32_t> list, std::size_t count) noexcept {
+    return list.first(std::min(count, list.size()));
 }
 
 }  // namespace
@@ -55,32 +36,35 @@ class TileRasterizer::Pass {
           geometry_{geometry},
           sink_{sink},
           kernels_{lane_kernels()},
+          small_{small_kernels()},
           values_{geometry, depth, needs},
-          subpixel_bits_{geometry.rules.subpixel_bits},
-          clip_{intersection(owner.region_, geometry.state.viewport)} {
-        if (geometry.state.scissor) clip_ = intersection(clip_, *geometry.state.scissor);
+          rules_{intersection(owner.region_, geometry.state.viewport), geometry.rules.subpixel_bits,
+                 geometry.rules.tie_rule} {
+        if (geometry.state.scissor) rules_.clip = intersection(rules_.clip, *geometry.state.scissor);
     }
 
-    void draw(std::uint32_t index) {
-        const TriangleRecord& record = geometry_.triangles[index];
-        const std::array p = geometry_.points(record);
-        const Rect box = intersection(centre_box(p, subpixel_bits_), clip_);
-        if (box.x0 >= box.x1 || box.y0 >= box.y1) return;
-        if (record.material != batch_.material) {
-            flush();
-            batch_.material = record.material;
+    // At most TriangleGroup::size triangles.
+    void draw(std::span<const std::uint32_t> triangles) {
+        for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
+            const std::array p = geometry_.points(geometry_.triangles[triangles[std::min(k, triangles.size() - 1)]]);
+            for (std::size_t i = 0; i < 3; ++i) {
+                group_.x[i][k] = static_cast<std::uint32_t>(p[i].x);
+                group_.y[i][k] = static_cast<std::uint32_t>(p[i].y);
+            }
         }
-        const DrawnTriangle triangle{geometry_, index};
-        const bool small = is_small(p, box);
-        first_ = batch_.count;
-        for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
-            rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
-            if (small)
-                emit_small(triangle, rows);
+        small_.set_up(rules_, group_);
+        for (std::size_t k = 0; k < triangles.size(); ++k) {
+            if (group_.width[k] == 0 || group_.height[k] == 0) continue;
+            const TriangleRecord& record = geometry_.triangles[triangles[k]];
+            if (record.material != batch_.material) {
+                flush();
+                batch_.material = record.material;
+            }
+            if (group_.small[k] != 0)
+                draw_small(triangles[k], k);
             else
-                emit(triangle, rows);
+                draw_large(triangles[k]);
         }
-        fill(triangle);
     }
 
     void flush() {
@@ -91,10 +75,35 @@ class TileRasterizer::Pass {
     }
 
   private:
+    void draw_small(std::uint32_t index, std::size_t k) {
+        const TriangleRecord& record = geometry_.triangles[index];
+        const Rect& region = owner_.region_;
+        const RegionPlace place{group_.x0[k] - static_cast<std::uint32_t>(region.x0),
+                                group_.y0[k] - static_cast<std::uint32_t>(region.y0),
+                                static_cast<std::uint32_t>(region.width()), record.primitive};
+        first_ = batch_.count;
+        if (!small_.emit(group_, k, place, owner_.claims_, batch_)) {
+            flush();
+            static_cast<void>(small_.emit(group_, k, place, owner_.claims_, batch_));
+        }
+        if (batch_.count > first_) fill({geometry_, index, group_, k});
+    }
+
+    void draw_large(std::uint32_t index) {
+        const DrawnTriangle triangle{geometry_, index};
+        const Rect box = intersection(centre_box(geometry_.points(triangle.record), rules_.subpixel_bits), rules_.clip);
+        first_ = batch_.count;
+        for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
+            rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
+            emit(triangle, rows);
+        }
+        fill(triangle);
+    }
+
     void find_spans(const TriangleEdges& edges, const Rect& rows) noexcept {
         RowSpan* const end = &spans_[static_cast<std::size_t>(rows.height())];
-        if (covers(edges, rows, subpixel_bits_)) return std::fill(spans_.data(), end, RowSpan{rows.x0, rows.x1});
-        RowWalker walker{edges, rows, subpixel_bits_};
+        if (covers(edges, rows, rules_.subpixel_bits)) return std::fill(spans_.data(), end, RowSpan{rows.x0, rows.x1});
+        RowWalker walker{edges, rows, rules_.subpixel_bits};
         for (RowSpan* row = spans_.data(); row != end; ++row, walker.next_row()) {
             const PixelSpan span = walker.span();
             *row = {span.x0, span.x1};
@@ -110,13 +119,6 @@ class TileRasterizer::Pass {
         find_spans(triangle.edges(), rows);
         RowRun run = row_run(triangle, rows);
         while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(triangle);
-    }
-
-    void emit_small(const DrawnTriangle& triangle, const Rect& rows) {
-        const SmallEdges small =
-            small_edges(geometry_.points(triangle.record), geometry_.rules.tie_rule, rows, subpixel_bits_);
-        RowRun run = row_run(triangle, rows);
-        while (!kernels_.emit_small(small, run, owner_.claims_, batch_)) fill_and_flush(triangle);
     }
 
     void fill_and_flush(const DrawnTriangle& triangle) {
@@ -135,9 +137,10 @@ class TileRasterizer::Pass {
     const Geometry& geometry_;
     const BatchSink& sink_;
     const LaneKernels& kernels_;
+    const SmallKernels& small_;
     FragmentValues values_;
-    int subpixel_bits_;
-    Rect clip_;
+    GroupRules rules_;
+    TriangleGroup group_;
     int first_ = 0;  // the present triangle's first fragment in the batch that has no values yet
     std::array<RowSpan, max_span_rows + 1> spans_;
 };
@@ -148,13 +151,14 @@ void TileRasterizer::draw(const Geometry& geometry, std::span<const std::uint32_
                           const FragmentNeeds& needs, BatchSink sink) {
     Pass pass{*this, geometry, depth, needs, sink};
     pass.flush();  // the claims of an earlier draw say nothing about this one
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        constexpr std::size_t far = 12, near = 6;  // what the coming triangles need is on its way
-        if (i + far < triangles.size()) __builtin_prefetch(&geometry.triangles[triangles[i + far]]);
-        if (i + near < triangles.size())
-            for (const std::uint32_t v : geometry.triangles[triangles[i + near]].vertex)
-                __builtin_prefetch(&geometry.corners[v]);
-        pass.draw(triangles[i]);
+    constexpr std::size_t group = TriangleGroup::size;
+    for (std::size_t at = 0; at < triangles.size(); at += group) {
+        const auto coming = [&](std::size_t i) { return triangles.subspan(std::min(i, triangles.size())); };
+        for (const std::uint32_t t : first_of(coming(at + 2 * group), group))  // what they need is on its way
+            __builtin_prefetch(&geometry.triangles[t]);
+        for (const std::uint32_t t : first_of(coming(at + group), group))
+            for (const std::uint32_t v : geometry.triangles[t].vertex) __builtin_prefetch(&geometry.corners[v]);
+        pass.draw(first_of(coming(at), group));
     }
     pass.flush();
 }

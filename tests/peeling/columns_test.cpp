@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "peeling/dual_pass.h"
+#include "peeling/block_passes.h"
 #include "rasterizer/simd.h"
 #include "tests/support/random_numbers.h"
 
@@ -82,7 +82,7 @@ std::uint32_t stored(float x) {
 struct Scene {
     std::vector<std::uint16_t> order;
     std::array<std::vector<float>, 4> color;
-    DualBlock block;
+    PeelBlock block;
 
     Scene(Random& random, std::uint32_t depth) : order(depth * block_lanes) {
         for (auto& channel : color)
@@ -141,8 +141,8 @@ TEST_CASE("a block of columns is peeled from both ends like its passes, on every
         for (std::size_t lane = 0; lane < block_lanes; ++lane) scene.expect(lane, front, back);
         for (const Simd simd : available_simd()) {
             REQUIRE(choose_simd(simd));
-            DualBlock block = scene.block;
-            peel_dual_block(block, pipeline::BlendRounding::nearest);
+            PeelBlock block = scene.block;
+            peel_both_ends(block, pipeline::BlendRounding::nearest);
             wrong += block.front == front && block.back == back ? 0 : 1;
         }
     }

@@ -3,10 +3,12 @@
 #include "peeling/programs.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
 
+#include "peeling/average.h"
 #include "peeling/min_max.h"
 #include "rasterizer/simd.h"
 #include "tests/support/random_numbers.h"
@@ -93,6 +95,36 @@ TEST_CASE("fragment programs compute the same bits on every instruction set") {
         }
         INFO("instruction set " << static_cast<int>(simd));
         CHECK(wrong == 0);
+    }
+    REQUIRE(choose_simd(Simd::best));
+}
+
+TEST_CASE("the average of n fragments covers as n of them would, whatever the instruction set") {
+    testing::Random random{79};
+    auto sums = std::make_unique<ColorLanes>(), background = std::make_unique<ColorLanes>();
+    auto found = std::make_unique<ColorLanes>();
+    Lanes<float> n{};
+    for (std::size_t i = 0; i < 256; ++i) {
+        n[i] = static_cast<float>(i < 40 ? i : testing::random_int(random, 0, 300));
+        for (std::size_t c = 0; c < 4; ++c) {
+            (*sums)[c][i] = n[i] * testing::random_float(random, 0.0f, 1.0f);
+            (*background)[c][i] = testing::random_channel(random);
+        }
+    }
+    for (const Simd simd : available_simd()) {
+        REQUIRE(choose_simd(simd));
+        resolve_average(*sums, n, *background, *found, 256);
+        double worst = 0;
+        for (std::size_t i = 0; i < 256; ++i)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double alpha = double{(*sums)[3][i]};
+                const double through = n[i] > 0 ? std::pow(1.0 - alpha / double{n[i]}, double{n[i]}) : 1.0;
+                const double own = alpha > 0 ? double{(*sums)[c][i]} / alpha * (1.0 - through) : 0.0;
+                const double expected = own + double{(*background)[c][i]} * (alpha > 0 ? through : 1.0);
+                worst = std::max(worst, std::fabs(double{(*found)[c][i]} - expected) / std::max(1.0, expected));
+            }
+        INFO("instruction set " << static_cast<int>(simd));
+        CHECK(worst < 1e-4);  // rounding of binary32, up to 300 factors
     }
     REQUIRE(choose_simd(Simd::best));
 }
