@@ -40,7 +40,7 @@ struct Way {
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
 };
 
-constexpr std::array<Way, 12> ways{{{Execution::literal, 64, 4, Effects::all, false},
+constexpr std::array<Way, 13> ways{{{Execution::literal, 64, 4, Effects::all, false},
                                    {Execution::tiled, 8, 1, Effects::needed, true},
                                    {Execution::tiled, 16, 4, Effects::all, true},
                                    {Execution::tiled, 16, 2, Effects::needed, false},
@@ -51,7 +51,8 @@ constexpr std::array<Way, 12> ways{{{Execution::literal, 64, 4, Effects::all, fa
                                    {Execution::replay, 32, 4, Effects::needed, false},
                                    {Execution::replay, 64, 2, Effects::all, true},
                                    {Execution::replay, 128, 2, Effects::needed, true},
-                                   {Execution::replay, 64, 1, Effects::needed, true, std::uint64_t{300} << 10}}};
+                                   {Execution::replay, 64, 1, Effects::needed, true, std::uint64_t{300} << 10},
+                                   {Execution::replay, 16, 2, Effects::needed, true, std::uint64_t{4} << 10}}};
 
 RenderOptions with(RenderOptions options, const Way& way) {
     options.execution = way.execution;
@@ -74,7 +75,7 @@ void check_all_ways(const TriangleScene& scene, const Machine& machine, RenderOp
         const RenderResult found = render(scene.list, scene.view, machine, with(options, way));
         INFO(machine.algorithm << " on " << machine.profile << ", tile " << way.tile_size << ", threads " << way.threads
                                << ", literal " << (way.execution == Execution::literal) << ", trusts idle "
-                               << way.trust_idle);
+                               << way.trust_idle << ", fragment memory " << way.fragment_memory);
         CHECK(difference(found, expected) == "");
     }
 }

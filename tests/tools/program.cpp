@@ -54,9 +54,11 @@ Ended run(const Folder& folder, const std::vector<std::string>& words, const Set
         kill(child, SIGINT);
     }
     int status = 0;
-    if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
+    rusage usage{};
+    if (wait4(child, &status, 0, &usage) != child) throw std::runtime_error("wait4 failed");
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return {code, setting.out.empty() ? content_of(captured / "out") : "", content_of(captured / "err")};
+    return {code, setting.out.empty() ? content_of(captured / "out") : "", content_of(captured / "err"),
+            static_cast<std::uint64_t>(usage.ru_maxrss) * 1024};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // tests/tools/program.h - runs the built `strata` as a person would: words in, exit status, output and files out.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ class Folder {
 struct Ended {
     int status = -1;  // the exit status, or 128 + the signal's number
     std::string out, err;
+    std::uint64_t peak_bytes = 0;  // of its resident set
 };
 
 struct Setting {

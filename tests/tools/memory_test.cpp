@@ -1,0 +1,33 @@
+// Model: what the scene, the images and --fragment-memory take by their own sizes.
+#include <catch2/catch.hpp>
+
+#include "tests/tools/program.h"
+
+namespace {
+
+using namespace strata::test;
+
+constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
+
+// Four tiles of up to a million fragments: kept whole, each would take some 40 MB.
+std::uint64_t peak(const Folder& folder, const std::string& algorithm) {
+    const Ended ended = run_strata(
+        folder, {"render", "volume-beam:slices=64", "--size", "256x256", "--tile", "128", "--threads", "2", "--profile",
+                 "geforce8_dx101", "--fragment-memory", "4M", "--no-audit", "--algorithm", algorithm});
+    REQUIRE(ended.status == 0);
+    return ended.peak_bytes;
+}
+
+}  // namespace
+
+TEST_CASE("a frame takes half as much again as its scene, targets and fragment memory at most") {
+    const Folder folder;
+    const std::uint64_t program = run_strata(folder, {"--version"}).peak_bytes;
+    const std::uint64_t scene = megabyte;                   // 5,128 triangles
+    const std::uint64_t targets = 256 * 256 * (4 + 1) * 4;  // colour and Z: a word a code
+    const std::uint64_t fragments = 4 * megabyte;
+    for (const char* algorithm : {"dual", "front_to_back", "dual_independent", "depth_units"}) {
+        INFO(algorithm);
+        CHECK(peak(folder, algorithm) < program + (scene + targets + fragments) * 3 / 2);
+    }
+}
