@@ -21,7 +21,7 @@ Target accumulate(Region& region, Target sums, Target count) {
     state.depth_target = region.opaque_depth();
     state.color = {sums, count};
     state.blend = {blend_mode::sum, blend_mode::sum};
-    state.needs.shader_z = false;
+    state.needs.shader_z = state.needs.code = false;
     region.begin_iteration();
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));

@@ -21,7 +21,7 @@ void weighted_sum(Region& region) {
     add.depth_target = region.opaque_depth();
     add.color[0] = sums;
     add.blend[0] = blend_mode::sum;
-    add.needs.shader_z = false;
+    add.needs.shader_z = add.needs.code = false;
     region.begin_iteration();
     static_cast<void>(region.draw(add, [](const FragmentBatch& in, const Loads&, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));

@@ -92,6 +92,9 @@ enum class Idle : std::uint8_t {
     steady      // they change none of its bits, and they count what this one counted
 };
 
+// A pass's depth test in one region: to be made, or passed by every fragment whatever its depth.
+enum class DepthOutcome : std::uint8_t { open, passes };
+
 struct Drawn {
     Count passed;   // fragments alive after stencil and depth tests (samples of the mask count one each)
     Count tallied;  // Outputs::tally

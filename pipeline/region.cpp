@@ -44,7 +44,9 @@ Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Exte
     counts_ = false;
     clear(opaque_depth_, {.depth = 1.0f});
     clear(opaque_color_, {.color = frame.background});
-    if (frame.opaque != nullptr) draw_opaque();
+    opaque_depth_is_cleared_ =
+        frame.opaque == nullptr || (extent == Extent::tile && frame.opaque->geometry.bin(tile).empty());
+    if (!opaque_depth_is_cleared_) draw_opaque();
     counts_ = true;
 }
 
@@ -59,6 +61,7 @@ Target Region::make(Format format, int samples) {
 }
 
 void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_mask) {
+    opaque_depth_is_cleared_ &= target != opaque_depth_;
     TargetStorage& storage = at(target);
     const Format format = storage.format();
     if (is_color(format)) {
@@ -77,6 +80,7 @@ void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_m
 
 void Region::copy(Target from, Target to) {
     assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
+    opaque_depth_is_cleared_ &= to != opaque_depth_;
     at(to) = at(from);
     record().counters.bytes_read += bytes(at(from));
     record().counters.bytes_written += bytes(at(to));

@@ -208,6 +208,10 @@ class Region {
     std::vector<TargetStorage> storages_;
     Target opaque_depth_, opaque_color_, published_;
 
+    [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
+
+    DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
+    bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
     enum class Source : std::uint8_t { rasterizer, captured, store };  // captured: rasterized, and kept for later passes
     Source source_ = Source::rasterizer;
     PassKind kind_ = PassKind::geometry;

@@ -5,6 +5,8 @@
 #include "pipeline/effects.h"
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
+#include "rasterizer/depth_bound.h"
+#include "rasterizer/depth_code.h"
 
 namespace strata::pipeline {
 
@@ -64,10 +66,26 @@ void Region::replay(rasterizer::BatchSink sink) {
     source_ = before;
 }
 
+// Whether the test against a cleared opaque depth can be left out in this tile.
+DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& list) const {
+    using rasterizer::DepthPath;
+    const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
+                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0;
+    const rasterizer::DepthRequest depth = frame_.key_request();
+    const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
+    if (!is_plain || !has_bound || state.needs.code || !opaque_depth_is_cleared_ || extent_ == Extent::frame ||
+        frame_.effects == Effects::all || &list != frame_.transparent)
+        return DepthOutcome::open;
+    const double bound = depth_bound(list.geometry, list.geometry.bin(tile_));
+    const auto code = [&](float z) { return to_depth_code(z, depth.format, profile().raster.depth_rounding); };
+    return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
+}
+
 // The first pass over the transparent list captures what it and all later passes look at; a list that did not fit is rasterized
 // every time.
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
-    FragmentNeeds needs = pass_needs(state, list, frame_.effects);
+    depth_ = depth_outcome(state, list);
+    FragmentNeeds needs = pass_needs(state, list, frame_.effects, depth_);
     if (frame_.pass_log != nullptr)
         frame_.pass_log->passes.push_back({state, needs, pass_needs(state, list, Effects::needed),
                                            needs.color && list.needs_texcoord, &list == frame_.opaque, iterations_});

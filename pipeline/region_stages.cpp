@@ -8,6 +8,7 @@
 #include "pipeline/check_pass.h"
 #include "pipeline/convert.h"
 #include "pipeline/depth_test.h"
+#include "pipeline/effects.h"
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
 #include "pipeline/stencil.h"
@@ -46,6 +47,8 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;
     check_pass(profile(), state, storages_);
+    opaque_depth_is_cleared_ &= !(writes_depth(state.depth) && state.depth_target == opaque_depth_);
+    depth_ = DepthOutcome::open;
     if (state.depth.enabled && depth_format(at(state.depth_target).format()) != frame_.key_request().format)
         throw std::logic_error("pass state: the depth target's format is not that of the frame's depth codes");
     pass_samples_ = 1;
@@ -180,7 +183,9 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
     TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
     DepthResult tested;
     std::uint64_t stencil_killed = 0;
-    if (!state.stencil.enabled) {
+    if (depth_ == DepthOutcome::passes) {
+        tested.arriving = tested.passed = count_lanes(alive, batch.count);
+    } else if (!state.stencil.enabled) {
         tested = test_depth(state.depth, depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
                             batch.code.data(), alive.data());
     } else {

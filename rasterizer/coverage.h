@@ -53,8 +53,10 @@ class TriangleEdges {
 // The pixels whose centres lie in the bounding box of `p`; n is `subpixel_bits`.
 [[nodiscard]] constexpr Rect centre_box(const std::array<SubpixelPoint, 3>& p, int subpixel_bits) noexcept {
     const int half = 1 << (subpixel_bits - 1);
-    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
-    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
+    const auto least = [](std::int32_t a, std::int32_t b, std::int32_t c) { return std::min(std::min(a, b), c); };
+    const auto most = [](std::int32_t a, std::int32_t b, std::int32_t c) { return std::max(std::max(a, b), c); };
+    const std::int32_t left = least(p[0].x, p[1].x, p[2].x), right = most(p[0].x, p[1].x, p[2].x);
+    const std::int32_t top = least(p[0].y, p[1].y, p[2].y), bottom = most(p[0].y, p[1].y, p[2].y);
     const auto first = [&](std::int32_t c) { return (c + half - 1) >> subpixel_bits; };  // first centre >= c
     const auto end = [&](std::int32_t c) {
         return ((c - half) >> subpixel_bits) + 1;

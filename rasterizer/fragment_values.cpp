@@ -184,7 +184,6 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
                                     const WeightLanes& weights) const {
     const Geometry& geometry = triangle.geometry;
     const auto f = static_cast<std::size_t>(first);
-    const int count = batch.count - first;
     const bool weighted = needs_.color && rules_.color == ColorInterpolation::weights_8bit;
     const std::size_t begin = needs_.color && !weighted ? 0 : color_channels;
     const std::size_t end = needs_.texcoord ? attribute_count : color_channels;
@@ -204,17 +203,16 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
         };
         float* const out = a < color_channels ? &batch.color[a][f] : &batch.texcoord[a - color_channels][f];
         if (same_bits(value(0), value(1)) && same_bits(value(0), value(2))) {
-            std::fill_n(out, padded(count), value(0));
+            varying.add(value(0), out);
             continue;
         }
         const auto product = [&](std::size_t i) -> double { return value(i) * static_cast<float>(w[i]); };  // binary32
         varying.add({{product(0), product(1), product(2)}}, out);
     }
-    if (!weighted && varying.count == 0) return 0;
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
     if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, first, batch);
-    return varying.count == 0 ? 0 : fill_varying(varying, own);
+    return fill_varying(varying, own);
 }
 
 int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const {

@@ -125,7 +125,12 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
         SetupChunk chunk;
         chunk.triangles.reserve(end - begin);
         std::size_t run = 0;
-        for (std::size_t i = begin; i < end; ++i) setup.add(listing.at(static_cast<std::uint32_t>(i), run), chunk);
+        std::array<SourceTriangle, TriangleGroup::size> group;
+        for (std::size_t at = begin; at < end; at += group.size()) {
+            const std::size_t count = std::min(group.size(), end - at);
+            for (std::size_t k = 0; k < count; ++k) group[k] = listing.at(static_cast<std::uint32_t>(at + k), run);
+            setup.add(std::span{group}.first(count), chunk);
+        }
         chunks[c] = std::move(chunk);
     });
     Geometry geometry;

@@ -42,9 +42,14 @@ struct DepthLanes {
     double* b2;
 };
 
-// Attributes that change over the triangle, before the division by the plane of 1 / w.
+// Attributes that change over the triangle, before the division by the plane of 1 / w, and those that do not.
 struct AttributeLanes {
-    std::size_t count = 0;
+    struct Constant {
+        float value;
+        float* out;
+    };
+    std::size_t count = 0, constant_count = 0;
+    std::array<Constant, attribute_count> constant;
     std::array<RationalPlane, attribute_count> plane;
     std::array<float*, attribute_count> out;
     RationalPlane inverse_w;
@@ -54,6 +59,7 @@ struct AttributeLanes {
         plane[count] = p;
         out[count++] = lanes;
     }
+    void add(float value, float* lanes) noexcept { constant[constant_count++] = {value, lanes}; }
 };
 
 struct LaneKernels {
@@ -63,7 +69,8 @@ struct LaneKernels {
     // b1 and b2 at `count` pixels; not for Kind::snapped_wide.
     void (*weights)(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count, double* b1,
                     double* b2) noexcept;
-    // Every plane rounded to binary32, divided by the rounded plane of 1 / w; true if some lane is not certain.
+    // Every plane rounded to binary32, divided by the rounded plane of 1 / w, and the constants; true if some lane is not
+    // certain.
     bool (*attributes)(const AttributeLanes& attributes, const TriangleLanes& lanes) noexcept;
     // Weights, the rounded plane and its codes in one; true if some lane is not certain.
     bool (*depth)(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y,
@@ -165,7 +172,8 @@ inline bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noex
         const FilterPlane filter{plane, lanes.is_exact};
         unsure |= round(filter, lanes.weight1, lanes.weight2, lanes.count, out);
     };
-    if (a.has_w) round_all(a.inverse_w, inverse_w.data());
+    for (std::size_t k = 0; k < a.constant_count; ++k) std::fill_n(a.constant[k].out, lanes.count, a.constant[k].value);
+    if (a.has_w && a.count > 0) round_all(a.inverse_w, inverse_w.data());
     for (std::size_t k = 0; k < a.count; ++k) {
         round_all(a.plane[k], a.out[k]);
         for (int i = 0; a.has_w && i < lanes.count; ++i)

@@ -158,7 +158,15 @@ HWY_INLINE bool attributes_of(const AttributeLanes& a, const TriangleLanes& lane
     return exact && !hn::AllTrue(U32{}, hn::Eq(unsure, hn::Zero(U32{})));
 }
 
+void fill(float value, int count, float* out) {
+    using Wide = hn::CappedTag<float, 16>;
+    const auto v = hn::Set(Wide{}, value);
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Wide{}))) hn::StoreU(v, Wide{}, out + i);
+}
+
 bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noexcept {
+    for (std::size_t k = 0; k < a.constant_count; ++k) fill(a.constant[k].value, lanes.count, a.constant[k].out);
+    if (a.count == 0) return false;
     return lanes.is_exact ? attributes_of<true>(a, lanes) : attributes_of<false>(a, lanes);
 }
 

@@ -16,7 +16,7 @@ class PixelClaims {
   public:
     explicit PixelClaims(const Rect& region)
         : words_a_row_{(static_cast<std::size_t>(region.width()) + 31) / 32},
-          word_(words_a_row_ * static_cast<std::size_t>(region.height())) {}
+          word_(words_a_row_ * static_cast<std::size_t>(region.height() + spare_rows)) {}
 
     void next_batch() {
         if (++batch_ != 0) return;
@@ -43,6 +43,7 @@ class PixelClaims {
         std::size_t row, column;
     };
     // Claims what `bits_of(row)` names, bit 0 at the column of `from`, in `rows` rows of at most 16 pixels; false as above.
+    // Up to `spare_rows` of them may lie below the region, with no bits.
     template <class BitsOf>
     [[nodiscard, gnu::always_inline]] bool claim_rows(Place from, unsigned width, unsigned rows,
                                                       const BitsOf& bits_of) noexcept {
@@ -65,6 +66,7 @@ class PixelClaims {
     }
 
   private:
+    static constexpr int spare_rows = 8;
     std::size_t words_a_row_;
     std::vector<std::uint64_t> word_;
     std::uint32_t batch_ = 0;

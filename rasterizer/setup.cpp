@@ -95,6 +95,16 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     return Fate::kept;
 }
 
+TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, const TriangleGroup& group, std::size_t k,
+                                             SetupChunk& out) const {
+    if (group.area[k] == 0) return Fate::degenerate;
+    const bool front = is_front(group.turned[k] == 0 ? 1 : -1, triangle.run->mirrored);
+    if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
+    if (group.width[k] == 0 || group.height[k] == 0) return Fate::outside;
+    out.triangles.push_back({triangle.vertex, triangle.primitive, triangle.run->material, front});
+    return Fate::kept;
+}
+
 // A clipped triangle is counted once: as kept if any piece is, else by the fate of its first piece.
 TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, std::uint32_t planes,
                                                SetupChunk& out) const {
@@ -125,8 +135,6 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
 }
 
 void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
-    SetupCounters& counters = out.counters;
-    ++counters.triangles_in;
     const auto& [a, b, c] = triangle.vertex;
     const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;
     Fate fate = Fate::non_finite;
@@ -138,9 +146,29 @@ void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
             fate = add_piece({triangle.vertex, {&corners_[a], &corners_[b], &corners_[c]}, any}, triangle, out);
         } else {
             fate = add_clipped(triangle, crossed, out);
-            if (fate != Fate::outside) ++counters.clipped;
+            if (fate != Fate::outside) ++out.counters.clipped;
         }
     }
+    count(fate, triangle, out.counters);
+}
+
+void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
+    TriangleGroup group;
+    load_corners(
+        corners_, triangles.size(), [&](std::size_t k) -> const auto& { return triangles[k].vertex; }, group);
+    small_kernels().set_up({state_.viewport, rules_.subpixel_bits, rules_.tie_rule}, group);
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const auto& [a, b, c] = triangles[k].vertex;
+        const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled;
+        if (is_plain && group.small[k] != 0)
+            count(add_small(triangles[k], group, k, out), triangles[k], out.counters);
+        else
+            add(triangles[k], out);
+    }
+}
+
+void TriangleSetup::count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept {
+    ++counters.triangles_in;
     switch (fate) {
         case Fate::kept: break;
         case Fate::culled: ++counters.culled; break;

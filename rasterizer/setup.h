@@ -13,6 +13,7 @@
 
 #include "rasterizer/clip.h"
 #include "rasterizer/geometry.h"
+#include "rasterizer/small_triangles.h"
 #include "rasterizer/window.h"
 
 namespace strata::rasterizer {
@@ -50,6 +51,8 @@ class TriangleSetup {
     void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
     // ... then triangles: appends what is left of `triangle` to `out` and counts what is not.
     void add(const SourceTriangle& triangle, SetupChunk& out) const;
+    // The same of up to TriangleGroup::size triangles.
+    void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
 
     [[nodiscard]] std::vector<WindowCorner>& corners() noexcept { return corners_; }
 
@@ -64,7 +67,11 @@ class TriangleSetup {
     };
     [[nodiscard]] VertexMarks project(const ClipVertex& v, WindowCorner& corner) const noexcept;
     [[nodiscard]] Fate add_piece(const Piece& piece, const SourceTriangle& triangle, SetupChunk& out) const;
+    // A small triangle without marks, its edges in the group.
+    [[nodiscard]] Fate add_small(const SourceTriangle& triangle, const TriangleGroup& group, std::size_t k,
+                                 SetupChunk& out) const;
     [[nodiscard]] Fate add_clipped(const SourceTriangle& triangle, std::uint32_t planes, SetupChunk& out) const;
+    static void count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept;
     [[nodiscard]] bool is_front(std::int64_t area, bool mirrored) const noexcept;
     [[nodiscard]] bool is_culled(bool front) const noexcept;
 

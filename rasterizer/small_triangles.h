@@ -10,9 +10,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 
 #include "rasterizer/coverage.h"
 #include "rasterizer/fragment_batch.h"
+#include "rasterizer/geometry.h"
 #include "rasterizer/pixel_claims.h"
 
 namespace strata::rasterizer {
@@ -32,7 +34,26 @@ struct alignas(64) TriangleGroup {
     Row small;                         // 1: all that follows holds
     Row area, turned;                  // twice the area, without its sign; its sign as a mask
     std::array<Row, 3> value, step, down, tie;
+
+    [[nodiscard]] Rect box(std::size_t k) const noexcept {
+        const auto left = static_cast<int>(x0[k]), top = static_cast<int>(y0[k]);
+        return {left, top, left + static_cast<int>(width[k]), top + static_cast<int>(height[k])};
+    }
 };
+
+// The corners of `count` triangles, vertices(k) naming those of one; the last one's stand in the rest of the group.
+template <class Vertices>
+void load_corners(std::span<const WindowCorner> corners, std::size_t count, const Vertices& vertices,
+                  TriangleGroup& group) noexcept {
+    for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
+        const std::array<std::uint32_t, 3>& vertex = vertices(std::min(k, count - 1));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const SubpixelPoint p = corners[vertex[i]].p;
+            group.x[i][k] = static_cast<std::uint32_t>(p.x);
+            group.y[i][k] = static_cast<std::uint32_t>(p.y);
+        }
+    }
+}
 
 // What is the same for all triangles of a draw.
 struct GroupRules {

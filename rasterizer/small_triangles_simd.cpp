@@ -41,14 +41,16 @@ constexpr BlockShape shape_of(std::uint32_t width) {
 }
 constexpr BlockShape shapes[3] = {shape_of(4), shape_of(8), shape_of(16)};
 
-// What of a small triangle is covered: the bits of its blocks.
+// What of a small triangle is covered, a bit a pixel, block after block. `within_8` knows that the box lies in 8 x 8
+// pixels: four blocks, whose loops end where the compiler can see it.
+template <bool within_8>
 class Blocks {
   public:
     HWY_INLINE Blocks(const TriangleGroup& g, std::size_t k)
-        : log_width_{g.width[k] <= 4 ? 2u : (g.width[k] <= 8 ? 3u : 4u)}, shape_{shapes[log_width_ - 2]} {
+        : log_width_{within_8 || (g.width[k] > 4 && g.width[k] <= 8) ? 3u : (g.width[k] <= 4 ? 2u : 4u)},
+          count_{within_8 ? 4u : ((g.height[k] << log_width_) + 15) / 16},
+          shape_{shapes[log_width_ - 2]} {
         const U32 d;
-        const std::uint32_t log_rows = 4 - log_width_, rows = 1u << log_rows;
-        count_ = (g.height[k] + rows - 1) >> log_rows;
         hn::Vec<U32> edge[3][parts], down[3];
         for (std::size_t i = 0; i < 3; ++i) {
             const auto value = hn::Set(d, g.value[i][k]), step = hn::Set(d, g.step[i][k]);
@@ -56,26 +58,28 @@ class Blocks {
             for (std::size_t part = 0; part < parts; ++part)
                 edge[i][part] = hn::Add(hn::Add(value, hn::Mul(hn::Load(d, shape_.column + part * lanes), step)),
                                         hn::Mul(hn::Load(d, shape_.row + part * lanes), row_down));
-            down[i] = hn::Set(d, g.down[i][k] << log_rows);
+            down[i] = hn::Set(d, g.down[i][k] << (4 - log_width_));
         }
         const std::uint32_t in_box = ((1u << g.width[k]) - 1) * shape_.first_column;
-        for (std::uint32_t b = 0; b < count_; ++b) {
+        for (std::uint32_t b = 0; b < count(); ++b) {
             std::uint32_t covered = 0;
             for (std::size_t part = 0; part < parts; ++part) {
                 covered |= not_negative(hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part])) << part * lanes;
                 for (std::size_t i = 0; i < 3; ++i) edge[i][part] = hn::Add(edge[i][part], down[i]);
             }
-            bits_[b] = covered & in_box;
+            bits_[b / 4] |= std::uint64_t{covered & in_box} << b % 4 * 16;
         }
-        const std::uint32_t rest = g.height[k] - ((count_ - 1) << log_rows);  // rows of the last block
-        bits_[count_ - 1] &= (1u << (rest << log_width_)) - 1;
-        for (std::uint32_t b = 0; b < count_; ++b) pixels_ += std::popcount(bits_[b]);
+        const std::uint32_t end = g.height[k] << log_width_;  // no rows below the box
+        bits_[(end - 1) / 64] &= ~std::uint64_t{0} >> (64 - end) % 64;
+        for (std::uint32_t word = 0; word < (count() + 3) / 4; ++word) pixels_ += std::popcount(bits_[word]);
     }
     HWY_INLINE int pixels() const { return pixels_; }
     HWY_INLINE std::uint32_t row(std::uint32_t r) const {
-        const std::uint32_t log_rows = 4 - log_width_, within = r & ((1u << log_rows) - 1);
-        return bits_[r >> log_rows] >> (within << log_width_) & ((1u << (1u << log_width_)) - 1);
+        const std::uint32_t bit = r << log_width_;
+        return static_cast<std::uint32_t>(bits_[bit / 64] >> bit % 64) & ((1u << (1u << log_width_)) - 1);
     }
+    // How many rows to claim: those below the box are empty.
+    HWY_INLINE std::uint32_t rows(std::uint32_t height) const { return within_8 ? 8 : height; }
     HWY_INLINE void append(const TriangleGroup& g, std::size_t k, const RegionPlace& place,
                            FragmentBatch& batch) const {
         const U32 d;
@@ -91,9 +95,9 @@ class Blocks {
         const std::size_t end = at + static_cast<std::size_t>(pixels_);
         for (std::size_t i = at; i < end; i += lanes)
             hn::StoreU(hn::Set(d, place.primitive), d, &batch.primitive[i]);
-        for (std::uint32_t b = 0; b < count_; ++b)
+        for (std::uint32_t b = 0; b < count(); ++b)
             for (std::size_t part = 0; part < parts; ++part) {
-                const std::uint64_t kept = bits_[b] >> part * lanes & ((1u << lanes) - 1);
+                const std::uint64_t kept = bits_[b / 4] >> (b % 4 * 16 + part * lanes) & ((1u << lanes) - 1);
                 const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&kept);
                 hn::StoreU(hn::CompressBits(pixel[part], bytes), d, &batch.pixel[at]);
                 const auto both = hn::CompressBits(xy[part], bytes);
@@ -107,6 +111,7 @@ class Blocks {
     }
 
   private:
+    HWY_INLINE std::uint32_t count() const { return within_8 ? 4 : count_; }
     HWY_INLINE static std::uint32_t not_negative(hn::Vec<U32> v) {
         std::uint64_t bits = 0;
         const auto is = hn::Gt(hn::BitCast(I32{}, v), hn::Set(I32{}, -1));
@@ -114,23 +119,29 @@ class Blocks {
         return static_cast<std::uint32_t>(bits);
     }
 
-    std::uint32_t log_width_;
+    std::uint32_t log_width_, count_;
     const BlockShape& shape_;
-    std::uint32_t count_;
     int pixels_ = 0;
-    std::uint32_t bits_[16];
+    std::uint64_t bits_[within_8 ? 1 : 4] = {};
 };
 
-bool emit(const TriangleGroup& g, std::size_t k, const RegionPlace& place, PixelClaims& claims,
-          FragmentBatch& batch) noexcept {
-    const Blocks blocks{g, k};
+template <bool within_8>
+HWY_INLINE bool emit_blocks(const TriangleGroup& g, std::size_t k, const RegionPlace& place, PixelClaims& claims,
+                            FragmentBatch& batch) {
+    const Blocks<within_8> blocks{g, k};
     if (blocks.pixels() == 0) return true;
     if (batch.count + blocks.pixels() > usable_capacity ||
-        !claims.claim_rows({place.row, place.column}, g.width[k], g.height[k],
+        !claims.claim_rows({place.row, place.column}, g.width[k], blocks.rows(g.height[k]),
                            [&](std::uint32_t row) HWY_ATTR { return blocks.row(row); }))
         return false;
     blocks.append(g, k, place, batch);
     return true;
+}
+
+bool emit(const TriangleGroup& g, std::size_t k, const RegionPlace& place, PixelClaims& claims,
+          FragmentBatch& batch) noexcept {
+    if ((g.width[k] <= 8) & (g.height[k] <= 8)) return emit_blocks<true>(g, k, place, claims, batch);
+    return emit_blocks<false>(g, k, place, claims, batch);
 }
 
 }  // namespace

@@ -45,16 +45,11 @@ class TileRasterizer::Pass {
 
     // At most TriangleGroup::size triangles.
     void draw(std::span<const std::uint32_t> triangles) {
-        for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
-            const std::array p = geometry_.points(geometry_.triangles[triangles[std::min(k, triangles.size() - 1)]]);
-            for (std::size_t i = 0; i < 3; ++i) {
-                group_.x[i][k] = static_cast<std::uint32_t>(p[i].x);
-                group_.y[i][k] = static_cast<std::uint32_t>(p[i].y);
-            }
-        }
+        const auto vertices = [&](std::size_t k) -> const auto& { return geometry_.triangles[triangles[k]].vertex; };
+        load_corners(geometry_.corners, triangles.size(), vertices, group_);
         small_.set_up(rules_, group_);
         for (std::size_t k = 0; k < triangles.size(); ++k) {
-            if (group_.width[k] == 0 || group_.height[k] == 0) continue;
+            if (group_.box(k).area() == 0) continue;
             const TriangleRecord& record = geometry_.triangles[triangles[k]];
             if (record.material != batch_.material) {
                 flush();
