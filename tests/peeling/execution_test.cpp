@@ -123,6 +123,23 @@ TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute
         }
 }
 
+TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface, counts like the frame that goes on") {
+    FragmentScene scene{16, 16};  // four tiles of 8 x 8
+    const strata::pipeline::Rgba glass{1, 0.5f, 0.25f, 0.5f};
+    scene.pixels[0] = {{{0.5f, glass}}, GivenFragment{0.5f, glass}};
+    scene.pixels[3] = {{{0.25f, glass}, {0.5f, glass}, {0.75f, glass}, {0.5f, glass}}, GivenFragment{0.5f, glass}};
+    for (const float depth : {0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.625f}) scene.pixels[255].fragments.push_back({depth, glass});
+    const TriangleScene triangles{draw_list(scene), {}};
+    for (const Ending& ending : endings)
+        for (const Machine& machine : machines) {
+            RenderOptions options = options_for(scene);
+            options.termination = ending.termination;
+            options.max_passes = ending.max_passes;
+            INFO("ended by " << ending.name);
+            check_all_ways(triangles, machine, options);
+        }
+}
+
 TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts") {
     const TriangleScene scene = random_triangles(75, 24, 0.4f);
     for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}}) {
