@@ -23,14 +23,17 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer
 }
 
 void Region::count_coverage(std::span<std::uint32_t> coverage) {
+    constexpr FragmentNeeds nothing{false, false, false, false, false, false};
+    if (holds(nothing)) {
+        for (std::size_t number = 0; number < store().batches(); ++number)
+            for (const std::uint32_t pixel : store().pixels(number)) ++coverage[pixel];
+        return;
+    }
     auto add = [&](FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
     };
-    const rasterizer::BatchSink sink{add};
-    constexpr FragmentNeeds nothing{false, false, false, false, false, false};
     const rasterizer::Geometry& geometry = frame_.transparent->geometry;
-    if (holds(nothing)) replay(sink);
-    else rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, sink);
+    rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
 }
 
 bool Region::remember(const FragmentNeeds& needs, std::uint64_t bytes) {
