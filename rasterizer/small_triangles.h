@@ -29,10 +29,10 @@ struct alignas(64) TriangleGroup {
     static_assert(max_width * max_height <= usable_capacity);
     using Row = std::array<std::uint32_t, size>;
 
-    std::array<Row, 3> x, y;           // snapped corners: what comes in
-    Row x0, y0, width, height;         // pixel centres in the box and the clip; 0 by 0 if there are none
-    Row small;                         // 1: all that follows holds
-    Row area, turned;                  // twice the area, without its sign; its sign as a mask
+    std::array<Row, 3> x, y;    // snapped corners: what comes in
+    Row x0, y0, width, height;  // pixel centres in the box and the clip; 0 by 0 if there are none
+    Row small;                  // 1: all that follows holds
+    Row area, turned;           // twice the area, without its sign; its sign as a mask
     std::array<Row, 3> value, step, down, tie;
 
     [[nodiscard]] Rect box(std::size_t k) const noexcept {
@@ -107,8 +107,8 @@ inline void find_boxes(const GroupRules& rules, TriangleGroup& __restrict g) noe
 
 inline void find_areas(TriangleGroup& __restrict g) noexcept {
     for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
-        const std::uint32_t area = (g.x[1][k] - g.x[0][k]) * (g.y[2][k] - g.y[0][k]) -
-                                   (g.y[1][k] - g.y[0][k]) * (g.x[2][k] - g.x[0][k]);
+        const std::uint32_t area =
+            (g.x[1][k] - g.x[0][k]) * (g.y[2][k] - g.y[0][k]) - (g.y[1][k] - g.y[0][k]) * (g.x[2][k] - g.x[0][k]);
         g.turned[k] = 0 - (area >> 31);
         g.area[k] = (area ^ g.turned[k]) - g.turned[k];
     }
@@ -129,8 +129,8 @@ inline void find_edge(const GroupRules& rules, std::size_t i, TriangleGroup& __r
         const std::uint32_t owner = dy != 0 ? by_dy : by_dx;  // owns its ties if positive; dx and dy are not both 0
         const std::uint32_t tie = owner >> 31;
         g.tie[i][k] = tie;
-        g.value[i][k] = dx * ((g.y0[k] << bits) + half - g.y[from][k]) -
-                        dy * ((g.x0[k] << bits) + half - g.x[from][k]) - tie;
+        g.value[i][k] =
+            dx * ((g.y0[k] << bits) + half - g.y[from][k]) - dy * ((g.x0[k] << bits) + half - g.x[from][k]) - tie;
         g.step[i][k] = (0 - dy) << bits;
         g.down[i][k] = dx << bits;
     }
@@ -149,8 +149,7 @@ inline bool emit_small(const TriangleGroup& g, std::size_t k, const RegionPlace&
     for (std::uint32_t row = 0; row < g.height[k]; ++row) {
         for (std::uint32_t column = 0; column < g.width[k]; ++column) {
             std::uint32_t any = 0;
-            for (std::size_t i = 0; i < 3; ++i)
-                any |= g.value[i][k] + row * g.down[i][k] + column * g.step[i][k];
+            for (std::size_t i = 0; i < 3; ++i) any |= g.value[i][k] + row * g.down[i][k] + column * g.step[i][k];
             covered[row] |= (~any >> 31) << column;
         }
         count += std::popcount(covered[row]);

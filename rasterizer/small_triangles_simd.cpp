@@ -93,8 +93,7 @@ class Blocks {
         }
         auto at = static_cast<std::size_t>(batch.count);
         const std::size_t end = at + static_cast<std::size_t>(pixels_);
-        for (std::size_t i = at; i < end; i += lanes)
-            hn::StoreU(hn::Set(d, place.primitive), d, &batch.primitive[i]);
+        for (std::size_t i = at; i < end; i += lanes) hn::StoreU(hn::Set(d, place.primitive), d, &batch.primitive[i]);
         for (std::uint32_t b = 0; b < count(); ++b)
             for (std::size_t part = 0; part < parts; ++part) {
                 const std::uint64_t kept = bits_[b / 4] >> (b % 4 * 16 + part * lanes) & ((1u << lanes) - 1);

@@ -118,7 +118,7 @@ TEST_CASE("coverage equals three integer inequalities at every centre, also for 
     std::uint64_t wrong = 0;
     constexpr int size = 40;
     for (const int bits : {4, 8, 12})
-        for (const int outside : {0, 3, 100, 32700})
+        for (const int outside : {-17, -13, 0, 3, 100, 32700})  // negative: small triangles, within 6 and 14 pixels
             for (int n = 0; n < 300; ++n) {
                 const std::array p{random_point(random, size, size, bits, outside),
                                    random_point(random, size, size, bits, outside),

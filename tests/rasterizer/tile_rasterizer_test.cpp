@@ -116,8 +116,8 @@ TEST_CASE("every instruction set hands out the batches of the scalar twins, to t
     all.push_back({unsnapped, {DepthPath::float32, DepthFormat::d32f}});
     all.push_back({{.subpixel_bits = 12, .tie_rule = TieRule::bottom_right}, {DepthPath::float32, DepthFormat::d24}});
     all.push_back({{.subpixel_bits = 4}, {DepthPath::float32, DepthFormat::d16}});
-    constexpr std::array<std::array<int, 2>, 5> sizes{
-        {{2, 200}, {7, 100}, {30, 24}, {300, 16}, {32767, 16}}};  // pixels, triangles
+    constexpr std::array<std::array<int, 2>, 6> sizes{
+        {{2, 200}, {4, 100}, {8, 100}, {30, 24}, {300, 16}, {32767, 16}}};  // pixels, triangles
     constexpr FragmentNeeds depth_only{false, true, false, false, false, false};
     constexpr FragmentNeeds no_exact_code{true, true, false, true, true, true};
     std::size_t wrong = 0, fragments = 0;
