@@ -139,7 +139,7 @@ HWY_INLINE bool emit_blocks(const TriangleGroup& g, std::size_t k, const RegionP
 
 bool emit(const TriangleGroup& g, std::size_t k, const RegionPlace& place, PixelClaims& claims,
           FragmentBatch& batch) noexcept {
-    if ((g.width[k] <= 8) & (g.height[k] <= 8)) return emit_blocks<true>(g, k, place, claims, batch);
+    if (std::max(g.width[k], g.height[k]) <= 8) return emit_blocks<true>(g, k, place, claims, batch);
     return emit_blocks<false>(g, k, place, claims, batch);
 }
 
