@@ -38,9 +38,9 @@ class FrameRun {
         regions_.resize(extent_ == Extent::frame ? 1 : tiles);
         twin_.assign(regions_.size(), no_twin);
         const rasterizer::Rect rect = frame.rect();
-        result_.color = Image{frame.published_format.value_or(frame.color_format), rect.width(), rect.height()};
+        result_.color = Image::for_overwrite(frame.published_format.value_or(frame.color_format), rect.width(), rect.height());
         if (frame.nearest_depth)
-            result_.depth = Image{target_format(frame.key_request().format), rect.width(), rect.height()};
+            result_.depth = Image::for_overwrite(target_format(frame.key_request().format), rect.width(), rect.height());
     }
 
     FrameResult finish() {

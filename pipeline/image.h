@@ -10,7 +10,7 @@
 
 namespace strata::pipeline {
 
-// Leaves new elements as they are: whoever makes an image writes every code of it, from many threads.
+// Leaves elements without a value as they are: Image::for_overwrite.
 template <class T>
 struct UninitializedAllocator : std::allocator<T> {
     template <class U>
@@ -36,11 +36,21 @@ struct Image {
     ImageCodes codes;
 
     Image() = default;
-    Image(Format f, int w, int h, int s = 1)
-        : format{f}, width{w}, height{h}, samples{s},
-          codes(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(s) *
-                static_cast<std::size_t>(info(f).channels)) {}
+    Image(Format f, int w, int h, int s = 1) : format{f}, width{w}, height{h}, samples{s}, codes(size(), 0u) {}
+    // Its codes are not set: for many threads that write them all.
+    [[nodiscard]] static Image for_overwrite(Format f, int w, int h) {
+        Image image;
+        image.format = f;
+        image.width = w;
+        image.height = h;
+        image.codes.resize(image.size());
+        return image;
+    }
 
+    [[nodiscard]] std::size_t size() const noexcept {  // codes
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(samples) *
+               static_cast<std::size_t>(channels());
+    }
     [[nodiscard]] int channels() const noexcept { return info(format).channels; }
     [[nodiscard]] std::size_t index(int x, int y, int channel = 0, int sample = 0) const noexcept {
         const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);

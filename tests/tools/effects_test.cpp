@@ -58,7 +58,7 @@ TEST_CASE("the plan names the material that calls for MASK, in opaque priming or
 
 TEST_CASE("the plan's passes are those of the statistics, and its tiles are all there, for every algorithm") {
     const Folder folder;
-    const std::vector<std::string> scene{"volume-beam:slices=6", "--algorithm", "all"};
+    const std::vector<std::string> scene{"volume-beam:slices=6", "--algorithm", "all", "--tile", "32"};
     auto words = scene;
     words.insert(words.begin(), "render");
     words.insert(words.end(), {"--size", "64x48", "--stats", "-", "--no-audit"});
@@ -72,7 +72,7 @@ TEST_CASE("the plan's passes are those of the statistics, and its tiles are all 
         const auto& tiles = all[i].at("tiles");
         CHECK(tiles["empty"].get<int>() + tiles["opaque_only"].get<int>() + tiles["single"].get<int>() +
                   tiles["layered"].get<int>() == tiles["all"].get<int>());
-        CHECK(tiles["all"] == 4);
+        CHECK(tiles["all"] == 4);  // 64 x 48 in tiles of 32
         CHECK(row(all[i], "stencil test").at("simulated") == false);
     }
 }
