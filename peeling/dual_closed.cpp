@@ -9,7 +9,6 @@
 #include "peeling/closed_form.h"
 #include "peeling/front_and_back.h"
 #include "peeling/min_max.h"
-#include "pipeline/arena.h"
 #include "pipeline/blend.h"
 #include "pipeline/convert.h"
 
@@ -19,22 +18,6 @@ using namespace pipeline;
 
 namespace {
 
-// The codes of four channels, pixel by pixel of the region.
-struct CodePlanes {
-    std::array<std::span<std::uint32_t>, 4> channel;
-
-    CodePlanes(Arena& arena, std::size_t pixels) {
-        for (auto& c : channel) c = arena.take<std::uint32_t>(pixels);
-    }
-};
-
-void transfer(const CodePlanes& planes, std::size_t first, int count, ColorCodes& codes) {
-    for (std::size_t c = 0; c < 4; ++c) std::copy_n(planes.channel[c].begin() + static_cast<std::ptrdiff_t>(first), count, codes[c].begin());
-}
-void transfer(const ColorCodes& codes, std::size_t first, int count, CodePlanes& planes) {
-    for (std::size_t c = 0; c < 4; ++c) std::copy_n(codes[c].begin(), count, planes.channel[c].begin() + static_cast<std::ptrdiff_t>(first));
-}
-
 // The fragments of one depth of every pixel of a group: [begin, end) in its sorted column, empty where nothing is left.
 struct DepthGroup {
     Lanes<std::uint32_t> begin, end;
@@ -43,14 +26,15 @@ struct DepthGroup {
 // The course of up to sixteen neighbouring pixels, pass after pass.
 class GroupPeel {
   public:
-    GroupPeel(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region)
+    GroupPeel(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region,
+              const BlockCodes& opaque)
         : region_{region}, columns_{columns}, group_{group}, first_{first_in_region}, n_{static_cast<std::size_t>(group.count)} {
         for (std::size_t i = 0; i < n_; ++i) {
             near_[i] = 0;
             far_[i] = columns.visible[group.first + i];
         }
         for (auto& channel : front_) std::fill_n(channel.begin(), n_, 0u);
-        region.load_pixels(region.opaque_color(), static_cast<std::uint32_t>(first_), group.count, back_);
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(opaque[c].begin(), n_, back_[c].begin());
     }
 
     // False once every pixel is done.
@@ -60,8 +44,12 @@ class GroupPeel {
         blend_back();
         return true;
     }
-    [[nodiscard]] const ColorCodes& front() const noexcept { return front_; }
-    [[nodiscard]] const ColorCodes& back() const noexcept { return back_; }
+    void result(BlockCodes& front, BlockCodes& back) const {
+        for (std::size_t c = 0; c < 4; ++c) {
+            std::copy_n(front_[c].begin(), n_, front[c].begin());
+            std::copy_n(back_[c].begin(), n_, back[c].begin());
+        }
+    }
 
   private:
     [[nodiscard]] std::uint32_t key(std::size_t i, std::uint32_t k) const noexcept {
@@ -197,32 +185,22 @@ struct Course {
         const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
                                   static_cast<std::size_t>(region.rect().width());
         for_each_block(columns, [&](std::size_t number, const PixelGroup& group) {
-            if (columns.blocks[number].has_ties) peel_group(region, columns, group, above + group.first);
-            else peel_passes(region, columns, number, group, above + group.first);
+            if (columns.blocks[number].depth == 0) return;
+            PeelBlock block = peel_block(columns, number);
+            const std::size_t first = above + group.first;
+            front.load(first, block.front);
+            back.load(first, block.back);
+            if (columns.blocks[number].has_ties) {
+                GroupPeel peel{region, columns, group, first, block.back};
+                while (peel.pass()) {}
+                peel.result(block.front, block.back);
+            } else {
+                peel_both_ends(block, region.profile().blend_rounding);
+                if (region.frame().trace) trace_block(region, columns, group, first);
+            }
+            front.store(first, group.count, block.front);
+            back.store(first, group.count, block.back);
         });
-    }
-
-    void peel_group(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first) {
-        GroupPeel peel{region, columns, group, first};
-        while (peel.pass()) {}
-        transfer(peel.front(), first, group.count, front);
-        transfer(peel.back(), first, group.count, back);
-    }
-
-    void peel_passes(Region& region, const Columns& columns, std::size_t number, const PixelGroup& group, std::size_t first) {
-        PeelBlock block = peel_block(columns, number);
-        ColorCodes opaque;
-        region.load_pixels(region.opaque_color(), static_cast<std::uint32_t>(first), group.count, opaque);
-        for (std::size_t c = 0; c < 4; ++c) {
-            block.front[c].fill(0);
-            std::copy_n(opaque[c].begin(), block_lanes, block.back[c].begin());
-        }
-        peel_both_ends(block, region.profile().blend_rounding);
-        for (std::size_t c = 0; c < 4; ++c) {
-            std::copy_n(block.front[c].begin(), group.count, &front.channel[c][first]);
-            std::copy_n(block.back[c].begin(), group.count, &back.channel[c][first]);
-        }
-        if (region.frame().trace) trace_block(region, columns, group, first);
     }
 
     // Pass by pass, the front before the back.
@@ -269,14 +247,14 @@ bool dual_closed(Region& region) {
     const Frame& frame = region.frame();
     if (!peels_to_the_end(frame) || frame.color_format != Format::rgba8) return false;
     const std::size_t area = region.rect().area();
-    Course course{{region.arena(), area}, {region.arena(), area}, {}};
+    const Target front = region.make_color(), back = region.make_color();  // cleared to 0 by being made
+    Course course{{region, front}, {region, region.opaque_color()}, {}};
     const std::size_t traced = region.trace().size();
     const auto fragments = for_each_band(region, [&](const Columns& columns) { course.run(region, columns); });
     if (!fragments || course.declined) {
         region.trace().resize(traced);
         return false;
     }
-    const Target front = region.make_color(), back = region.make_color();
     region.clear(front, {.color = {0, 0, 0, 0}});
     region.copy(region.opaque_color(), back);
     region.count({.bytes_written = 8 * area}, {});  // the min-max target's clear
@@ -286,14 +264,8 @@ bool dual_closed(Region& region) {
         region.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
         if (!region.any(Region::counted(course.left(passes)), Idle::steady)) break;
     }
-    ColorCodes codes;
-    for (std::size_t first = 0; first < area; first += batch_capacity) {
-        const int count = static_cast<int>(std::min<std::size_t>(area - first, batch_capacity));
-        transfer(course.front, first, count, codes);
-        region.store_pixels(front, static_cast<std::uint32_t>(first), count, codes);
-        transfer(course.back, first, count, codes);
-        region.store_pixels(back, static_cast<std::uint32_t>(first), count, codes);
-    }
+    course.front.write_to(front);
+    course.back.write_to(back);
     publish_front_and_back(region, front, back);
     return true;
 }

@@ -99,8 +99,10 @@ class GroupComposite {
     }
 
     // The last layer is an empty one, as in the last pass.
-    void run(ColorCodes& accumulated) {
+    void run(BlockCodes& block) {
         const Format format = region_.frame().color_format;
+        ColorCodes accumulated;
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(block[c].begin(), n_, accumulated[c].begin());
         for (bool any = true; any;) {
             any = take_layer();
             for (std::size_t c = 0; c < 4; ++c) {
@@ -109,6 +111,7 @@ class GroupComposite {
             }
             blend(blend_mode::under, info(format).type, region_.profile(), 4, layer_, accumulated, group_.count);
         }
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(accumulated[c].begin(), n_, block[c].begin());
     }
 
   private:
@@ -139,16 +142,25 @@ class GroupComposite {
 };
 
 // The same where no column has equal depths.
-void peel_layers(Region& region, const Columns& columns, std::size_t number, const PixelGroup& group, std::uint32_t first,
-                 ColorCodes& accumulated) {
-    PeelBlock block = peel_block(columns, number);
-    for (std::size_t c = 0; c < 4; ++c) std::copy_n(accumulated[c].begin(), block_lanes, block.front[c].begin());
+void peel_layers(Region& region, const Columns& columns, PeelBlock& block, const PixelGroup& group, std::size_t first) {
     peel_front(block, region.profile().blend_rounding);
-    for (std::size_t c = 0; c < 4; ++c) std::copy_n(block.front[c].begin(), block_lanes, accumulated[c].begin());
     if (!region.frame().trace) return;
     for (std::size_t i = 0; i < static_cast<std::size_t>(group.count); ++i)
-        for (std::uint32_t k = 0; k < block.visible[i]; ++k)
-            region.trace({first + static_cast<std::uint32_t>(i), columns.key[columns.slot(group.first + i, k)], 0, Side::front, false});
+        for (std::uint32_t k = 0; k < block.visible[i]; ++k) {
+            const std::uint32_t key = columns.key[columns.slot(group.first + i, k)];
+            region.trace({static_cast<std::uint32_t>(first + i), key, 0, Side::front, false});
+        }
+}
+
+// What the accumulated colour is cleared to, (0, 0, 0, 1), as codes.
+BlockCodes cleared(const Region& region) {
+    BlockCodes block{};
+    Lanes<float> one;
+    Lanes<std::uint32_t> code;
+    std::fill_n(one.begin(), block_lanes, 1.0f);
+    encode(info(region.frame().color_format).type, region.profile().half_rounding, one, code, int{block_lanes});
+    std::copy_n(code.begin(), block_lanes, block[3].begin());
+    return block;
 }
 
 // Everything that one iteration counts; called with 1, 2, 3 ...
@@ -193,26 +205,26 @@ bool front_to_back_closed(Region& region) {
     if (!peels_to_the_end(region.frame())) return false;
     PassTallies tallies;
     ColumnTallies pixel_tallies{tallies};
-    Target accumulated;
+    const Target accumulated = region.make_color();
+    CodePlanes planes{region, accumulated};
     const bool rgba8 = region.frame().color_format == Format::rgba8;
+    const BlockCodes before = cleared(region);
     const auto fragments = for_each_band(region, [&](const Columns& columns) {
-        if (!accumulated.exists()) {
-            accumulated = region.make_color();
-            region.clear(accumulated, {.color = {0, 0, 0, 1}});
-        }
         for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) pixel_tallies.add(columns, pixel);
         const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
                                   static_cast<std::size_t>(region.rect().width());
         for_each_block(columns, [&](std::size_t number, const PixelGroup& group) {
-            const auto first = static_cast<std::uint32_t>(above + group.first);
-            ColorCodes codes;
-            region.load_pixels(accumulated, first, group.count, codes);
-            if (rgba8 && !columns.blocks[number].has_ties) peel_layers(region, columns, number, group, first, codes);
-            else GroupComposite{region, columns, group, first}.run(codes);
-            region.store_pixels(accumulated, first, group.count, codes);
+            PeelBlock block = peel_block(columns, number);
+            const std::size_t first = above + group.first;
+            block.front = before;
+            if (rgba8 && !columns.blocks[number].has_ties) peel_layers(region, columns, block, group, first);
+            else GroupComposite{region, columns, group, first}.run(block.front);
+            planes.store(first, group.count, block.front);
         });
     });
     if (!fragments) return false;
+    region.clear(accumulated, {.color = {0, 0, 0, 1}});
+    planes.write_to(accumulated);
     PassCounters counters{region, *fragments, tallies};
     for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
         region.begin_iteration();

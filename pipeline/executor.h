@@ -2,7 +2,8 @@
 //
 // Rule     literal: one region, the frame; every pass rasterizes everything. It is the definition. tiled: one region a tile;
 //          a tile guesses the frame's answers from its own counts, and runs again only where the frame decided otherwise and
-//          the tile was not idle. Replay (fragments captured once a tile) joins them here. Counters are literal's.
+//          the tile was not idle. replay: as tiled, and a tile rasterizes its transparent list once (region_replay.cpp). One
+//          blank tile runs for all of its size, if the frame says that they are alike. Counters are literal's.
 // Source   design.md, idea 2; decisions.md 3 and 7.
 // Tests    tests/peeling/execution_test.cpp
 #pragma once

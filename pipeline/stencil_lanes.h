@@ -7,7 +7,9 @@
 #include "pipeline/stencil.h"
 #include "rasterizer/fragment_batch.h"
 
-namespace strata::pipeline::strict::scalar {
+namespace strata::pipeline {
+inline namespace strict {
+namespace scalar {
 
 using Mask = rasterizer::Lanes<std::uint32_t>;
 
@@ -95,4 +97,6 @@ inline int stencil_test(const StencilTest& state, const StencilLanes& lanes) noe
     return failed;
 }
 
-}  // namespace strata::pipeline::strict::scalar
+}  // namespace scalar
+}  // namespace strict
+}  // namespace strata::pipeline

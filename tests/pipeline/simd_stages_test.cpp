@@ -15,7 +15,6 @@
 using namespace strata;
 using namespace strata::pipeline;
 using Values = scalar::ColorLanes;
-using Codes = scalar::ColorCodes;
 
 namespace {
 
@@ -98,13 +97,14 @@ TEST_CASE("gather and scatter move the same codes on every instruction set, what
         Random random{501};
         Tally tally;
         for (int round = 0; round < 2000; ++round) {
-            const auto [channels, bits] = layouts[below(random, layouts.size())];
+            const auto& layout = layouts[below(random, layouts.size())];
+            const int channels = layout.first, bits = layout.second;
             Memory expected{random, channels, bits};
             Memory found = expected;
             const CodeLanes pixel = any_pixels(random), alive = any_mask(random);
             const int count = any_count(random);
             const PixelLanes at{pixel.data(), static_cast<std::size_t>(count)};
-            Codes wanted{}, got{};
+            scalar::ColorCodes wanted{}, got{};
             scalar::gather_codes(expected.at(), at, wanted.data());
             gather_codes(found.at(), at, got.data());
             bool same = true;
@@ -199,7 +199,7 @@ TEST_CASE("blending gives the same codes on every instruction set, in every form
             const int channels = one_in(random, 4) ? static_cast<int>(below(random, 4)) + 1 : 4;
             const std::uint32_t bits = type == ChannelType::unorm8 ? 0xffu : type == ChannelType::half ? 0xffffu : ~0u;
             static Values src;
-            static Codes wanted, got;
+            static scalar::ColorCodes wanted, got;
             for (std::size_t c = 0; c < 4; ++c)
                 for (std::size_t i = 0; i < 256; ++i) src[c][i] = any_float(random), wanted[c][i] = any_word(random) & bits;
             got = wanted;
@@ -223,7 +223,7 @@ TEST_CASE("every half blends alike on every instruction set") {
         for (const Blend& state : {blend_mode::sum, blend_mode::max, blend_mode::under})
             for (std::uint32_t first = 0; first < 65536; first += 1024) {
                 static Values src;
-                static Codes wanted, got;
+                static scalar::ColorCodes wanted, got;
                 for (std::size_t c = 0; c < 4; ++c)
                     for (std::size_t i = 0; i < 256; ++i) {
                         src[c][i] = float_of(hard_bits[(i + c) % hard_bits.size()]);
@@ -243,7 +243,7 @@ TEST_CASE("every float is stored as the same half by the best instruction set", 
     std::atomic<std::uint64_t> wrong{0};
     parallel_for(blocks, 0, [&](std::size_t block) {
         Values src;
-        Codes codes;
+        scalar::ColorCodes codes;
         for (std::size_t c = 0; c < 4; ++c)
             for (std::size_t i = 0; i < 256; ++i)
                 src[c][i] = float_of(static_cast<std::uint32_t>(block * 1024 + 256 * c + i));
