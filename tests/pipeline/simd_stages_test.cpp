@@ -98,7 +98,7 @@ TEST_CASE("gather and scatter move the same codes on every instruction set, what
         Tally tally;
         for (int round = 0; round < 2000; ++round) {
             const auto& layout = layouts[below(random, layouts.size())];
-            const int channels = layout.first, bits = layout.second;
+            const int channels = layout[0], bits = layout[1];
             Memory expected{random, channels, bits};
             Memory found = expected;
             const CodeLanes pixel = any_pixels(random), alive = any_mask(random);
