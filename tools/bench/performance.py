@@ -152,14 +152,14 @@ def scaling_section(options, scenes):
     median = statistics.median(serial_shares)
     ceiling = 1 / (median + (1 - median) / 64)
     side = [int(n) for n in options.size.split("x")]
-    tiles = -(-side[0] // 32) * -(-side[1] // 32)
+    tiles = -(-side[0] // 64) * -(-side[1] // 64)
     return ("## Threads\n\n" + table(["scene", "job", "1 thread ms", "2 threads ms", "speed-up", "serial share",
                                       "ceiling for 64"], rows) +
             f"""
 The serial share s solves t2 / t1 = s + (1 - s) / 2 (Amdahl), and so counts everything that does not double: joining sources in
 submission order, the prefix sums of the bins, the last tiles, and the memory that both threads share. Its median here is
 {median:.3f}: 64 threads would be at most {ceiling:.1f} times as fast as one. Two bounds stand beside it. Tiles: {options.size} has
-{tiles} tiles of 32; with 64 threads a thread has {tiles / 64:.0f}, and the frame waits for the costliest one, so a frame whose
+{tiles} tiles of 64; with 64 threads a thread has {tiles / 64:.0f}, and the frame waits for the costliest one, so a frame whose
 fragments crowd into a few tiles scales with these. Memory: what a thread keeps of fragments is --fragment-memory divided by the
 threads; a tile that does not fit rasterizes every pass.
 """)
