@@ -56,7 +56,10 @@ void for_each_block(const Columns& columns, Visit&& visit) {
 class CodePlanes {
   public:
     CodePlanes(pipeline::Region& region, pipeline::Target initial) : region_{region}, pixels_{region.rect().area()} {
-        for (auto& channel : codes_) channel = region.arena().take<std::uint32_t>(pixels_ + block_lanes);
+        for (auto& channel : codes_) {
+            channel = region.arena().take<std::uint32_t>(pixels_ + block_lanes);
+            std::ranges::fill(channel.subspan(pixels_), 0u);  // blended like the others, and looked at by nobody
+        }
         pipeline::ColorCodes batch;
         for_each_batch([&](std::size_t first, int count) {
             region_.load_pixels(initial, static_cast<std::uint32_t>(first), count, batch);
