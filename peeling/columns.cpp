@@ -34,22 +34,24 @@ class Bands {
   public:
     Bands(Region& region, const std::function<void(const Columns&)>& body)
         : region_{region}, body_{body}, coverage_{region.arena().take<std::uint32_t>(region.rect().area())},
-          by_shader_z_{region.frame().key == DepthKey::shader_z} {
+          bytes_{region.frame().replay.bytes}, by_shader_z_{region.frame().key == DepthKey::shader_z} {
         std::ranges::fill(coverage_, 0u);
-        remembers_ = region.remember(needs(), std::min<std::uint64_t>(remembered_bytes, region.frame().replay.bytes));
+        const std::uint64_t limit = std::min<std::uint64_t>(remembered_bytes, region.frame().replay.bytes / 2);
+        remembers_ = region.remember(needs(), limit);
+        if (remembers_) bytes_ -= limit;
         region.count_coverage(coverage_);
     }
 
-    // False: a single row is too much for `bytes`.
-    [[nodiscard]] bool plan(std::uint64_t bytes) {
+    // False: a single row is too much.
+    [[nodiscard]] bool plan() {
         if (std::ranges::any_of(coverage_, [](std::uint32_t n) { return n > most_arrivals; })) return false;
         const rasterizer::Rect rect = region_.rect();
-        const std::uint64_t band_bytes = remembers_ ? bytes : std::min<std::uint64_t>(bytes, cached_bytes);
+        const std::uint64_t band_bytes = remembers_ ? bytes_ : std::min<std::uint64_t>(bytes_, cached_bytes);
         std::size_t slots = 0;
         int begin = rect.y0;
         for (int y = rect.y0; y < rect.y1; ++y) {
             const std::size_t row = slots_of_row(y);
-            if (row * slot_bytes > bytes) return false;
+            if (row * slot_bytes > bytes_) return false;
             if (y > begin && (slots + row) * slot_bytes > band_bytes) {
                 bands_.push_back({rect.x0, begin, rect.x1, y});
                 begin = y;
@@ -228,6 +230,7 @@ class Bands {
     Region& region_;
     const std::function<void(const Columns&)>& body_;
     std::span<std::uint32_t> coverage_;
+    std::uint64_t bytes_;  // for columns: what the kept fragments leave of the region's share
     bool by_shader_z_, remembers_ = false;
     const std::uint32_t* opaque_ = nullptr;  // of the present band
     std::vector<rasterizer::Rect> bands_;
@@ -241,7 +244,7 @@ class Bands {
 
 std::optional<RegionFragments> for_each_band(Region& region, const std::function<void(const Columns&)>& body) {
     Bands bands{region, body};
-    if (!bands.plan(region.frame().replay.bytes)) return std::nullopt;
+    if (!bands.plan()) return std::nullopt;
     return bands.run();
 }
 

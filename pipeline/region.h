@@ -170,6 +170,7 @@ class Region {
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] bool holds(rasterizer::FragmentNeeds needs) noexcept;
     [[nodiscard]] FragmentStore& store() noexcept;
+    [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
     void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
     void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
@@ -207,8 +208,6 @@ class Region {
     std::unique_ptr<Scratch> scratch_;
     std::vector<TargetStorage> storages_;
     Target opaque_depth_, opaque_color_, published_;
-
-    [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
 
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
     bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
