@@ -24,11 +24,6 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer
 
 void Region::count_coverage(std::span<std::uint32_t> coverage) {
     constexpr FragmentNeeds nothing{false, false, false, false, false, false};
-    if (holds(nothing)) {
-        for (std::size_t number = 0; number < store().batches(); ++number)
-            for (const std::uint32_t pixel : store().pixels(number)) ++coverage[pixel];
-        return;
-    }
     auto add = [&](FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
     };
@@ -36,28 +31,19 @@ void Region::count_coverage(std::span<std::uint32_t> coverage) {
     rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
 }
 
-bool Region::remember(const FragmentNeeds& needs, std::uint64_t bytes) {
-    counts_ = false;
-    source_ = Source::captured;
-    store().start(needs, bytes);
-    auto keep = [&](FragmentBatch& batch) { shade_or_recall(*frame_.transparent, batch, start_batch(batch)); };
-    rasterize_band(needs, rect_, rasterizer::BatchSink{keep});
-    store().finish();
-    source_ = Source::rasterizer;
-    counts_ = true;
-    if (!holds(needs)) store().forget();  // there is more than this, but it may be less than replay is allowed
-    return holds(needs);
-}
-
-bool Region::holds(FragmentNeeds needs) noexcept { return store().serves(needs); }
-
-void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink) {
+// Twice as many triangles each time: whoever has had enough soon is asked soon, and few batches end early for it.
+void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink, const bool& goes_on) {
     const PreparedDraw& list = *frame_.transparent;
     needs.color |= list.needs_color;  // MASK decides which fragments there are
     needs.texcoord |= list.needs_texcoord && needs.color;
     samples_textures_ = needs.texcoord;
     rasterizer::TileRasterizer rows{band};
-    rows.draw(list.geometry, list.geometry.bin(tile_), frame_.key_request(), needs, sink);
+    auto triangles = list.geometry.bin(tile_);
+    for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
+        part = std::min(part, triangles.size());
+        rows.draw(list.geometry, triangles.first(part), frame_.key_request(), needs, sink);
+        triangles = triangles.subspan(part);
+    }
 }
 
 void Region::replay(rasterizer::BatchSink sink) {
