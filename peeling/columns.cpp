@@ -98,23 +98,25 @@ class RegionColumns {
         return true;
     }
 
-    // Grows where a band needs more than all before it.
+    // One piece of memory, cut anew for every band; another one where a single row needs more.
     void take_memory(const Band& band) {
-        Arena& arena = region_.arena();
-        if (word_.size() < band.ranks * band.stride()) word_ = arena.take<std::uint64_t>(band.ranks * band.stride());
-        for (auto& channel : color_)
-            if (channel.size() < band.places + block_lanes) channel = arena.take<float>(band.places + block_lanes);
-        if (rows_.size() < band.ranks * block_lanes) rows_ = arena.take<std::uint64_t>(band.ranks * block_lanes);
+        const std::size_t words = band.ranks * band.stride(), rows = band.ranks * block_lanes, places = band.places + block_lanes;
+        const std::size_t needed = (words + rows) * word_bytes + places * color_bytes;
+        if (memory_.size() < needed) memory_ = region_.arena().take<std::byte>(needed);
+        word_ = reinterpret_cast<std::uint64_t*>(memory_.data());
+        rows_ = word_ + words;
+        auto* const colors = reinterpret_cast<float*>(rows_ + rows);
+        for (std::size_t c = 0; c < 4; ++c) color_[c] = colors + c * places;
     }
 
     [[nodiscard]] bool place(const Band& band) {
         for (const auto& counts : {count_, hidden_, at_surface_}) std::ranges::fill(counts, 0u);
         arrivals_ = {.stride = band.stride(), .ranks = static_cast<std::uint32_t>(band.ranks), .places = 0,
-                     .most_places = static_cast<std::uint32_t>(band.places), .word = word_.data(), .count = count_.data(),
+                     .most_places = static_cast<std::uint32_t>(band.places), .word = word_, .count = count_.data(),
                      .hidden = hidden_.data(), .at_surface = at_surface_.data(),
                      .opaque = region_.storage(region_.opaque_depth()).depth(0) + first_of(band),
                      .same_opaque = region_.opaque_depth_is_cleared(), .by_shader_z = by_shader_z_};
-        for (std::size_t c = 0; c < 4; ++c) arrivals_.color[c] = color_[c].data();
+        for (std::size_t c = 0; c < 4; ++c) arrivals_.color[c] = color_[c];
         return region_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
             fragments_.rasterized += lanes(in);
             fragments_.masked += lanes(in) - Region::alive_count(out, in.count);
@@ -141,9 +143,9 @@ class RegionColumns {
             if ((block.depth | hidden) == 0) continue;
             block.first = first_of(band) + pixel;
             block.count = static_cast<int>(std::min(pixels - pixel, block_lanes));
-            for (std::size_t c = 0; c < 4; ++c) block.color[c] = color_[c].data();
-            sort_block(arrivals_, pixel, block, rows_.data());
-            block.rows = rows_.data();
+            for (std::size_t c = 0; c < 4; ++c) block.color[c] = color_[c];
+            sort_block(arrivals_, pixel, block, rows_);
+            block.rows = rows_;
             visit_(block);
         }
     }
@@ -155,8 +157,9 @@ class RegionColumns {
     RegionFragments fragments_;
     Arrivals arrivals_;
     std::span<std::uint32_t> count_, hidden_, at_surface_;
-    std::span<std::uint64_t> word_, rows_;
-    std::array<std::span<float>, 4> color_;
+    std::span<std::byte> memory_;
+    std::uint64_t *word_ = nullptr, *rows_ = nullptr;
+    std::array<float*, 4> color_{};
 };
 
 }  // namespace

@@ -135,7 +135,8 @@ struct Renderer::State {
 
     // To simulate every effect is to rasterize in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm) const {
-        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
+        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed &&
+                             options.once_more == Effect::none;
         if (!replays || !algorithm.replayed) return {};
         return {options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)), *algorithm.replayed};
     }
@@ -153,6 +154,7 @@ struct Renderer::State {
         f.termination = options.termination;
         f.max_passes = options.max_passes;
         f.effects = options.effects;
+        f.once_more = options.once_more;
         f.replay = replay(algorithm);
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;

@@ -8,6 +8,7 @@
 // Tests    tests/pipeline/prepare_test.cpp
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/draw_list.h"
@@ -24,12 +25,21 @@ struct MaterialStage {
     float alpha_scale = 1.0f;          // of what MASK keeps: after the test, so that it cuts at the material's own alpha
 };
 
+// What some materials call for in every pass.
+struct MaterialNeeds {
+    bool texcoord = false;  // one of them has a texture
+    bool color = false;     // one of them tests its alpha, so that even a depth-only pass must shade
+    friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
+};
+
 struct PreparedDraw {
     rasterizer::Geometry geometry;
     std::vector<MaterialStage> materials;
-    bool needs_texcoord = false;  // some material has a texture
-    bool needs_color = false;     // some material tests its alpha, so that even a depth-only pass must shade
+    MaterialNeeds needs;  // of all of them
 };
+
+// What the materials of some of a list's triangles call for: of a tile, it may be less than the list's.
+[[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
 
 enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK
 

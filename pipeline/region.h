@@ -7,6 +7,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -177,12 +178,17 @@ class Region {
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
     void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
     void load(const PassState& state, const FragmentBatch& batch);
+    void load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
+    [[nodiscard]] const MaterialNeeds& needs_of_tile(const PreparedDraw& list);
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
     std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                          Lanes<std::uint32_t>& alive);  // answers how many pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
     void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out);
+    void idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color, const TargetStorage& target, int sample);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);
@@ -210,6 +216,8 @@ class Region {
     std::vector<TargetStorage> storages_;
     Target opaque_depth_, opaque_color_, published_;
 
+    std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, once asked for
+    std::optional<TargetStorage> idle_stencil_;
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
     bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
     enum class Source : std::uint8_t { rasterizer, captured, store };  // captured: rasterized, and kept for later passes

@@ -14,8 +14,15 @@ using rasterizer::FragmentNeeds;
 
 FragmentStore& Region::store() noexcept { return scratch_->store; }
 
+const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
+    auto& needs = &list == frame_.transparent ? transparent_needs_ : opaque_needs_;
+    const bool whole = extent_ == Extent::frame || list.needs == MaterialNeeds{};
+    if (!needs) needs = whole ? list.needs : needs_of(list, list.geometry.bin(tile_));
+    return *needs;
+}
+
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer::BatchSink sink) {
-    samples_textures_ = needs.color && list.needs_texcoord;
+    samples_textures_ = needs.color && needs_of_tile(list).texcoord;
     const auto& geometry = list.geometry;
     const auto triangles =
         extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
@@ -34,8 +41,8 @@ void Region::count_coverage(std::span<std::uint32_t> coverage) {
 // Twice as many triangles each time: whoever has had enough soon is asked soon, and few batches end early for it.
 void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink, const bool& goes_on) {
     const PreparedDraw& list = *frame_.transparent;
-    needs.color |= list.needs_color;  // MASK decides which fragments there are
-    needs.texcoord |= list.needs_texcoord && needs.color;
+    needs.color |= needs_of_tile(list).color;  // MASK decides which fragments there are
+    needs.texcoord |= needs_of_tile(list).texcoord && needs.color;
     samples_textures_ = needs.texcoord;
     rasterizer::TileRasterizer rows{band};
     auto triangles = list.geometry.bin(tile_);
@@ -74,10 +81,11 @@ DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& l
 // every time.
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     depth_ = depth_outcome(state, list);
-    FragmentNeeds needs = pass_needs(state, list, frame_.effects, depth_);
+    const MaterialNeeds& materials = needs_of_tile(list);
+    FragmentNeeds needs = with_value(pass_needs(state, materials, frame_.effects, depth_), frame_.once_more);
     if (frame_.pass_log != nullptr)
-        frame_.pass_log->passes.push_back({state, needs, pass_needs(state, list, Effects::needed),
-                                           needs.color && list.needs_texcoord, &list == frame_.opaque, iterations_});
+        frame_.pass_log->passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
+                                           needs.color && materials.texcoord, &list == frame_.opaque, iterations_});
     const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent;
     FragmentNeeds kept = needs;
     kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture
@@ -86,7 +94,7 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     } else if (may_replay && store().may_start()) {
         source_ = Source::captured;
         needs = needs | frame_.replay.needs;
-        needs.texcoord |= list.needs_texcoord && needs.color;
+        needs.texcoord |= materials.texcoord && needs.color;
         store().start(kept | frame_.replay.needs, frame_.replay.bytes);
         rasterize(list, needs, sink);
         store().finish();
