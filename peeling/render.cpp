@@ -5,6 +5,7 @@
 
 #include "pipeline/check_pass.h"
 #include "pipeline/effects.h"
+#include "pipeline/other_splits.h"
 #include "rasterizer/input_error.h"
 #include "rasterizer/parallel.h"
 
@@ -36,6 +37,8 @@ void check_options(const RenderOptions& o) {
     if (std::find(std::begin(tile_sizes), std::end(tile_sizes), o.tile_size) == std::end(tile_sizes))
         throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(o.tile_size));
     in_range("--threads", o.threads, 0, 1024);
+    in_range("the window's origin: x", o.window_origin[0], 0, 32768 - o.width);
+    in_range("the window's origin: y", o.window_origin[1], 0, 32768 - o.height);
     in_range("--compare-epsilon: units in the last place", o.compare_epsilon.ulps, 0, 1 << 24);
     if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
         throw InputError("strata", "--compare-epsilon", "a number from 0 to 1", std::to_string(o.compare_epsilon.absolute));
@@ -135,6 +138,13 @@ struct Renderer::State {
         });
         if (has_opaque) opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque));
         prepare_second();
+        for (PreparedDraw* const prepared : {&transparent, has_opaque ? &opaque : nullptr, second ? &*second : nullptr})
+            if (prepared != nullptr) move_to_origin(*prepared);
+    }
+
+    void move_to_origin(PreparedDraw& prepared) const {
+        const auto& [x, y] = options.window_origin;
+        if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
     }
 
     void prepare_second() {
@@ -155,6 +165,7 @@ struct Renderer::State {
             PrepareOptions sorting = prepare_options(transparent_selection());
             sorting.sort_back_to_front = true;
             sorted = prepare(list, view, raster, profile, sorting);
+            move_to_origin(*sorted);
         }
         return *sorted;
     }

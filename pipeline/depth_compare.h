@@ -26,7 +26,7 @@ inline namespace strict {
 
 struct DepthCompare {
     rasterizer::DepthFormat format = rasterizer::DepthFormat::d32f;
-    CompareEpsilon epsilon;
+    CompareEpsilon epsilon{};
     bool has_reference = false;  // another path's depth is compared than is stored
     bool quantizes = true;
 

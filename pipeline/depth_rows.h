@@ -4,7 +4,7 @@
 //          depth range (z from 0 in clip space: f - n and n), times (view * model), all in binary64; row r then takes the
 //          units of vertex z (2^n - 1 in buffer units), q is the last row. Each vertex by its view's vertex path.
 // Source   Everitt 2001, Listing 2; algorithms.md 3; decisions.md 1: rows carry the factor 2^n - 1.
-// Tests    tests/pipeline/depth_rows_test.cpp
+// Tests    tests/pipeline/vertex_transform_test.cpp
 #pragma once
 #include "pipeline/draw_list.h"
 #include "pipeline/vertex_transform.h"
