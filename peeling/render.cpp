@@ -1,6 +1,7 @@
 #include "peeling/render.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 #include "pipeline/check_pass.h"
@@ -80,12 +81,20 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
     if (audit.lost_by_ties > 0 && (merges || drops))
         note(Fault::merged_ties, audit.ties,
              std::to_string(audit.lost_by_ties) + (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
-    if (!algorithm.exact || audit.order_errors.value_or(0) == 0) return;
+    const bool orders = algorithm.exact || algorithm.order == ListOrder::objects;
+    if (!orders || audit.order_errors.value_or(0) == 0) return;
     const bool limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed ||
                          options.termination.rule == TerminationRule::ratio;
     if (limited)
         note(Fault::truncated, audit.misordered, "the peel ended before the last layer");
-    else if (options.termination.rule == TerminationRule::paper)
+    else if (algorithm.has_published_form && options.formulation == Formulation::published)
+        note(Fault::as_published, audit.misordered,
+             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced by the listing as printed");
+    else if (algorithm.order == ListOrder::sets)
+        note(Fault::out_of_order, audit.misordered, "the ordered set (--sorted) does not arrive front to back");
+    else if (algorithm.order == ListOrder::objects && !algorithm.exact)
+        note(Fault::out_of_order, audit.misordered, "objects or their own triangles overlap out of order");
+    else if (options.termination.rule == TerminationRule::paper && algorithm.ties == TiePolicy::merged)
         note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
 }
 
@@ -99,8 +108,8 @@ struct Renderer::State {
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
     rasterizer::RasterState raster{};
-    PreparedDraw transparent{}, opaque{};
-    std::optional<PreparedDraw> sorted{};
+    PreparedDraw opaque{};
+    std::array<std::optional<PreparedDraw>, 4> transparent{};  // by ListOrder
     bool has_opaque = false;
     double geometry_seconds = 0;
 
@@ -115,22 +124,58 @@ struct Renderer::State {
 
     void prepare_lists() {
         const Stopwatch watch{geometry_seconds};
-        transparent = prepare(list, view, raster, profile, prepare_options(transparent_selection()));
+        prepare_list(ListOrder::given);
         has_opaque = !options.alpha && std::any_of(list.materials.begin(), list.materials.end(), [](const Material& m) {
             return m.alpha_mode != AlphaMode::blend;
         });
         if (has_opaque) opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque));
     }
 
-    const PreparedDraw& list_for(const Algorithm& algorithm) {
-        if (!algorithm.sorts_triangles) return transparent;
-        if (!sorted) {
-            const Stopwatch watch{geometry_seconds};
-            PrepareOptions sorting = prepare_options(transparent_selection());
-            sorting.sort_back_to_front = true;
-            sorted = prepare(list, view, raster, profile, sorting);
+    [[nodiscard]] bool arrives_sorted(const Instance& instance) const {
+        const auto names = [&](const std::string& name) { return name == list.meshes[instance.mesh].name || name == list.materials[instance.material].name; };
+        return instance.arrives_sorted || std::any_of(options.sorted.begin(), options.sorted.end(), names);
+    }
+
+    // The part of each run of a soup: ordered set 0, the rest 1; or one an object.
+    [[nodiscard]] PartSort parts_of(const rasterizer::TriangleSoup& soup, ListOrder order) const {
+        PartSort parts;
+        const bool in_sets = order == ListOrder::sets;
+        parts.sorts.assign(in_sets ? 2 : soup.runs.size(), true);
+        if (in_sets) parts.sorts[0] = false;
+        for (std::size_t run = 0; run < soup.runs.size(); ++run)
+            parts.part_of_run.push_back(in_sets ? (arrives_sorted(list.instances[soup.runs[run].object]) ? 0 : 1)
+                                                : static_cast<std::uint32_t>(run));
+        return parts;
+    }
+
+    [[nodiscard]] Ordering ordering(ListOrder order) const {
+        switch (order) {
+            case ListOrder::given:
+                if (options.sort.rule == SortRule::none) return {};
+                return [this](const auto& soup) { return SubmissionOrder{submission_order(soup, options.sort), {}}; };
+            case ListOrder::back_to_front:
+                return [](const auto& soup) { return SubmissionOrder{submission_order(soup, {.rule = SortRule::reverse}), {}}; };
+            case ListOrder::sets:
+            case ListOrder::objects: break;
         }
-        return *sorted;
+        return [this, order](const auto& soup) { return submission_order(soup, options.sort, parts_of(soup, order)); };
+    }
+
+    PreparedDraw& prepare_list(ListOrder order) {
+        PrepareOptions ordered = prepare_options(transparent_selection());
+        ordered.order = ordering(order);
+        return transparent[static_cast<std::size_t>(order)].emplace(prepare(list, view, raster, profile, ordered));
+    }
+
+    const PreparedDraw& list_for(const Algorithm& algorithm) {
+        auto& prepared = transparent[static_cast<std::size_t>(algorithm.order)];
+        if (prepared) return *prepared;
+        const Stopwatch watch{geometry_seconds};
+        return prepare_list(algorithm.order);
+    }
+
+    [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
+        return algorithm.whole_frame ? Execution::literal : options.execution;
     }
 
     // To simulate every effect is to rasterize in every pass.
@@ -151,6 +196,7 @@ struct Renderer::State {
         f.color_format = color_format;
         f.background = options.background;
         f.termination = options.termination;
+        f.formulation = options.formulation;
         f.max_passes = options.max_passes;
         f.effects = options.effects;
         f.replay = replay(algorithm);
@@ -178,15 +224,17 @@ struct Renderer::State {
     }
 
     void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) const {
-        const auto& counters = transparent.geometry.counters;
+        const auto& counters = transparent[0]->geometry.counters;
         if (counters.non_finite > 0)
             merge(all, {Fault::non_finite_vertices, 0, -1, -1,
                         std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
                             std::to_string(counters.first_non_finite)});
         if (algorithm.run == find_algorithm("depth_units")->run)
             merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
-        const bool compares_in_program = algorithm.name == "front_to_back" && depth.format != DepthFormat::d32f;
-        if (compares_in_program)
+        const auto needs = [&](Feature f) { return std::find(algorithm.features.begin(), algorithm.features.end(), f) != algorithm.features.end(); };
+        if (needs(Feature::ordered_rmw))
+            merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_ordered_rmw: no device's programs read what they write, in order"});
+        if (algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f)
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
 };
@@ -213,7 +261,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
         try {
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
-            result.frame = run(frame, body_of(algorithm), state_->options.execution, state_->options.threads, progress);
+            result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }
@@ -265,6 +313,6 @@ std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }
-const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->transparent.geometry.counters; }
+const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->transparent[0]->geometry.counters; }
 
 }  // namespace strata::peeling
