@@ -20,8 +20,8 @@ namespace strata::pipeline {
 [[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const MaterialNeeds& materials, Effects effects,
                                                           DepthOutcome depth = DepthOutcome::open) {
     rasterizer::FragmentNeeds needs = state.needs;
-    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true};
-    needs.code |= (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
+    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.reference};
+    needs.code |= needs.reference || (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
     needs.facing |= state.stencil.enabled && state.stencil.two_sided;
     needs.color |= materials.color;
     needs.texcoord |= materials.texcoord && needs.color;
@@ -67,7 +67,8 @@ struct TileCensus {
 };
 // Rasterizes every tile with these values and does nothing with them: for whoever holds a watch.
 void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs, int threads);
-
+// The fragments of the deepest pixel, before any test.
+[[nodiscard]] std::uint32_t deepest_pixel(const PreparedDraw& list);
 [[nodiscard]] TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque);
 
 }  // namespace strata::pipeline
