@@ -37,6 +37,7 @@ class ColumnTallies {
     void add(const ColumnBlock& block) {
         tallies_.make_room(block.depth + 2);
         if (columns_.size() <= block.depth) columns_.resize(block.depth + 1);
+        if (thresholds_.size() <= block.depth * block_lanes) thresholds_.resize((block.depth + 1) * block_lanes);
         before_.resize(block.depth * block_lanes);
         find_arrived_before(block, before_.data());
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
@@ -60,14 +61,17 @@ class ColumnTallies {
             }
             tallies_.exhausted[n + 2] += n * columns_[n];
         }
+        for (std::size_t i = 0; i < thresholds_.size(); ++i) tallies_.first_passed[i / block_lanes + 1] += thresholds_[i];
     }
 
   private:
+    // Without branches, and lane by lane, so that no count waits for the one before it.
     void add_untied(const ColumnBlock& block) {
-        std::uint64_t* const first_passed = tallies_.first_passed.data();
-        for (std::size_t lane = 0; lane < block_lanes; ++lane)
-            for (std::uint32_t k = 0; k < block.visible[lane] && block.has_ties[lane] == 0; ++k)
-                ++first_passed[before_[k * block_lanes + lane] + 1];
+        LaneWords heights;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) heights[lane] = block.has_ties[lane] != 0 ? 0 : block.visible[lane];
+        for (std::uint32_t k = 0; k < block.depth; ++k)
+            for (std::size_t lane = 0; lane < block_lanes; ++lane)
+                thresholds_[before_[k * block_lanes + lane] * block_lanes + lane] += k < heights[lane] ? 1 : 0;
     }
 
     void add_tied(const ColumnBlock& block, std::size_t lane) {
@@ -92,7 +96,8 @@ class ColumnTallies {
     }
 
     PassTallies& tallies_;
-    std::vector<std::uint64_t> columns_;  // untied ones, by height
+    std::vector<std::uint64_t> columns_;     // untied ones, by height
+    std::vector<std::uint64_t> thresholds_;  // of their fragments, rows of sixteen, by lane: how many begin to pass after so many depths
     std::vector<std::uint32_t> before_;   // by place in the block
     std::vector<std::uint32_t> rank_;     // by place in a column: its depth, from 1
 };
