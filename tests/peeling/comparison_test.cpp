@@ -225,11 +225,12 @@ TEST_CASE("a window that lies elsewhere on its surface shows the same picture by
     const RenderResult there = run(scene, {"geforce8", "dual"}, options);
     CHECK(there.frame.color == here.frame.color);
     CHECK(there.frame.depth == here.frame.depth);
-    CHECK(there.audit == here.audit);
+    CHECK(there.audit.order_errors == here.audit.order_errors);
+    CHECK(there.audit.max_difference == here.audit.max_difference);
 }
 
 TEST_CASE("literal, tiled and replayed peels agree whatever depth they compare") {
-    const TriangleScene scene = random_triangles(966, 60);
+    const TriangleScene scene = random_triangles(966, 24);
     struct Setting {
         const char* name;
         Machine machine;
