@@ -182,7 +182,8 @@ struct Renderer::State {
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
     // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
     [[nodiscard]] int pass_limit(const Frame& f) {
-        if (options.max_passes > 0 || f.is_invariant()) return options.max_passes;
+        const bool is_limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
+        if (is_limited || f.is_invariant()) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
