@@ -38,8 +38,10 @@ void choose_formats(ByteSource& bytes, const DeviceProfile& profile, peeling::Re
 
 // Another depth compared than stored, or by vertices that went another way.
 void choose_comparison(ByteSource& bytes, const DeviceProfile& profile, peeling::RenderOptions& o) {
-    constexpr std::array stored{DepthPath::float32_plane, DepthPath::exact, DepthPath::perspective_rq, DepthPath::depth_replace};
-    constexpr std::array compared{DepthPath::perspective_rq, DepthPath::float32, DepthPath::float32_plane, DepthPath::exact};
+    constexpr std::array stored{DepthPath::float32_plane, DepthPath::exact, DepthPath::perspective_rq,
+                                DepthPath::depth_replace};
+    constexpr std::array compared{DepthPath::perspective_rq, DepthPath::float32, DepthPath::float32_plane,
+                                  DepthPath::exact};
     if (bytes.one_in(8)) {
         const DepthPath path = bytes.pick(stored);
         if (!check(profile, path)) o.depth_path = path;

@@ -75,7 +75,8 @@ TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven 
     CHECK(same(nv20::sum(std::array{1.0f, -0x1p-28f}), 0x1.fffffep-1f));  // cut after the one addition
     CHECK(same(nv20::sum(std::array{1.0f, -0x1p-29f}), 1.0f));            // lost before it
     CHECK(same(nv20::sum(std::array{2.0f, -2.0f}), 0.0f));
-    CHECK(std::isnan(nv20::sum(std::array{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()})));
+    CHECK(std::isnan(
+        nv20::sum(std::array{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()})));
 }
 
 TEST_CASE("NV20's reciprocal is a seed of its 6 leading bits and two Newton steps on integers") {
@@ -129,8 +130,8 @@ TEST_CASE("a window of NV20's engine multiplies by its reciprocal of w and adds 
             const float divided = model_cut(model_value(c) * model_value(inverse_w));
             return model_sum(std::array{model_cut(Rational{scale} * Rational{divided}), offset});
         };
-        wrong += same(found.inverse_w, inverse_w) && same(found.x, mapped(320, v.x, 320)) && same(found.y, mapped(-240, v.y, 240)) &&
-                         same(found.z, mapped(8388607.5f, v.z, 8388607.5f))
+        wrong += same(found.inverse_w, inverse_w) && same(found.x, mapped(320, v.x, 320)) &&
+                         same(found.y, mapped(-240, v.y, 240)) && same(found.z, mapped(8388607.5f, v.z, 8388607.5f))
                      ? 0
                      : 1;
     }

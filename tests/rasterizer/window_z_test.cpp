@@ -19,7 +19,7 @@ constexpr int bits = 4;
     Rational area{doubled_area(p[0], p[1], p[2])};
     if (area < 0) area = -area;
     const Rational r = cut_to_bits(Rational{1} / area, reciprocal_bits);  // step 2
-    std::array<Rational, 3> e;                               // step 1
+    std::array<Rational, 3> e;                                            // step 1
     std::array<int, 3> k;
     for (std::size_t i = 0; i < 3; ++i) {
         e[i] = weight[i] * area;
@@ -206,7 +206,8 @@ TEST_CASE("GeForce3 depth depends on the order of a triangle's vertices") {
 
 TEST_CASE("other widths of the reciprocal and of the aligned add change what their hypothesis says, and many words") {
     Random random{45};
-    for (const auto& [reciprocal_bits, sum_bits] : {std::pair{24, 29}, std::pair{27, 29}, std::pair{30, 29}, std::pair{28, 24}, std::pair{26, 26}}) {
+    for (const auto& [reciprocal_bits, sum_bits] :
+         {std::pair{24, 29}, std::pair{27, 29}, std::pair{30, 29}, std::pair{28, 24}, std::pair{26, 26}}) {
         const DepthHypothesis varied{.reciprocal_bits = reciprocal_bits, .sum_bits = sum_bits};
         std::uint64_t fragments = 0, wrong = 0, changed = 0;
         for (int n = 0; n < 12; ++n) {

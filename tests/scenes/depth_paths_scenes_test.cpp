@@ -27,12 +27,14 @@ struct Compared {
 };
 
 // Every fragment of the scene: how many compared depths are not the stored one.
-[[nodiscard]] Compared compare(const Scene& scene, const Machine& machine, DepthPath stored, DepthPath reference, int size) {
+[[nodiscard]] Compared compare(const Scene& scene, const Machine& machine, DepthPath stored, DepthPath reference,
+                               int size) {
     strata::rasterizer::RasterState state;
     state.viewport = {0, 0, size, size};
     state.depth_format = machine.format;
     const DeviceProfile& profile = *strata::pipeline::find_profile(machine.profile);
-    const auto prepared = prepare(scene.list, orbit_view(scene.bounds, 30, 20, 1.0), state, profile, {.depth_quotient = true});
+    const auto prepared =
+        prepare(scene.list, orbit_view(scene.bounds, 30, 20, 1.0), state, profile, {.depth_quotient = true});
     Compared found;
     auto sink = [&](FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
@@ -66,7 +68,8 @@ void check_cure(const std::string& spec, int size, std::uint64_t at_least) {
 
 }  // namespace
 
-TEST_CASE("the depth that depth replace stores is the depth that is compared, on every procedural scene and 10^6 fragments") {
+TEST_CASE(
+    "the depth that depth replace stores is the depth that is compared, on every procedural scene and 10^6 fragments") {
     check_cure("teapot", 256, 50000);
     check_cure("volume-beam:slices=16", 128, 50000);
     check_cure("random:seed=7,triangles=2500", 256, 1000000);
@@ -79,7 +82,8 @@ TEST_CASE("the depth that depth replace stores is the depth that is compared, on
         check_cure((folder / name).string(), 256, 10000);
 }
 
-TEST_CASE("the depth that GeForce3 stores is not the depth that its shadow comparison has, on the teapot and the dragon") {
+TEST_CASE(
+    "the depth that GeForce3 stores is not the depth that its shadow comparison has, on the teapot and the dragon") {
     const Machine d24{"geforce3", DepthFormat::d24};
     const auto share = [&](const std::string& spec) {
         const Compared found = compare(load_scene(spec, {}), d24, DepthPath::window_z, DepthPath::perspective_rq, 256);
