@@ -221,6 +221,20 @@ TEST_CASE("a second list that is the first one again, split otherwise or clamped
           plain.frame.color);  // nothing is cut at near or far
 }
 
+TEST_CASE("an algorithm that knows only stored codes is refused where another depth is to be compared") {
+    const TriangleScene scene = random_triangles(967, 8);
+    RenderOptions options = small();
+    options.compare_epsilon = {0, 1};
+    for (const char* algorithm : {"layer_peel", "hybrid", "coherent_stencil", "batched"}) {
+        const RenderResult result = render(scene.list, scene.view, {"ideal", algorithm}, options);
+        REQUIRE(result.outcome == strata::peeling::Outcome::refused);
+        CHECK(result.refusal->sentence(*strata::pipeline::find_profile("ideal")) ==
+              std::string{"profile ideal has no choice of the depth that "} + algorithm +
+                  " compares; use depth_units, front_to_back, dual or dual_independent");
+    }
+    CHECK(render(scene.list, scene.view, {"ideal", "weighted_sum"}, options).outcome == strata::peeling::Outcome::done);
+}
+
 TEST_CASE("a window that lies elsewhere on its surface shows the same picture by an exact depth path") {
     const TriangleScene scene = random_triangles(965, 60);
     RenderOptions options = small();
