@@ -379,7 +379,7 @@ TEST_CASE("r and q are clipped with their vertex and drop a triangle over whose 
     soup.vertices = {
         {.x = -1, .y = -1, .z = 0, .w = 1}, {.x = 1, .y = -1, .z = 0, .w = 1}, {.x = 0, .y = 3, .z = 4, .w = 2}};
     soup.indices = {0, 1, 2};
-    soup.runs = {{0, 3, 0, true, false}};
+    soup.runs = {{0, 3, 0, 0, true, false}};
     add_rq(soup, state, {});
     CHECK(soup.extras.values == std::vector<float>{0.5f, 1, 0.5f, 1, 3, 2});  // (z + w) / 2
     const Geometry clipped = set_up(soup, state, {}, 1);                      // cut where z = w, at t = 1/3
