@@ -42,6 +42,7 @@ struct Algorithm {
     std::vector<pipeline::Feature> features{};  // what a profile must have
     int render_targets = 1;
     int samples = 1;
+    bool has_fixed_compare = false;  // its passes compare stored codes alone: refused where options choose another depth
 };
 
 // Everitt's and Bavoil's, then Carr's and what they compare themselves with, at last the oracle.

@@ -121,7 +121,8 @@ struct Renderer::State {
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
     // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
     [[nodiscard]] int pass_limit(const Frame& f) {
-        if (options.max_passes > 0 || f.is_invariant()) return options.max_passes;
+        const bool is_limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
+        if (is_limited || f.is_invariant()) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
@@ -174,7 +175,17 @@ struct Renderer::State {
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
             return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "", "use depth_units or front_to_back"};
+        if (algorithm.has_fixed_compare && !is_invariant())
+            return Refusal{"choice of the depth that " + algorithm.name + " compares", "",
+                           "use depth_units, front_to_back, dual or dual_independent"};
         return peeling::refusal(algorithm, profile);
+    }
+
+    // Every pass of a peel sees the same fragments and compares what it stores.
+    [[nodiscard]] bool is_invariant() const {
+        const bool quantizes = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+        return lists.second() == nullptr && quantizes && options.compare_epsilon == CompareEpsilon{} &&
+               depth.reference.value_or(depth.path) == depth.path;
     }
 
     void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {

@@ -215,38 +215,20 @@ std::uint32_t FragmentValues::code_of(double value) const noexcept {
 int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                       const TriangleLanes& lanes, const float* shader_z, double* out) const {
     const DepthHypothesis& h = rules_.hypothesis;
-    const double to_codes_of_vertex_z = z_units_ == code_units_ ? 1.0 : code_units_;
     int fallbacks = 0;
     switch (path) {
         case DepthPath::perspective_rq:
         case DepthPath::depth_replace:
             fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record), lanes, h, out);
             break;
-        case DepthPath::float32_plane:
-            float32_plane_depth(t, rules_.subpixel_bits, h.plane_anchor, lanes, out);
-            break;
+        case DepthPath::float32_plane: float32_plane_depth(t, rules_.subpixel_bits, h.plane_anchor, lanes, out); break;
         case DepthPath::float32:
             for (int i = 0; i < lanes.count; ++i) out[i] = double{shader_z[i]} * code_units_;
             return 0;
-        case DepthPath::window_z:
-            if (h.window_z == WindowZRule::chip) {
-                const WindowZ24 rule{t.z, lanes.edges->area(), h};
-                for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
-                return 0;
-            }
-            if (h.window_z == WindowZRule::float32) {
-                Lanes<float> z;
-                fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
-                std::copy_n(z.begin(), lanes.count, out);
-                return fallbacks;
-            }
-            [[fallthrough]];
-        case DepthPath::exact: {
-            const FilterPlane plane{RationalPlane{t.z}, lanes.is_exact};
-            for (int i = 0; i < lanes.count; ++i) out[i] = plane.at(lanes.weight1[i], lanes.weight2[i]);
-        }
+        case DepthPath::window_z: fallbacks = window_z_depth(t, lanes, h, out); break;
+        case DepthPath::exact: plane_depth(t, lanes, out); break;
     }
-    for (int i = 0; i < lanes.count; ++i) out[i] *= to_codes_of_vertex_z;
+    for (int i = 0; z_units_ != code_units_ && i < lanes.count; ++i) out[i] = out[i] * code_units_ / z_units_;
     return fallbacks;
 }
 

@@ -41,7 +41,7 @@ enum class SoupKind : std::uint8_t { flat, perspective, perspective_with_tiny_va
     }
     const auto half = static_cast<std::uint32_t>(triangles / 2 * 3);
     const auto all = static_cast<std::uint32_t>(triangles * 3);
-    soup.runs = {{0, half, 7, true, false}, {half, all - half, 8, false, true}};
+    soup.runs = {{0, half, 7, 0, true, false}, {half, all - half, 8, 0, false, true}};
     return soup;
 }
 

@@ -271,7 +271,7 @@ TEST_CASE("two triangles with the same vertices have the same depth in every sam
         TriangleSoup soup = random_soup(127, 40, SoupKind::perspective);
         const std::vector<std::uint32_t> once = soup.indices;
         soup.indices.insert(soup.indices.end(), once.begin(), once.end());
-        soup.runs = {{0, static_cast<std::uint32_t>(soup.indices.size()), 0, true, false}};
+        soup.runs = {{0, static_cast<std::uint32_t>(soup.indices.size()), 0, 0, true, false}};
         std::map<std::array<int, 3>, std::uint32_t> code;
         std::uint64_t different = 0, pairs = 0;
         for (const Fragment& f : draw(geometry_of(soup, device, 64, 64), device.depth).fragments) {

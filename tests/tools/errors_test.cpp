@@ -54,6 +54,20 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --fragment-memory: expected bytes such as 65536, 64M or 1G, found '64Q'"},
         {{"render", "teapot", "--execution", "tile"},
          "strata: --execution: expected literal, tiled or replay, found 'tile' (did you mean 'tiled'?)"},
+        {{"render", "teapot", "--reference-path", "rq"},
+         "strata: --reference-path: expected window_z, perspective_rq, depth_replace, float32, float32_plane or exact, "
+         "found 'rq'"},
+        {{"render", "teapot", "--compare-epsilon", "2ups"},
+         "strata: --compare-epsilon: expected a part of the depth range from 0 to 1 such as 1e-7, or units in the last "
+         "place such as 2ulp, found '2ups'"},
+        {{"render", "teapot", "--compare-epsilon", "1.5"},
+         "strata: --compare-epsilon: expected a part of the depth range from 0 to 1 such as 1e-7, or units in the last "
+         "place such as 2ulp, found '1.5'"},
+        {{"render", "teapot", "--vertex-path", "fused,double,nv20"},
+         "strata: --vertex-path: expected one or two of separate, fused, reassociated, double, toward_zero or nv20, "
+         "found 'fused,double,nv20'"},
+        {{"render", "teapot", "--polygon-offset", "1"},
+         "strata: --polygon-offset: expected two numbers such as 1,1, found '1'"},
         {{"bench", "teapot", "--execution", "replay,tile"},
          "strata: --execution: expected literal, tiled, replay or all, found 'tile' (did you mean 'tiled'?)"},
         {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
