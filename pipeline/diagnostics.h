@@ -11,6 +11,7 @@ enum class Fault : std::uint8_t {
     stencil_saturated,      // INCR or DECR met its limit
     half_saturated,         // an fp16 sum or count stopped growing or overflowed
     early_end,              // a query ended the peel while fragments were left
+    endless,                // a peel found the same fragments again and again, and was stopped: by its compared depth, or as its listing was printed
     truncated,              // --max-passes, fixed:N or ratio:R ended the peel while fragments were left
     merged_ties,            // equal depths met in one layer: colours mixed or fragments lost
     depth_quantized,        // a program had to quantise its z like the buffer before comparing
@@ -19,7 +20,6 @@ enum class Fault : std::uint8_t {
     equal_at_bound,         // fragments of equal depth at the bound of a peel
     buffer_overflow,        // more fragments at a pixel than its k entries can hold or order
     as_published,           // a listing as printed lost, repeated or misplaced fragments
-    endless,                // a listing as printed would never end, and was stopped
     out_of_order,           // what an algorithm takes for sorted is not front to back
     emulator_extension,     // a feature no real device had (STRATA_depth_units ...)
 };
@@ -29,6 +29,7 @@ enum class Fault : std::uint8_t {
         case Fault::stencil_saturated: return "stencil_saturated";
         case Fault::half_saturated: return "half_saturated";
         case Fault::early_end: return "early_end";
+        case Fault::endless: return "endless";
         case Fault::truncated: return "truncated";
         case Fault::merged_ties: return "merged_ties";
         case Fault::depth_quantized: return "depth_quantized";
@@ -37,7 +38,6 @@ enum class Fault : std::uint8_t {
         case Fault::equal_at_bound: return "equal_at_bound";
         case Fault::buffer_overflow: return "buffer_overflow";
         case Fault::as_published: return "as_published";
-        case Fault::endless: return "endless";
         case Fault::out_of_order: return "out_of_order";
         case Fault::emulator_extension: return "emulator_extension";
     }
