@@ -1,12 +1,11 @@
 #include "peeling/render.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 
+#include "peeling/prepared_lists.h"
+#include "peeling/stopwatch.h"
 #include "pipeline/check_pass.h"
 #include "pipeline/effects.h"
-#include "pipeline/other_splits.h"
 #include "rasterizer/input_error.h"
 #include "rasterizer/parallel.h"
 
@@ -15,18 +14,6 @@ namespace strata::peeling {
 using namespace pipeline;
 
 namespace {
-
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& seconds) : seconds_{seconds}, start_{std::chrono::steady_clock::now()} {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point start_;
-};
 
 void check_options(const RenderOptions& o) {
     const auto in_range = [](const char* option, int value, int low, int high) {
@@ -61,11 +48,6 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     if (depth.reference)
         if (auto lacking = check_reference(profile, *depth.reference)) return lacking;
     return check(profile, depth.path);
-}
-
-// Whether a path takes r and q of the vertices.
-bool is_quotient(std::optional<rasterizer::DepthPath> path) {
-    return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
 }
 
 // A closed form where the algorithm offers one, its passes elsewhere.
@@ -116,103 +98,12 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
 }  // namespace
 
 struct Renderer::State {
-    const DrawList& list;
-    View view;
     DeviceProfile profile;
     RenderOptions options;
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
-    rasterizer::RasterState raster{};
-    PreparedDraw opaque{};
-    std::array<std::optional<PreparedDraw>, 4> transparent{};  // by ListOrder
-    std::optional<PreparedDraw> second{};
-    bool has_opaque = false;
-    double geometry_seconds = 0;
+    PreparedLists lists;
     std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
-
-    [[nodiscard]] PrepareOptions prepare_options(Selection selection) const {
-        return {.selection = selection, .alpha_scale = options.alpha.value_or(1.0f),
-                .depth_quotient = is_quotient(depth.path) || is_quotient(depth.reference), .tile_size = options.tile_size,
-                .threads = options.threads};
-    }
-
-    [[nodiscard]] Selection transparent_selection() const {
-        return options.alpha ? Selection::all : Selection::transparent;
-    }
-
-    void prepare_lists() {
-        const Stopwatch watch{geometry_seconds};
-        prepare_list(ListOrder::given);
-        has_opaque = !options.alpha && std::any_of(list.materials.begin(), list.materials.end(), [](const Material& m) {
-            return m.alpha_mode != AlphaMode::blend;
-        });
-        if (has_opaque) opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque));
-        prepare_second();
-        for (PreparedDraw* const prepared : {has_opaque ? &opaque : nullptr, second ? &*second : nullptr})
-            if (prepared != nullptr) move_to_origin(*prepared);
-    }
-
-    void move_to_origin(PreparedDraw& prepared) const {
-        const auto& [x, y] = options.window_origin;
-        if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
-    }
-
-    void prepare_second() {
-        View other = view;
-        other.vertex_path = options.vertex_paths.second.value_or(view.vertex_path);
-        rasterizer::RasterState clamped = raster;
-        clamped.depth_clamp = options.second_depth_clamp.value_or(raster.depth_clamp);
-        const bool differs = other.vertex_path != view.vertex_path || options.second_list != nullptr || clamped != raster;
-        if (!differs) return;
-        const DrawList& split = options.second_list != nullptr ? *options.second_list : list;
-        second = prepare(split, other, clamped, profile, prepare_options(transparent_selection()));
-    }
-
-    [[nodiscard]] bool arrives_sorted(const Instance& instance) const {
-        const auto names = [&](const std::string& name) { return name == list.meshes[instance.mesh].name || name == list.materials[instance.material].name; };
-        return instance.arrives_sorted || std::any_of(options.sorted.begin(), options.sorted.end(), names);
-    }
-
-    // The part of each run of a soup: ordered set 0, the rest 1; or one an object.
-    [[nodiscard]] PartSort parts_of(const rasterizer::TriangleSoup& soup, ListOrder order) const {
-        PartSort parts;
-        const bool in_sets = order == ListOrder::sets;
-        parts.sorts.assign(in_sets ? 2 : soup.runs.size(), true);
-        if (in_sets) parts.sorts[0] = false;
-        for (std::size_t run = 0; run < soup.runs.size(); ++run)
-            parts.part_of_run.push_back(in_sets ? (arrives_sorted(list.instances[soup.runs[run].object]) ? 0 : 1)
-                                                : static_cast<std::uint32_t>(run));
-        return parts;
-    }
-
-    [[nodiscard]] Ordering ordering(ListOrder order) const {
-        switch (order) {
-            case ListOrder::given:
-                if (options.sort.rule == SortRule::none) return {};
-                return [this](const auto& soup) { return SubmissionOrder{submission_order(soup, options.sort), {}}; };
-            case ListOrder::back_to_front:
-                return [](const auto& soup) { return SubmissionOrder{submission_order(soup, {.rule = SortRule::reverse}), {}}; };
-            case ListOrder::sets:
-            case ListOrder::objects: break;
-        }
-        return [this, order](const auto& soup) { return submission_order(soup, options.sort, parts_of(soup, order)); };
-    }
-
-    PreparedDraw& prepare_list(ListOrder order) {
-        PrepareOptions ordered = prepare_options(transparent_selection());
-        ordered.order = ordering(order);
-        PreparedDraw& prepared =
-            transparent[static_cast<std::size_t>(order)].emplace(prepare(list, view, raster, profile, ordered));
-        move_to_origin(prepared);
-        return prepared;
-    }
-
-    const PreparedDraw& list_for(const Algorithm& algorithm) {
-        auto& prepared = transparent[static_cast<std::size_t>(algorithm.order)];
-        if (prepared) return *prepared;
-        const Stopwatch watch{geometry_seconds};
-        return prepare_list(algorithm.order);
-    }
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
         return algorithm.whole_frame ? Execution::literal : options.execution;
@@ -248,9 +139,9 @@ struct Renderer::State {
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
-        f.opaque = has_opaque ? &opaque : nullptr;
-        f.transparent = &list_for(algorithm);
-        f.second = second ? &*second : nullptr;
+        f.opaque = lists.opaque();
+        f.transparent = &lists.transparent(algorithm.order);
+        f.second = lists.second();
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         f.depth = depth;
@@ -286,37 +177,46 @@ struct Renderer::State {
         return peeling::refusal(algorithm, profile);
     }
 
-    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) const {
-        const auto& counters = transparent[0]->geometry.counters;
+    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
+        const auto& counters = lists.transparent(ListOrder::given).geometry.counters;
         if (counters.non_finite > 0)
             merge(all, {Fault::non_finite_vertices, 0, -1, -1,
                         std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
                             std::to_string(counters.first_non_finite)});
         if (algorithm.run == find_algorithm("depth_units")->run)
             merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
-        const auto needs = [&](Feature f) { return std::find(algorithm.features.begin(), algorithm.features.end(), f) != algorithm.features.end(); };
+        const auto needs = [&](Feature f) {
+            return std::find(algorithm.features.begin(), algorithm.features.end(), f) != algorithm.features.end();
+        };
         if (needs(Feature::ordered_rmw))
-            merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_ordered_rmw: no device's programs read what they write, in order"});
-        const bool compares_in_program = algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs);
+            merge(all, {Fault::emulator_extension, 0, -1, -1,
+                        "STRATA_ordered_rmw: no device's programs read what they write, in order"});
+        const bool compares_in_program =
+            algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f;
         const bool quantises = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
-        if (compares_in_program && depth.format != DepthFormat::d32f && (quantises || algorithm.compares_own_codes))
+        if (compares_in_program && (quantises || algorithm.compares_own_codes))
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
 };
 
-Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options)
-    : state_{std::make_unique<State>(State{.list = list, .view = view, .profile = profile, .options = options})} {
+Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options) {
     check_options(options);
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
-    state_->depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
-    state_->depth.path = options.depth_path.value_or(profile.raster.depth_path);
-    state_->depth.reference = options.reference_path;
-    state_->view.vertex_path = options.vertex_paths.first.value_or(view.vertex_path);
-    state_->color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
-    state_->raster = options.raster;
-    state_->raster.viewport = {0, 0, options.width, options.height};
-    state_->raster.depth_format = state_->depth.format;
-    state_->prepare_lists();
+    rasterizer::DepthRequest depth;
+    depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
+    depth.path = options.depth_path.value_or(profile.raster.depth_path);
+    depth.reference = options.reference_path;
+    View first = view;
+    first.vertex_path = options.vertex_paths.first.value_or(view.vertex_path);
+    rasterizer::RasterState raster = options.raster;
+    raster.viewport = {0, 0, options.width, options.height};
+    raster.depth_format = depth.format;
+    state_ = std::unique_ptr<State>(new State{
+        .profile = profile,
+        .options = options,
+        .depth = depth,
+        .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
+        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster, .depth = depth}}});
 }
 
 Renderer::~Renderer() = default;
@@ -334,7 +234,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
             result.refusal = refused.refusal;
         }
     }
-    result.seconds.geometry = state_->geometry_seconds;
+    result.seconds.geometry = state_->lists.seconds();
     if (result.refusal) {
         result.outcome = Outcome::refused;
         return result;
@@ -363,7 +263,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     const Stopwatch watch{result.seconds.passes};
     result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress);
     std::swap(result.frame.depth, result.frame.color);
-    result.seconds.geometry = state_->geometry_seconds;
+    result.seconds.geometry = state_->lists.seconds();
     return result;
 }
 
@@ -381,6 +281,8 @@ std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }
-const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->transparent[0]->geometry.counters; }
+const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { 
+    return state_->lists.transparent(ListOrder::given).geometry.counters;
+}
 
 }  // namespace strata::peeling

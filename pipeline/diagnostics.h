@@ -11,7 +11,7 @@ enum class Fault : std::uint8_t {
     stencil_saturated,      // INCR or DECR met its limit
     half_saturated,         // an fp16 sum or count stopped growing or overflowed
     early_end,              // a query ended the peel while fragments were left
-    endless,                // a peel found the same fragments again and again, and was stopped: by its compared depth, or as its listing was printed
+    endless,                // a peel found the same fragments again and again (a listing as printed, or its depths), and was stopped
     truncated,              // --max-passes, fixed:N or ratio:R ended the peel while fragments were left
     merged_ties,            // equal depths met in one layer: colours mixed or fragments lost
     depth_quantized,        // a program had to quantise its z like the buffer before comparing

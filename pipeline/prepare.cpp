@@ -117,6 +117,21 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .mirrored = determinant(instance.model) < 0});
 }
 
+// r and q of the soup's vertices, in its order.
+rasterizer::VertexExtras quotient_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                                         const rasterizer::RasterRules& rules, Selection selection) {
+    rasterizer::VertexExtras extras{.stride = 2, .has_rq = true, .values = {}};
+    for (const Instance& instance : list.instances) {
+        if (!is_selected(list.materials[instance.material], selection)) continue;
+        const VertexTransform rows = depth_rows(view, instance.model, state, rules);
+        for (const Vec3& position : list.meshes[instance.mesh].positions) {
+            const std::array<float, 4> v = rows(position);
+            extras.values.insert(extras.values.end(), {v[2], v[3]});
+        }
+    }
+    return extras;
+}
+
 DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& primitives) {
     DrawPart part{primitives, 1, 0};
     if (geometry.state.depth_clamp) return {primitives, 0, 1};
@@ -134,21 +149,6 @@ DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& pri
         part.far = std::max(part.far, bound);
     }
     return part;
-}
-
-// r and q of the soup's vertices, in its order.
-rasterizer::VertexExtras quotient_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
-                                         const rasterizer::RasterRules& rules, Selection selection) {
-    rasterizer::VertexExtras extras{.stride = 2, .has_rq = true, .values = {}};
-    for (const Instance& instance : list.instances) {
-        if (!is_selected(list.materials[instance.material], selection)) continue;
-        const VertexTransform rows = depth_rows(view, instance.model, state, rules);
-        for (const Vec3& position : list.meshes[instance.mesh].positions) {
-            const std::array<float, 4> v = rows(position);
-            extras.values.insert(extras.values.end(), {v[2], v[3]});
-        }
-    }
-    return extras;
 }
 
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
