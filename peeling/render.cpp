@@ -111,7 +111,8 @@ struct Renderer::State {
 
     // To simulate every effect is to rasterize in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
-        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
+        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed &&
+                             options.once_more == Effect::none;
         if (!replays || !algorithm.replayed) return {};
         rasterizer::FragmentNeeds needs = *algorithm.replayed;
         needs.reference = compares_apart;
@@ -153,6 +154,7 @@ struct Renderer::State {
         f.termination = options.termination;
         f.formulation = options.formulation;
         f.effects = options.effects;
+        f.once_more = options.once_more;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;

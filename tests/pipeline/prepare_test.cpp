@@ -237,7 +237,7 @@ TEST_CASE("lists know whether a pass must shade: textures, and alphas that MASK 
         raster.viewport = {0, 0, 16, 16};
         const PreparedDraw draw =
             prepare(scene.list, scene.view, raster, *find_profile("geforce8"), {.selection = selection});
-        return std::pair{draw.needs_texcoord, draw.needs_color};
+        return std::pair{draw.needs.texcoord, draw.needs.color};
     };
     CHECK(needs(Selection::opaque) == std::pair{true, true});
     CHECK(needs(Selection::transparent) == std::pair{true, false});
