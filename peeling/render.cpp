@@ -65,7 +65,7 @@ void draw_depth(Region& region) {
     state.depth_target = depth;
     state.needs = {.shader_z = false, .code = true, .color = false};
     region.begin_iteration();
-    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    static_cast<void>(region.draw_depth(state));
     region.publish(depth);
 }
 
