@@ -49,7 +49,8 @@ class HalfPlanes {
 // Whether nothing stands between the rasterizer and the tests of this pass.
 bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const {
     const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
-                          (state.sample_mask & 1u) != 0 && !list.needs_color;
+                          (state.sample_mask & 1u) != 0 && !list.needs_color && state.primitives.empty() &&
+                          !state.needs.reference;
     const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
     return is_plain && !is_recalled && extent_ == Extent::tile && frame_.effects == Effects::needed &&
            row_walk_suits(list.geometry, frame_.key_request(), rect_);
