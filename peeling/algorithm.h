@@ -33,6 +33,7 @@ struct Algorithm {
     ListOrder order = ListOrder::given;
     bool is_oracle = false;    // not a device's algorithm: never refused
     bool whole_frame = false;  // its queries nest: runs literally, whatever --execution says
+    bool compares_own_codes = false;  // by the code that it stores, alone: refused where options choose another depth
     bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
     void (*run)(pipeline::Region&) = nullptr;

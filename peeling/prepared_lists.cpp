@@ -67,7 +67,9 @@ void PreparedLists::prepare_second() {
     const bool differs = other.vertex_path != s_.view.vertex_path || o.second_list != nullptr || clamped != s_.raster;
     if (!differs) return;
     const DrawList& split = o.second_list != nullptr ? *o.second_list : s_.list;
-    second_ = prepare(split, other, clamped, prepare_options(transparent_selection()));
+    PrepareOptions ordered = prepare_options(transparent_selection());
+    ordered.order = ordering(ListOrder::given);
+    second_ = prepare(split, other, clamped, ordered);
 }
 
 bool PreparedLists::arrives_sorted(const Instance& instance) const {

@@ -65,7 +65,7 @@ void draw_depth(Region& region) {
     state.depth_target = depth;
     state.needs = {.shader_z = false, .code = true, .color = false};
     region.begin_iteration();
-    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    static_cast<void>(region.draw_depth(state));
     region.publish(depth);
 }
 
@@ -122,7 +122,8 @@ struct Renderer::State {
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
     // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
     [[nodiscard]] int pass_limit(const Frame& f) {
-        if (options.max_passes > 0 || f.is_invariant()) return options.max_passes;
+        const bool is_limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
+        if (is_limited || f.is_invariant()) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
@@ -161,7 +162,7 @@ struct Renderer::State {
         f.trace = options.audit;
         f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
-        f.max_passes = pass_limit(f);
+        f.max_passes = algorithm.compares_own_codes ? options.max_passes : pass_limit(f);
         f.average_count = options.average_count;
         return f;
     }
@@ -176,7 +177,17 @@ struct Renderer::State {
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
             return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "", "use depth_units or front_to_back"};
+        if (algorithm.compares_own_codes && !is_invariant())
+            return Refusal{"choice of the depth that " + algorithm.name + " compares", "",
+                           "use depth_units, front_to_back, dual or dual_independent"};
         return peeling::refusal(algorithm, profile);
+    }
+
+    // Every pass of a peel sees the same fragments and compares what it stores.
+    [[nodiscard]] bool is_invariant() const {
+        const bool quantizes = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+        return lists.second() == nullptr && quantizes && options.compare_epsilon == CompareEpsilon{} &&
+               depth.reference.value_or(depth.path) == depth.path;
     }
 
     void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
@@ -195,7 +206,8 @@ struct Renderer::State {
                         "STRATA_ordered_rmw: no device's programs read what they write, in order"});
         const bool compares_in_program =
             algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f;
-        if (compares_in_program && options.quantize_reference && profile.raster.hypothesis.quantize_reference)
+        const bool quantises = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+        if (compares_in_program && (quantises || algorithm.compares_own_codes))
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
 };
@@ -230,7 +242,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
             result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
-            state_->note_endless(frame, result.frame);
+            if (!algorithm.compares_own_codes) state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }

@@ -50,7 +50,8 @@ struct RenderOptions {
     bool audit = true;           // order_errors and the other comparisons with the a_buffer
     bool nearest_depth = true;   // make the Z image
     pipeline::PassLog* pass_log = nullptr;  // pipeline/frame.h
-    std::array<int, 2> window_origin{0, 0};  // the viewport's corner on its surface, in pixels; positions move with it exactly
+    // The viewport's corner on its surface, in pixels; positions move with it exactly.
+    std::array<int, 2> window_origin{0, 0};
     // Conventions; the viewport is set from width, height and window_origin.
     rasterizer::RasterState raster;
 };

@@ -107,7 +107,7 @@ Target Region::nearest_depth() {
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = nearest;
     state.needs = {.shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
-    static_cast<void>(draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    static_cast<void>(draw_depth(state));
     counts_ = true;
     return nearest;
 }

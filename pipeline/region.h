@@ -15,6 +15,7 @@
 #include "pipeline/diagnostics.h"
 #include "pipeline/frame.h"
 #include "pipeline/pass.h"
+#include "rasterizer/rows.h"
 #include "rasterizer/tile_rasterizer.h"
 
 namespace strata::pipeline {
@@ -94,6 +95,14 @@ class Region {
     template <FragmentProgram P>
     Drawn draw(const PassState& state, List list, P&& program) {
         return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent, program);
+    }
+    // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it can.
+    Drawn draw_depth(const PassState& state);
+    // One geometry pass that adds (c a, a) of every fragment to color[0], and 1 to color[1] if it is there. `program` says the
+    // same of a batch, and runs where the sums cannot go straight into the targets.
+    template <FragmentProgram P>
+    Drawn draw_sums(const PassState& state, P&& program) {
+        return sums_suit_rows(state) ? draw_sum_rows(state) : draw(state, program);
     }
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
@@ -180,6 +189,10 @@ class Region {
                         const bool& goes_on);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] FragmentStore& store() noexcept;
+    [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list) const;
+    [[nodiscard]] bool sums_suit_rows(const PassState& state) const;
+    Drawn draw_sum_rows(const PassState& state);
+    void count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn);
     [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
     void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
@@ -206,6 +219,7 @@ class Region {
     bool stop_iterating();
     void join_tail();
 
+    [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && storage(t).samples() == 1; }
     [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] const Loads& loads() const noexcept;
     [[nodiscard]] FragmentBatch& screen_batch() noexcept;

@@ -151,6 +151,10 @@ class Planner {
   private:
     template <class Holds>
     [[nodiscard]] std::uint64_t passes(Holds holds) const {
+        if (job_.algorithm != nullptr && job_.algorithm->whole_frame)  // no iteration of it is like another
+            return static_cast<std::uint64_t>(std::count_if(log_.passes.begin(), log_.passes.end(), [&](const PassRecord& pass) {
+                return !pass.is_opaque_priming && holds(pass);
+            }));
         return count_passes(log_, run_.iterations, holds);
     }
 
