@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "peeling/columns.h"
 #include "peeling/programs.h"
@@ -29,10 +30,13 @@ struct Arrivals {
     const std::uint32_t* opaque = nullptr;  // by pixel: the surface's key, shader_z or code
     bool same_opaque = false;               // all of them are opaque[0]
     bool by_shader_z = false;
+    bool has_denormals = false;             // of the visible shader_z that have come
 };
 
 inline namespace strict {
 namespace scalar {
+
+[[nodiscard]] inline bool is_denormal(float z) noexcept { return z != 0.0f && z > -0x1p-126f && z < 0x1p-126f; }
 
 template <bool by_shader_z>
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
@@ -46,6 +50,7 @@ template <bool by_shader_z>
             to.at_surface[pixel] += !by_shader_z && key == surface ? 1 : 0;
             continue;
         }
+        if (by_shader_z) to.has_denormals |= is_denormal(in.shader_z[i]);
         const std::uint32_t rank = to.count[pixel]++;
         if (rank >= to.ranks) return false;
         to.word[rank * to.stride + pixel] = std::uint64_t{key} << 32 | (to.places + i);
@@ -66,16 +71,37 @@ inline void find_arrived_before(const ColumnBlock& block, std::uint32_t* before)
 
 }  // namespace scalar
 
-// always_inline: compiled again, for another instruction set, wherever columns_simd.cpp takes it in.
-[[gnu::always_inline]] inline void exchange_rows(std::uint64_t* __restrict a, std::uint64_t* __restrict b) noexcept {
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const std::uint64_t x = a[lane], y = b[lane];
-        a[lane] = x < y ? x : y;
-        b[lane] = x < y ? y : x;
+// A row is sixteen words. What is done with rows stands in `Rows`: the loops here, vectors in columns_simd.cpp.
+namespace scalar {
+
+struct Rows {
+    // The lesser of each pair to `a`, the greater to `b`.
+    static void exchange(std::uint64_t* a, std::uint64_t* b) noexcept {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            if (b[lane] < a[lane]) std::swap(a[lane], b[lane]);
     }
-}
+    static void swap(std::uint64_t* a, std::uint64_t* b) noexcept { std::swap_ranges(a, a + block_lanes, b); }
+    // a <= b in every column.
+    [[nodiscard]] static bool in_order(const std::uint64_t* a, const std::uint64_t* b) noexcept {
+        return std::equal(a, a + block_lanes, b, [](std::uint64_t x, std::uint64_t y) { return x <= y; });
+    }
+    // Row k: words where a column is that high, ~0 elsewhere.
+    static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) noexcept {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
+    }
+    static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) noexcept {
+        has_ties = {};
+        for (std::size_t i = block_lanes; i < depth * block_lanes; ++i) {
+            const std::uint64_t before = rows[i - block_lanes];
+            if ((rows[i] ^ before) >> 32 == 0 && rows[i] != ~std::uint64_t{0}) has_ties[i % block_lanes] = ~0u;
+        }
+    }
+};
+
+}  // namespace scalar
 
 // Merge exchange compares the same rows whatever they hold, so sixteen columns go through it side by side.
+template <class Rows>
 [[gnu::always_inline]] inline void merge_exchange(std::uint64_t* rows, std::size_t depth) noexcept {
     if (depth < 2) return;
     std::size_t top = 1;
@@ -84,7 +110,7 @@ inline void find_arrived_before(const ColumnBlock& block, std::uint32_t* before)
         std::size_t r = 0, d = p;
         for (std::size_t q = top;; q /= 2) {
             for (std::size_t i = 0; i + d < depth; ++i)
-                if ((i & p) == r) exchange_rows(rows + i * block_lanes, rows + (i + d) * block_lanes);
+                if ((i & p) == r) Rows::exchange(rows + i * block_lanes, rows + (i + d) * block_lanes);
             if (q == p) break;
             d = q - p;
             r = p;
@@ -92,84 +118,48 @@ inline void find_arrived_before(const ColumnBlock& block, std::uint32_t* before)
     }
 }
 
-// How many rows from the first on fall (or rise) in every column.
-template <bool falling>
-[[gnu::always_inline]] inline std::size_t ordered_rows(const std::uint64_t* rows, std::size_t depth) noexcept {
+// How many rows from the first on rise (or fall) in every column.
+template <class Rows>
+[[gnu::always_inline]] inline std::size_t rising_rows(const std::uint64_t* rows, std::size_t depth) noexcept {
     std::size_t count = 1;
-    for (; count < depth; ++count) {
-        const std::uint64_t* const last = rows + (count - 1) * block_lanes;
-        const std::uint64_t* const next = last + block_lanes;
-        std::uint32_t wrong = 0;
-        for (std::size_t lane = 0; lane < block_lanes; ++lane)
-            wrong |= (falling ? last[lane] > next[lane] : last[lane] < next[lane]) ? 0u : 1u;
-        if (wrong != 0) break;
-    }
+    while (count < depth && Rows::in_order(rows + (count - 1) * block_lanes, rows + count * block_lanes)) ++count;
+    return count;
+}
+template <class Rows>
+[[gnu::always_inline]] inline std::size_t falling_rows(const std::uint64_t* rows, std::size_t depth) noexcept {
+    std::size_t count = 1;
+    while (count < depth && Rows::in_order(rows + count * block_lanes, rows + (count - 1) * block_lanes)) ++count;
     return count;
 }
 
-[[gnu::always_inline]] inline void reverse_rows(std::uint64_t* rows, std::size_t depth) noexcept {
-    for (std::size_t i = 0, j = depth - 1; i < j; ++i, --j)
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-            const std::uint64_t x = rows[i * block_lanes + lane];
-            rows[i * block_lanes + lane] = rows[j * block_lanes + lane];
-            rows[j * block_lanes + lane] = x;
-        }
-}
-
 // Ascending. What was drawn in depth order, but for a few rows at its end, needs only those inserted.
+template <class Rows>
 [[gnu::always_inline]] inline void sort_rows(std::uint64_t* rows, std::size_t depth) noexcept {
     constexpr std::size_t few = 8;
     if (depth < 2) return;
-    const std::size_t rising = ordered_rows<false>(rows, depth);
-    const std::size_t falling = rising > 1 ? 0 : ordered_rows<true>(rows, depth);
-    const std::size_t ordered = rising > 1 ? rising : falling;
-    if (depth - ordered > few) return merge_exchange(rows, depth);
-    if (falling > 1) reverse_rows(rows, falling);
+    const std::size_t rising = rising_rows<Rows>(rows, depth), falling = rising > 1 ? 0 : falling_rows<Rows>(rows, depth);
+    const std::size_t ordered = std::max(rising, falling);
+    if (depth - ordered > few) return merge_exchange<Rows>(rows, depth);
+    for (std::size_t i = 0, j = falling; i + 1 < j; ++i) Rows::swap(rows + i * block_lanes, rows + --j * block_lanes);
     for (std::size_t row = ordered; row < depth; ++row)
-        for (std::size_t i = row; i > 0; --i) exchange_rows(rows + (i - 1) * block_lanes, rows + i * block_lanes);
+        for (std::uint64_t* at = rows + row * block_lanes; at > rows && !Rows::in_order(at - block_lanes, at); at -= block_lanes)
+            Rows::exchange(at - block_lanes, at);
 }
 
-[[gnu::always_inline]] inline void load_rows(const Arrivals& from, std::size_t pixel, const ColumnBlock& block,
-                                             std::uint64_t* __restrict rows) noexcept {
-    for (std::size_t k = 0; k < block.depth; ++k) {
-        const std::uint64_t* const words = from.word + k * from.stride + pixel;
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-            const std::uint64_t beyond = k < block.visible[lane] ? 0 : ~std::uint64_t{0};
-            rows[k * block_lanes + lane] = words[lane] | beyond;
-        }
-    }
-}
-
-[[gnu::always_inline]] inline void find_ties(ColumnBlock& block, const std::uint64_t* rows) noexcept {
-    std::array<std::uint64_t, block_lanes> tied{};
-    for (std::size_t k = 1; k < block.depth; ++k)
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-            const std::uint64_t a = rows[(k - 1) * block_lanes + lane], b = rows[k * block_lanes + lane];
-            tied[lane] |= (a ^ b) >> 32 == 0 && b != ~std::uint64_t{0} ? 1 : 0;
-        }
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) block.has_ties[lane] = static_cast<std::uint32_t>(tied[lane]);
-}
-
-[[nodiscard, gnu::always_inline]] inline std::uint32_t nearest_key(const ColumnBlock& block, const std::uint64_t* rows) noexcept {
-    std::uint64_t least = ~std::uint64_t{0};
-    for (std::size_t lane = 0; lane < block_lanes && block.depth > 0; ++lane) least = std::min(least, rows[lane]);
-    return static_cast<std::uint32_t>(least >> 32);
-}
-
+template <class Rows>
 [[gnu::always_inline]] inline void sort_words(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
                                               std::uint64_t* rows) noexcept {
-    load_rows(from, pixel, block, rows);
-    sort_rows(rows, block.depth);
-    find_ties(block, rows);
-    block.nearest = nearest_key(block, rows);
+    for (std::uint32_t k = 0; k < block.depth; ++k)
+        Rows::load(from.word + k * from.stride + pixel, block.visible, k, rows + k * block_lanes);
+    sort_rows<Rows>(rows, block.depth);
+    Rows::find_ties(rows, block.depth, block.has_ties);
 }
 
 }  // namespace strict
 
 // Puts the living fragments of a batch down; false if there was no room for one of them: then `to` is of no more use.
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept;
-// The sixteen columns from `pixel` on into `rows`, of which there are block.depth, sorted; fills has_ties
-// and nearest.
+// The sixteen columns from `pixel` on into `rows`, of which there are block.depth, sorted; fills has_ties.
 void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept;
 // before[row * block_lanes + lane] = how many rows there are up to the last one below `row` whose fragment came earlier; 0 if none did.
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept;

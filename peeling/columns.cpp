@@ -117,11 +117,13 @@ class RegionColumns {
                      .opaque = region_.storage(region_.opaque_depth()).depth(0) + first_of(band),
                      .same_opaque = region_.opaque_depth_is_cleared(), .by_shader_z = by_shader_z_};
         for (std::size_t c = 0; c < 4; ++c) arrivals_.color[c] = color_[c];
-        return region_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
+        const bool fits = region_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
             fragments_.rasterized += lanes(in);
             fragments_.masked += lanes(in) - Region::alive_count(out, in.count);
             return append(arrivals_, in, out.alive.data());
         });
+        fragments_.has_denormals |= arrivals_.has_denormals;
+        return fits;
     }
 
     [[nodiscard]] std::size_t first_of(const Band& band) const noexcept {
@@ -146,6 +148,8 @@ class RegionColumns {
             for (std::size_t c = 0; c < 4; ++c) block.color[c] = color_[c];
             sort_block(arrivals_, pixel, block, rows_);
             block.rows = rows_;
+            for (std::size_t lane = 0; lane < block_lanes && block.depth > 0; ++lane)
+                fragments_.nearest = std::min(fragments_.nearest, block.key(lane, 0));
             visit_(block);
         }
     }

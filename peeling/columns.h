@@ -26,7 +26,6 @@ struct ColumnBlock {
     LaneWords hidden{};         // fragments at the opaque surface or behind it
     LaneWords at_surface{};     // of these, the ones exactly at it
     LaneWords has_ties{};       // not 0: a depth stands twice in the column
-    std::uint32_t nearest = ~0u;  // the least key of all
     const std::uint64_t* rows = nullptr;  // rows of sixteen: the key above, below it where the colour stands; ~0 above a column's end
     std::array<const float*, 4> color{};
 
@@ -45,6 +44,8 @@ struct ColumnBlock {
 
 struct RegionFragments {
     std::uint64_t rasterized = 0, masked = 0;
+    std::uint32_t nearest = ~0u;  // the least visible key
+    bool has_denormals = false;   // some visible shader_z is one
 };
 
 // Calls visit(block) for every block with a fragment in it, from the region's first pixels to its last. Empty, and

@@ -28,10 +28,10 @@ HWY_INLINE std::uint32_t bits_of(WordMask mask) {
     return static_cast<std::uint32_t>(bits);
 }
 
-// The keys of a vector of fragments, and which of them are visible.
+// The keys of a vector of fragments, which of them are visible, and which are denormals.
 struct Keys {
     WordVec key;
-    WordMask is_visible;
+    WordMask is_visible, is_denormal;
 };
 
 // ordered_code; no visible shader_z is NaN.
@@ -40,14 +40,16 @@ HWY_INLINE Keys keys_of_z(hn::Vec<Floats> z, WordVec surface) {
     const WordVec bits = hn::BitCast(d, hn::IfThenZeroElse(hn::Eq(z, hn::Zero(Floats{})), z));
     const WordVec sign = hn::BitCast(d, hn::ShiftRight<31>(hn::BitCast(Signed{}, bits)));
     const WordVec key = hn::Xor(bits, hn::Or(sign, hn::Set(d, 0x80000000u)));
-    return {key, hn::RebindMask(d, hn::Lt(z, hn::BitCast(Floats{}, surface)))};
+    const WordVec magnitude = hn::And(bits, hn::Set(d, 0x7fffffffu));
+    const WordMask is_denormal = hn::Lt(hn::Sub(magnitude, hn::Set(d, 1)), hn::Set(d, 0x007fffffu));
+    return {key, hn::RebindMask(d, hn::Lt(z, hn::BitCast(Floats{}, surface))), is_denormal};
 }
 
 // One batch on its way down.
 template <bool by_shader_z>
 class Appending {
   public:
-    HWY_INLINE Appending(const Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive)
+    HWY_INLINE Appending(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive)
         : to_{to}, in_{in}, alive_{alive}, count_{to.count}, word_{to.word}, stride_{to.stride}, ranks_{to.ranks},
           places_{to.places} {}
 
@@ -66,6 +68,7 @@ class Appending {
         const bool is_run = hn::AllTrue(d, hn::Eq(pixel, counting(in_.pixel[i])));
         const Keys keys = keys_at(i, surface_at(pixel, in_.pixel[i], is_run));
         const WordMask is_visible = hn::And(lives, keys.is_visible);
+        if (by_shader_z && !hn::AllFalse(d, hn::And(is_visible, keys.is_denormal))) to_.has_denormals = true;
         if (is_run && hn::AllTrue(d, is_visible) && run_of(i, keys.key)) return true;
         HWY_ALIGN std::array<std::uint32_t, vector_lanes> key;
         hn::Store(keys.key, d, key.data());
@@ -94,7 +97,7 @@ class Appending {
             return keys_of_z(hn::LoadU(Floats{}, &in_.shader_z[i]), surface);
         } else {
             const WordVec key = hn::LoadU(Words{}, &in_.code[i]);
-            return {key, hn::Lt(key, surface)};
+            return {key, hn::Lt(key, surface), hn::FirstN(Words{}, 0)};
         }
     }
 
@@ -127,7 +130,7 @@ class Appending {
         }
     }
 
-    const Arrivals& to_;
+    Arrivals& to_;
     const pipeline::FragmentBatch& in_;
     const std::uint32_t* alive_;
     std::uint32_t* count_;  // what stands in `to`, where a store could not have changed it
@@ -172,11 +175,57 @@ void arrived_before(const ColumnBlock& block, std::uint32_t* before) {
     }
 }
 
+// scalar::Rows. Not inline by itself: the loops of arrivals.h, which belong to no instruction set, come between it and its callers.
+struct VectorRows {
+    using Wide = hn::CappedTag<std::uint64_t, block_lanes>;
+    static constexpr std::size_t step = hn::MaxLanes(Wide{});
+
+    static void exchange(std::uint64_t* a, std::uint64_t* b) {
+        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
+            const auto x = hn::LoadU(Wide{}, a + lane), y = hn::LoadU(Wide{}, b + lane);
+            hn::StoreU(hn::Min(x, y), Wide{}, a + lane);
+            hn::StoreU(hn::Max(x, y), Wide{}, b + lane);
+        }
+    }
+    static void swap(std::uint64_t* a, std::uint64_t* b) {
+        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
+            const auto x = hn::LoadU(Wide{}, a + lane), y = hn::LoadU(Wide{}, b + lane);
+            hn::StoreU(y, Wide{}, a + lane);
+            hn::StoreU(x, Wide{}, b + lane);
+        }
+    }
+    static bool in_order(const std::uint64_t* a, const std::uint64_t* b) {
+        for (std::size_t lane = 0; lane < block_lanes; lane += step)
+            if (!hn::AllFalse(Wide{}, hn::Lt(hn::LoadU(Wide{}, b + lane), hn::LoadU(Wide{}, a + lane)))) return false;
+        return true;
+    }
+    static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) {
+        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
+            const auto height = hn::PromoteTo(Wide{}, hn::LoadU(hn::Rebind<std::uint32_t, Wide>{}, &visible[lane]));
+            const auto is_in = hn::Lt(hn::Set(Wide{}, k), height);
+            hn::StoreU(hn::IfThenElse(is_in, hn::LoadU(Wide{}, words + lane), hn::Set(Wide{}, ~std::uint64_t{0})), Wide{}, row + lane);
+        }
+    }
+    static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) {
+        const auto none = hn::Set(Wide{}, ~std::uint64_t{0});
+        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
+            auto tied = hn::Zero(Wide{}), before = none;
+            for (std::size_t k = 0; k < depth; ++k) {
+                const auto word = hn::LoadU(Wide{}, rows + k * block_lanes + lane);
+                const auto same = hn::Eq(hn::ShiftRight<32>(hn::Xor(word, before)), hn::Zero(Wide{}));
+                tied = hn::Or(tied, hn::IfThenZeroElse(hn::Eq(word, none), hn::VecFromMask(Wide{}, same)));
+                before = word;
+            }
+            hn::StoreU(hn::TruncateTo(hn::Rebind<std::uint32_t, Wide>{}, tied), hn::Rebind<std::uint32_t, Wide>{}, &has_ties[lane]);
+        }
+    }
+};
+
 [[gnu::flatten]] void sort_arrivals(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) {
-    sort_words(from, pixel, block, rows);
+    sort_words<VectorRows>(from, pixel, block, rows);
 }
 
-[[gnu::flatten]] void sort(std::uint64_t* rows, std::size_t depth) { sort_rows(rows, depth); }
+[[gnu::flatten]] void sort(std::uint64_t* rows, std::size_t depth) { sort_rows<VectorRows>(rows, depth); }
 
 }  // namespace
 }  // namespace strata::peeling::HWY_NAMESPACE
@@ -196,7 +245,7 @@ bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t
 }
 
 void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
-    if (simd_is_scalar()) return sort_words(from, pixel, block, rows);
+    if (simd_is_scalar()) return sort_words<scalar::Rows>(from, pixel, block, rows);
     HWY_DYNAMIC_DISPATCH(sort_arrivals)(from, pixel, block, rows);
 }
 
@@ -206,7 +255,7 @@ void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexce
 }
 
 void sort_columns(std::uint64_t* rows, std::size_t depth) noexcept {
-    if (simd_is_scalar()) return sort_rows(rows, depth);
+    if (simd_is_scalar()) return sort_rows<scalar::Rows>(rows, depth);
     HWY_DYNAMIC_DISPATCH(sort)(rows, depth);
 }
 

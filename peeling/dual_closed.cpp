@@ -149,20 +149,14 @@ class GroupPeel {
 };
 
 // What MAX blending of (-z, z) onto (-1, -1) would not keep.
-bool has_foreign_depths(const ColumnBlock& block, const DeviceProfile& profile) {
-    if (block.nearest < ordered_code(-1.0f)) return true;
-    if (profile.denormals != DenormalRule::flush) return false;
-    const std::uint32_t zero = ordered_code(0.0f), first_normal = ordered_code(0x1p-126f), last_normal = ordered_code(-0x1p-126f);
-    const auto is_denormal = [&](std::uint64_t word) {
-        const auto key = static_cast<std::uint32_t>(word >> 32);
-        return key > last_normal && key < first_normal && key != zero;
-    };
-    return std::any_of(block.rows, block.rows + block.depth * block_lanes, is_denormal);
+bool has_foreign_depths(const RegionFragments& fragments, const DeviceProfile& profile) {
+    const bool flushes = profile.denormals == DenormalRule::flush;
+    return fragments.nearest < ordered_code(-1.0f) || (flushes && fragments.has_denormals);
 }
 
 // Depths of a sorted column.
-std::size_t distinct(const ColumnBlock& block, std::size_t lane) {
-    std::size_t count = 0;
+std::uint32_t distinct(const ColumnBlock& block, std::size_t lane) {
+    std::uint32_t count = 0;
     for (std::uint32_t k = 0; k < block.visible[lane]; ++k)
         count += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
     return count;
@@ -185,11 +179,9 @@ struct Course {
     const std::uint32_t* opaque;  // words of the region
     std::uint32_t* result;
     std::vector<std::uint64_t> pixels_by_depths{};  // rows of sixteen: how many pixels have so many, by lane
-    bool declined = false;
 
     void run(const ColumnBlock& block) {
-        declined |= has_foreign_depths(block, region.profile());
-        if (declined || block.depth == 0) return;
+        if (block.depth == 0) return;
         count_depths(block);
         const BlockCodes opaque_codes = codes_of(opaque + block.first);
         BlockCodes front{}, back = opaque_codes;
@@ -205,11 +197,13 @@ struct Course {
             if (block.has_ties[lane] == 0) trace_pixel(region, block, lane);
     }
 
-    // Lane by lane, so that no count waits for the one before it.
+    // Lane by lane, so that no count waits for the one before it; row 0 is nobody's.
     void count_depths(const ColumnBlock& block) {
         if (pixels_by_depths.size() <= (block.depth + 1) * block_lanes) pixels_by_depths.resize((block.depth + 1) * block_lanes);
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
-            ++pixels_by_depths[(block.has_ties[lane] != 0 ? distinct(block, lane) : block.visible[lane]) * block_lanes + lane];
+        LaneWords depths = block.visible;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            if (block.has_ties[lane] != 0) depths[lane] = distinct(block, lane);
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) ++pixels_by_depths[depths[lane] * block_lanes + lane];
     }
 
     // Pixels that have something left after `passes` peels.
@@ -246,7 +240,7 @@ bool dual_closed(Region& region) {
         course.result[pixel] = course.opaque[pixel] | 0xff000000u;
     const std::size_t traced = region.trace().size();
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) { course.run(block); });
-    if (!fragments || course.declined) {
+    if (!fragments || has_foreign_depths(*fragments, region.profile())) {
         region.trace().resize(traced);
         return false;
     }

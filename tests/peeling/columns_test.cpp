@@ -3,8 +3,10 @@
 #include "peeling/columns.h"
 
 #include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "peeling/arrivals.h"
 #include "peeling/block_passes.h"
@@ -308,4 +310,40 @@ TEST_CASE("the last earlier arrival before a fragment in its column is found, on
         }
     REQUIRE(choose_simd(Simd::best));
     CHECK(wrong == 0);
+}
+
+TEST_CASE("a program's depths keep their order as keys, those at the surface and NaN are hidden, denormals are noticed, on every instruction set") {
+    const std::vector<float> depths{-2.0f, -0.0f, 0.0f, 0x1p-126f, 0.25f, 0.5f, 0.75f, 1.0f, 2.0f, std::nanf(""), -0x1p-126f, 0.5f, 0.125f,
+                                    -1.0f, 0x1.8p-1f, 0.3f, 0.6f, 0.9f, 0.2f};
+    static pipeline::FragmentBatch batch;
+    batch.count = static_cast<int>(depths.size());
+    const float surface = 0.75f;
+    const auto opaque = std::bit_cast<std::uint32_t>(surface);
+    for (const Simd simd : available_simd())
+        for (const bool with_denormal : {false, true}) {
+            REQUIRE(choose_simd(simd));
+            std::vector<std::uint64_t> word(64);
+            std::vector<std::uint32_t> count(48), hidden(48), at_surface(48);
+            std::vector<float> color(64);
+            Arrivals to{.stride = 64, .ranks = 1, .most_places = 48, .word = word.data(), .count = count.data(), .hidden = hidden.data(),
+                        .at_surface = at_surface.data(), .opaque = &opaque, .same_opaque = true, .by_shader_z = true};
+            to.color.fill(color.data());
+            for (std::size_t i = 0; i < depths.size(); ++i) {
+                batch.pixel[i] = static_cast<std::uint32_t>(i);
+                batch.shader_z[i] = depths[i];
+            }
+            if (with_denormal) batch.shader_z[5] = -0x1p-130f;
+            REQUIRE(append(to, batch, Memory::all_alive().data()));
+            CHECK(to.has_denormals == with_denormal);
+            int wrong = 0;
+            for (std::size_t i = 0; i < depths.size(); ++i) {
+                const float z = batch.shader_z[i];
+                wrong += count[i] == (z < surface ? 1u : 0u) && hidden[i] == (z < surface ? 0u : 1u) && at_surface[i] == 0 ? 0 : 1;
+                for (std::size_t j = 0; j < depths.size(); ++j)
+                    if (z < surface && batch.shader_z[j] < surface)
+                        wrong += ((word[i] >> 32) < (word[j] >> 32)) == (z < batch.shader_z[j]) ? 0 : 1;
+            }
+            CHECK(wrong == 0);
+        }
+    REQUIRE(choose_simd(Simd::best));
 }
