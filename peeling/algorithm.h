@@ -33,6 +33,7 @@ struct Algorithm {
     ListOrder order = ListOrder::given;
     bool is_oracle = false;    // not a device's algorithm: never refused
     bool whole_frame = false;  // its queries nest: runs literally, whatever --execution says
+    bool compares_own_codes = false;  // by the code that it stores, alone: refused where options choose another depth
     bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
     void (*run)(pipeline::Region&) = nullptr;
@@ -42,7 +43,6 @@ struct Algorithm {
     std::vector<pipeline::Feature> features{};  // what a profile must have
     int render_targets = 1;
     int samples = 1;
-    bool has_fixed_compare = false;  // its passes compare stored codes alone: refused where options choose another depth
 };
 
 // Everitt's and Bavoil's, then Carr's and what they compare themselves with, at last the oracle.

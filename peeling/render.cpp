@@ -65,7 +65,7 @@ void draw_depth(Region& region) {
     state.depth_target = depth;
     state.needs = {.shader_z = false, .code = true, .color = false};
     region.begin_iteration();
-    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    static_cast<void>(region.draw_depth(state));
     region.publish(depth);
 }
 
@@ -111,7 +111,8 @@ struct Renderer::State {
 
     // To simulate every effect is to rasterize in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
-        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
+        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed &&
+                             options.once_more == Effect::none;
         if (!replays || !algorithm.replayed) return {};
         rasterizer::FragmentNeeds needs = *algorithm.replayed;
         needs.reference = compares_apart;
@@ -153,6 +154,7 @@ struct Renderer::State {
         f.termination = options.termination;
         f.formulation = options.formulation;
         f.effects = options.effects;
+        f.once_more = options.once_more;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
@@ -160,7 +162,7 @@ struct Renderer::State {
         f.trace = options.audit;
         f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
-        f.max_passes = pass_limit(f);
+        f.max_passes = algorithm.compares_own_codes ? options.max_passes : pass_limit(f);
         f.average_count = options.average_count;
         return f;
     }
@@ -175,7 +177,7 @@ struct Renderer::State {
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
             return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "", "use depth_units or front_to_back"};
-        if (algorithm.has_fixed_compare && !is_invariant())
+        if (algorithm.compares_own_codes && !is_invariant())
             return Refusal{"choice of the depth that " + algorithm.name + " compares", "",
                            "use depth_units, front_to_back, dual or dual_independent"};
         return peeling::refusal(algorithm, profile);
@@ -204,7 +206,8 @@ struct Renderer::State {
                         "STRATA_ordered_rmw: no device's programs read what they write, in order"});
         const bool compares_in_program =
             algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f;
-        if (compares_in_program && options.quantize_reference && profile.raster.hypothesis.quantize_reference)
+        const bool quantises = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+        if (compares_in_program && (quantises || algorithm.compares_own_codes))
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
 };
@@ -239,7 +242,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
             result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
-            state_->note_endless(frame, result.frame);
+            if (!algorithm.compares_own_codes) state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }

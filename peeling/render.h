@@ -43,6 +43,7 @@ struct RenderOptions {
     int tile_size = 64;
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;
+    pipeline::Effect once_more = pipeline::Effect::none;  // pipeline/frame.h; never replayed
     pipeline::Format average_count = pipeline::Format::r16f;
     bool keep_layers = false;
     bool trust_idle = true;      // pipeline/frame.h

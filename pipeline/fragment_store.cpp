@@ -76,8 +76,7 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
     };
     if (has_dead) pack(alive);
     for_each_array(needs_, batch, pack);
-    constexpr std::size_t word = sizeof(std::uint32_t);  // `pixels` looks at the arrays where they lie
-    used_bytes_ = (static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].get()) + word - 1) / word * word;
+    used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].get());
 }
 
 bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
@@ -86,12 +85,6 @@ bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
            has(needs_.exact_code, needs.exact_code) && has(needs_.color, needs.color) &&
            has(needs_.texcoord, needs.texcoord) && has(needs_.facing, needs.facing) &&
            has(needs_.reference, needs.reference);
-}
-
-std::span<const std::uint32_t> FragmentStore::pixels(std::size_t number) const noexcept {
-    const Packed& packed = batches_[number];
-    const std::size_t alive = packed.has_dead ? packed.count * sizeof(std::uint32_t) : 0;
-    return {reinterpret_cast<const std::uint32_t*>(packed.begin + alive), packed.count};
 }
 
 void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::uint32_t>& alive) const {

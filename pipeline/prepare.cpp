@@ -186,10 +186,20 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;
-        prepared.needs_texcoord |= material.texture >= 0;
-        prepared.needs_color |= material.alpha_mode == AlphaMode::mask;
+        prepared.needs.texcoord |= material.texture >= 0;
+        prepared.needs.color |= material.alpha_mode == AlphaMode::mask;
     }
     return prepared;
+}
+
+MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles) {
+    MaterialNeeds needs;
+    for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {
+        const MaterialStage& material = list.materials[list.geometry.triangles[triangles[i]].material];
+        needs.texcoord |= material.texture != nullptr;
+        needs.color |= material.mask.enabled;
+    }
+    return needs;
 }
 
 }  // namespace strata::pipeline

@@ -9,6 +9,7 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/draw_list.h"
@@ -26,6 +27,13 @@ struct MaterialStage {
     float alpha_scale = 1.0f;          // of what MASK keeps: after the test, so that it cuts at the material's own alpha
 };
 
+// What some materials call for in every pass.
+struct MaterialNeeds {
+    bool texcoord = false;  // one of them has a texture
+    bool color = false;     // one of them tests its alpha, so that even a depth-only pass must shade
+    friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
+};
+
 // Triangles that an algorithm draws together, and depths between which all their fragments lie, in units of shader_z.
 struct DrawPart {
     PrimitiveRange primitives;
@@ -37,9 +45,11 @@ struct PreparedDraw {
     rasterizer::Geometry geometry;
     std::vector<DrawPart> parts;  // in submission order, without gaps; empty unless the order made some
     std::vector<MaterialStage> materials;
-    bool needs_texcoord = false;  // some material has a texture
-    bool needs_color = false;     // some material tests its alpha, so that even a depth-only pass must shade
+    MaterialNeeds needs;  // of all of them
 };
+
+// What the materials of some of a list's triangles call for: of a tile, it may be less than the list's.
+[[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
 
 enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK
 

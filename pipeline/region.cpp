@@ -107,7 +107,7 @@ Target Region::nearest_depth() {
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = nearest;
     state.needs = {.shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
-    static_cast<void>(draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    static_cast<void>(draw_depth(state));
     counts_ = true;
     return nearest;
 }
@@ -154,11 +154,6 @@ void Region::store_pixels(Target target, std::uint32_t first, int pixels, const 
     at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
 }
 
-void Region::load_pixels(Target target, std::uint32_t first, int pixels, ColorCodes& codes) const {
-    std::iota(scratch_->screen.pixel.begin(), scratch_->screen.pixel.begin() + pixels, first);
-    storage(target).gather(scratch_->screen.pixel, pixels, 0, codes);
-}
-
 Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
     const TargetStorage& from = storage(target);
     const FormatInfo format = info(from.format());
@@ -190,6 +185,12 @@ void Region::read_row(const TargetStorage& from, int y, std::uint32_t* out) cons
     const auto width = static_cast<std::size_t>(rect_.width()), first = static_cast<std::size_t>(y) * width;
     const auto channels = static_cast<std::size_t>(info(from.format()).channels);
     const auto samples = static_cast<std::size_t>(from.samples());
+    if (from.format() == Format::rgba8 && samples == 1) {
+        static_assert(std::endian::native == std::endian::little);
+        const auto* const bytes = reinterpret_cast<const unsigned char*>(from.depth(0) + first);
+        for (std::size_t i = 0; i < width * channels; ++i) out[i] = bytes[i];
+        return;
+    }
     for (std::size_t x = 0; x < width; x += batch_capacity) {
         const std::size_t count = std::min<std::size_t>(width - x, batch_capacity);
         for (std::size_t sample = 0; sample < samples; ++sample) {

@@ -119,6 +119,11 @@ void FragmentValues::fill_weights(const DrawnTriangle& triangle, int first, cons
     }
 }
 
+DepthConversion FragmentValues::to_code() const noexcept {
+    return {depth_.format != DepthFormat::d32f, least_, greatest_, static_cast<double>(max_code(depth_.format)),
+            rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0};
+}
+
 bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                 WeightLanes& weights) const noexcept {
     const auto f = static_cast<std::size_t>(first);
@@ -129,12 +134,7 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
     }
     const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
     if (plane.is_constant()) return false;
-    const bool is_fixed = depth_.format != DepthFormat::d32f;
-    const DepthLanes out{is_fixed,
-                         least_,
-                         greatest_,
-                         static_cast<double>(max_code(depth_.format)),
-                         rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0,
+    const DepthLanes out{to_code(),
                          needs_.shader_z ? &batch.shader_z[f] : nullptr,
                          needs_.code ? &batch.code[f] : nullptr,
                          needs_attributes_ ? &weights.b1[f] : nullptr,

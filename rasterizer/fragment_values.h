@@ -43,6 +43,9 @@ class FragmentValues {
     // exact fallbacks.
     [[nodiscard]] int fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const;
 
+    // What DepthPath::float32 makes of shader_z.
+    [[nodiscard]] DepthConversion to_code() const noexcept;
+
   private:
     [[nodiscard]] TriangleLanes lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
                                       const FragmentBatch& batch, const WeightLanes& weights) const noexcept;

@@ -92,6 +92,16 @@ rasterizer::RasterState raster_state(ByteSource& bytes, const DeviceProfile& pro
     return state;
 }
 
+void choose_order(ByteSource& bytes, peeling::RenderOptions& o) {
+    using peeling::SortRule;
+    if (bytes.one_in(3)) o.formulation = Formulation::published;
+    if (!bytes.one_in(3)) return;
+    o.sort.rule = bytes.pick(std::array{SortRule::exact, SortRule::bucket, SortRule::reverse, SortRule::shuffle});
+    o.sort.buckets = 1 + bytes.below(8);
+    o.sort.fraction = bytes.fraction();
+    o.sort.seed = static_cast<std::uint64_t>(bytes.below(16));
+}
+
 peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, const peeling::Algorithm* algorithm) {
     peeling::RenderOptions o;
     const int largest = bytes.one_in(10) ? 48 : 20;
@@ -109,6 +119,7 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     o.audit = !bytes.one_in(3);
     o.nearest_depth = !bytes.one_in(4);
     o.raster = raster_state(bytes, profile, o.width, o.height);
+    choose_order(bytes, o);
     return o;
 }
 

@@ -22,7 +22,7 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (render, layers, bench, effects, scene, digest, algorithms, profiles or scenes), found 'rendr' "
+         "strata: expected a command (render, layers, bench, effects, reproduce, scene, digest, algorithms, profiles or scenes), found 'rendr' "
          "(did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},
          "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
@@ -82,6 +82,18 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapot", "--termination", "ratio:2"},
          "strata: --termination: expected exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1, "
          "found 'ratio:2'"},
+        {{"render", "teapot", "--sort", "bucket:0"},
+         "strata: --sort: expected bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to "
+         "1, found 'bucket:0'"},
+        {{"render", "teapot", "--sort", "shuffle:0.5"}, "strata: --sort: ..."},
+        {{"render", "teapot", "--formulation", "printed"},
+         "strata: --formulation: expected resolved or published, found 'printed'"},
+        {{"render", "volume-beam:slices=2", "--sorted", "plane"},
+         "strata: --sorted: expected a mesh or a material of the scene (strata scene lists them), found 'plane' (did you mean "
+         "'planes'?)"},
+        {{"reproduce", "carr2007", "-o", "page"},
+         "strata: PAPER: expected carr2008, everitt2001 or bavoil2008, found 'carr2007' (did you mean 'carr2008'?)"},
+        {{"reproduce", "everitt2001"}, "strata: --output: expected one, found none; strata reproduce --help says more"},
         {{"render", "teapot", "--orbit", "1,2", "--camera", "x.json"},
          "strata: --orbit: expected either --orbit or --camera, found both"},
         {{"render", "teapot", "--camera", "top"},
