@@ -69,7 +69,7 @@ void depth_units(Region& region) {
         layers.push_back(layer);
         depths.push_back(nearest);
         peeled = nearest;
-        if (!region.any(drawn.passed, promise(region.frame(), Idle::when_zero))) break;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
         region.keep_layer(layer, nearest);
     }
     const Target result = region.make_color();

@@ -40,10 +40,11 @@ inline void discard_peeled(const pipeline::DepthCompare& compare, const pipeline
     for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(compare.is_behind(in, i, peeled[i]));
 }
 
-// What a peel may promise about a region whose count is 0: where another depth is compared than stored, nothing, for
-// further passes may find fragments again.
-[[nodiscard]] inline pipeline::Idle promise(const pipeline::Frame& frame, pipeline::Idle idle) noexcept {
-    return frame.is_invariant() ? idle : pipeline::Idle::no;
+// What a one-layer peel may promise about a region whose count is 0. Such a pass leaves the opaque depth as what is peeled, and
+// a fragment that is stored before that but compared as behind it would have been found. Only a first pass that draws other
+// vertices and compares nothing may find nothing where the second finds such a fragment.
+[[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
+    return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::when_zero : pipeline::Idle::no;
 }
 
 namespace scalar {

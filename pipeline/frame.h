@@ -81,8 +81,7 @@ struct Frame {
         const rasterizer::DepthRequest request = key_request();
         return {request.format, epsilon, request.reference.value_or(request.path) != request.path, quantize_reference};
     }
-    // Every pass sees the same fragments, and compares the depth that it stores: what closed forms and promises of idleness
-    // rest on.
+    // Every pass sees the same fragments, and compares the depth that it stores: what closed forms rest on.
     [[nodiscard]] bool is_invariant() const noexcept { return second == nullptr && depth_compare().is_plain(); }
 };
 
