@@ -35,6 +35,7 @@ constexpr std::array feature_rows{
                &DeviceProfile::has_sequential_depth_units},
     FeatureRow{Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw",
                &DeviceProfile::has_ordered_rmw},
+    FeatureRow{Feature::texture_shader, "texture shaders", "NV_texture_shader", &DeviceProfile::has_texture_shader},
 };
 
 const FeatureRow& row(Feature feature) {

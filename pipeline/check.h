@@ -31,6 +31,7 @@ enum class Feature : std::uint8_t {
     depth_clamp,
     sequential_depth_units,
     ordered_rmw,
+    texture_shader,
 };
 
 enum class UnsupportedState : std::uint8_t { fog, color_sum, dither, logic_op };

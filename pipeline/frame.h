@@ -46,6 +46,7 @@ struct Frame {
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
     bool alike_where_blank = false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
+    bool needs_frame = false;  // its texture lookups go anywhere: literal, whatever execution is asked for
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
     Replay replay;
     bool keep_layers = false;

@@ -31,6 +31,8 @@ struct PassState {
     std::uint8_t sample_mask = 0xff;               // multisample rasterization off: a fragment covers every masked sample
     std::array<DepthUnit, max_depth_units> depth_units{};
     int depth_unit_count = 0;
+    std::array<Target, 4> textures{};              // depth targets that texture units sample, anywhere in the region
+    bool replaces_depth = false;                   // the program may leave another depth (Outputs::code)
     rasterizer::FragmentNeeds needs;               // what the program looks at; the stages add what they need themselves
 };
 
@@ -59,6 +61,8 @@ struct Outputs {
     std::array<ColorLanes, max_color_targets> color;
     Lanes<std::uint32_t> alive;  // ~0 or 0; a program discards with &=
     std::uint64_t tally = 0;     // counts whatever the program calls an event
+    Lanes<std::uint32_t> code;   // with replaces_depth: the depth that takes the place of the batch's
+    bool replaces_depth = false;
 
     // For the audit: lane i composites depth key `key[i]` on `side[i]`, if it survives the tests. Used when `traced` is set.
     Lanes<Side> side;

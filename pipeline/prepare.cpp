@@ -96,7 +96,10 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
     const VertexStage stage{mesh, material, to_binary32(product(product(view.projection, view.view), instance.model)),
                             normal_matrix(instance.model), light_direction(view.view),
                             material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
+    const bool has_units = std::ranges::any_of(options.units, &CoordinateUnit::enabled);
+    const VertexCoordinates coordinates{options.units, view.view, instance.model};
     const std::size_t base = soup.vertices.size(), first_index = soup.indices.size();
+    if (has_units) soup.units.resize(base + mesh.positions.size());
     soup.vertices.resize(base + mesh.positions.size());
     soup.indices.resize(first_index + mesh.indices.size());
     constexpr std::size_t chunk = 4096;
@@ -106,6 +109,9 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
         if (c < vertex_chunks) {
             const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
             for (std::size_t i = c * chunk; i < end; ++i) soup.vertices[base + i] = stage(i);
+            for (std::size_t i = c * chunk; has_units && i < end; ++i)
+                soup.units[base + i] =
+                    coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]);
             return;
         }
         const std::size_t begin = (c - vertex_chunks) * chunk, end = std::min(mesh.indices.size(), begin + chunk);

@@ -13,6 +13,7 @@
 #include "pipeline/draw_list.h"
 #include "pipeline/profile.h"
 #include "pipeline/state.h"
+#include "pipeline/texgen.h"
 #include "rasterizer/geometry.h"
 
 namespace strata::pipeline {
@@ -39,6 +40,7 @@ struct PrepareOptions {
     bool sort_back_to_front = false;  // painter: triangles by centroid, far first, ties in submission order
     int tile_size = 32;
     int threads = 0;
+    CoordinateUnits units{};  // texture units that somebody looks at
 };
 
 // Inverts nothing it need not: mirrored instances keep their winding and flip their facing.

@@ -27,6 +27,7 @@ DeviceProfile geforce3() {
     p.quantizes_vertex_color = true;
     p.has_d16 = true;
     p.has_depth_clamp = true;
+    p.has_texture_shader = true;
     p.max_samples = 4;
     return p;
 }
@@ -65,6 +66,7 @@ DeviceProfile ideal() {
     p.denormals = DenormalRule::keep;
     p.has_d16 = true;
     p.has_ordered_rmw = true;
+    p.has_texture_shader = true;
     p.max_viewport_px = 16384;
     return p;
 }

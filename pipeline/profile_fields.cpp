@@ -173,6 +173,10 @@ constexpr std::array fields{
          "[A] decisions.md 4: an emulator extension"}),
     boolean<&Profile::has_ordered_rmw>("has_ordered_rmw",
                                        {"[A] decisions.md 4", "[A] decisions.md 4", ours, "[A] decisions.md 4"}),
+    boolean<&Profile::has_texture_shader>(
+        "has_texture_shader",
+        {"[D] 5: NV_texture_shader", "[A] decisions.md 4: refused, though drivers carried it on", ours,
+         "[M] Mesa 22.3 has no NV_texture_shader"}),
     integer<&Profile::max_render_targets>(
         "max_render_targets", {1, 8},
         {"[D] 8: one colour buffer", "[D] 8: D3D 11.3 17.14", ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS"}),

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipeline/counters.h"
+#include "pipeline/depth_texels.h"
 #include "pipeline/diagnostics.h"
 #include "pipeline/frame.h"
 #include "pipeline/pass.h"
@@ -82,6 +83,12 @@ class Region {
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
+    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one sample
+    // each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in memory. Throws
+    // NeedsFrame where a region would have to look beyond itself.
+    void copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy);
+    // A depth target as texture units see it; `t` runs up where the frame's y does.
+    [[nodiscard]] DepthTexels depth_texels(Target depth) const;
 
     // One geometry pass over the transparent list.
     template <FragmentProgram P>
@@ -177,16 +184,19 @@ class Region {
     void load(const PassState& state, const FragmentBatch& batch);
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
-    std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
-                                         Lanes<std::uint32_t>& alive);  // answers how many pass
+    std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, const Lanes<std::uint32_t>& code,
+                                         int sample, Lanes<std::uint32_t>& alive);  // answers how many pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
-    void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void test_depth_units(const PassState& state, const FragmentBatch& batch, const std::uint32_t* code,
+                          Lanes<std::uint32_t>& alive);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);
     void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                       const Lanes<std::uint32_t>& alive, std::uint64_t passed);
     void draw_opaque();
+    void copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
+                  TargetStorage& texture);
     void read_row(const TargetStorage& from, int y, std::uint32_t* out) const;
     bool stop_iterating();
     void join_tail();

@@ -73,7 +73,7 @@ void Region::replay(rasterizer::BatchSink sink) {
 DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& list) const {
     using rasterizer::DepthPath;
     const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
-                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0;
+                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0 && !state.replaces_depth;
     const rasterizer::DepthRequest depth = frame_.key_request();
     const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
     if (!is_plain || !has_bound || state.needs.code || !opaque_depth_is_cleared_ || extent_ == Extent::frame ||

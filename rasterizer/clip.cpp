@@ -5,6 +5,20 @@
 #include "rasterizer/numerics.h"
 
 namespace strata::rasterizer {
+namespace {
+
+// Where a side crosses a plane, as Clipper::crossing computes every other attribute.
+[[nodiscard]] UnitCoordinates between(const UnitCoordinates& in, double d_in, const UnitCoordinates& out,
+                                      double d_out) noexcept {
+    const double t = d_in / (d_in - d_out);
+    UnitCoordinates mixed;
+    for (std::size_t u = 0; u < texture_units; ++u)
+        for (std::size_t c = 0; c < 4; ++c)
+            mixed[u][c] = static_cast<float>(in[u][c] + t * (double{out[u][c]} - in[u][c]));
+    return mixed;
+}
+
+}  // namespace
 
 Clipper::Clipper(const RasterState& state, const RasterRules& rules)
     : symmetric_{state.clip_depth == ClipDepth::minus_one_to_one},
@@ -73,14 +87,22 @@ ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_
 
 void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept {
     to.count = 0;
-    const auto emit = [&](const ClipVertex& v) { to.corner[static_cast<std::size_t>(to.count++)] = v; };
+    to.has_units = from.has_units;
+    const auto emit = [&](const ClipVertex& v, const auto& units) {
+        const auto n = static_cast<std::size_t>(to.count++);
+        to.corner[n] = v;
+        if (from.has_units) to.units[n] = units();
+    };
     for (int i = 0; i < from.count; ++i) {
-        const ClipVertex& a = from.corner[static_cast<std::size_t>(i)];
-        const ClipVertex& b = from.corner[static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1)];
+        const auto here = static_cast<std::size_t>(i), next = static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1);
+        const ClipVertex& a = from.corner[here];
+        const ClipVertex& b = from.corner[next];
         const double da = distance(plane, a), db = distance(plane, b);
-        if (da >= 0.0) emit(a);
-        if (da >= 0.0 && db < 0.0 && da > 0.0) emit(crossing(plane, a, da, b, db));
-        if (da < 0.0 && db > 0.0) emit(crossing(plane, b, db, a, da));
+        const UnitCoordinates& ua = from.units[here];
+        const UnitCoordinates& ub = from.units[next];
+        if (da >= 0.0) emit(a, [&] { return ua; });
+        if (da > 0.0 && db < 0.0) emit(crossing(plane, a, da, b, db), [&] { return between(ua, da, ub, db); });
+        if (da < 0.0 && db > 0.0) emit(crossing(plane, b, db, a, da), [&] { return between(ub, db, ua, da); });
     }
 }
 

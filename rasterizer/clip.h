@@ -21,6 +21,8 @@ inline constexpr float least_w = 0x1p-64f;
 struct ClipPolygon {
     std::array<ClipVertex, 3 + max_clip_planes> corner;
     int count = 0;
+    bool has_units = false;
+    std::array<UnitCoordinates, 3 + max_clip_planes> units{};  // of the corners
 };
 
 class Clipper {

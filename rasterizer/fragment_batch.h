@@ -3,6 +3,7 @@
 // back the stored values of all its fragments in one loop without looking at the order between them.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "rasterizer/depth_code.h"
@@ -14,6 +15,13 @@ inline constexpr int batch_capacity = 256;
 
 template <class T>
 using Lanes = std::array<T, batch_capacity>;
+
+inline constexpr std::size_t texture_units = 4;
+// Which coordinates of which units: bit 4 u + c is component c (s t r q) of unit u.
+using UnitMask = std::uint16_t;
+[[nodiscard]] constexpr bool names(UnitMask mask, std::size_t unit, std::size_t component) noexcept {
+    return (mask >> (4 * unit + component) & 1) != 0;
+}
 
 struct alignas(64) FragmentBatch {
     Lanes<std::uint32_t> pixel;         // index into the region, row-major
@@ -27,16 +35,23 @@ struct alignas(64) FragmentBatch {
     Lanes<std::uint8_t> front_facing;
     int count = 0;
     std::uint32_t material = 0;
+    std::array<std::array<Lanes<float>, 4>, texture_units> unit;  // s t r q of each texture unit, not divided by q
 };
 
 // Which of a batch's arrays a pass looks at; the others keep whatever they held. pixel, x, y and primitive are always
 // there.
 struct FragmentNeeds {
     bool shader_z = true, code = true, exact_code = false, color = true, texcoord = false, facing = false;
+    UnitMask units = 0;
     friend bool operator==(const FragmentNeeds&, const FragmentNeeds&) = default;
     [[nodiscard]] friend constexpr FragmentNeeds operator|(FragmentNeeds a, FragmentNeeds b) noexcept {
-        return {a.shader_z || b.shader_z, a.code || b.code,         a.exact_code || b.exact_code,
-                a.color || b.color,       a.texcoord || b.texcoord, a.facing || b.facing};
+        return {a.shader_z || b.shader_z,
+                a.code || b.code,
+                a.exact_code || b.exact_code,
+                a.color || b.color,
+                a.texcoord || b.texcoord,
+                a.facing || b.facing,
+                static_cast<UnitMask>(a.units | b.units)};
     }
 };
 

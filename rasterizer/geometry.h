@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rasterizer/edge.h"
+#include "rasterizer/fragment_batch.h"
 #include "rasterizer/raster_state.h"
 
 namespace strata::rasterizer {
@@ -21,6 +22,9 @@ struct ClipVertex {
     std::array<float, 2> texcoord{0, 0};
 };
 
+// s t r q of a vertex for every texture unit, beside the vertices: only who asks for texture units pays for them.
+using UnitCoordinates = std::array<std::array<float, 4>, texture_units>;
+
 // A run of triangles with one material: three indices each, in submission order.
 struct TriangleRun {
     std::uint32_t first_index = 0, index_count = 0;
@@ -33,6 +37,7 @@ struct TriangleSoup {
     std::vector<ClipVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<TriangleRun> runs;
+    std::vector<UnitCoordinates> units;  // of every vertex; empty: nobody looks at texture units
     std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter)
 };
 
@@ -77,6 +82,7 @@ struct Geometry {
     RasterRules rules;
     std::vector<ClipVertex> vertices;             // the soup's, then those that clipping made
     std::vector<WindowCorner> corners;            // the same vertices in the window
+    std::vector<UnitCoordinates> units;           // and their texture units; empty if the soup had none
     std::vector<TriangleRecord> triangles;        // in submission order
     std::vector<std::array<double, 3>> offset_z;  // of every triangle; empty without polygon offset
     SetupCounters counters;

@@ -32,12 +32,14 @@ template <std::size_t n>
 
 }  // namespace
 
-TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices)
+TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices,
+                             std::span<const UnitCoordinates> units)
     : state_{state},
       rules_{rules},
       clipper_{state, rules},
       window_{state, rules},
       vertices_{vertices},
+      units_{units},
       corners_(vertices.size()),
       marks_(vertices.size()) {}
 
@@ -50,11 +52,18 @@ VertexMarks TriangleSetup::project(const ClipVertex& v, WindowCorner& corner) co
            (products_finite(v.back, w.inverse_w) ? 0u : marks_back);
 }
 
+VertexMarks TriangleSetup::marks_of(const UnitCoordinates& units, const WindowCorner& corner) noexcept {
+    for (const std::array<float, 4>& coordinates : units)
+        if (!products_finite(coordinates, corner.inverse_w)) return marks_window;
+    return 0;
+}
+
 void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept {
     for (std::size_t i = begin; i < end; ++i) {
         const ClipVertex& v = vertices_[i];
         VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
         if (marks == 0) marks = project(v, corners_[i]);
+        if (marks == 0 && !units_.empty()) marks = marks_of(units_[i], corners_[i]);
         marks_[i] = marks;
     }
 }
@@ -110,13 +119,18 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
                                                SetupChunk& out) const {
     const auto& [a, b, c] = triangle.vertex;
     ClipPolygon polygon{{vertices_[a], vertices_[b], vertices_[c]}, 3};
+    polygon.has_units = !units_.empty();
+    if (polygon.has_units) polygon.units = {units_[a], units_[b], units_[c]};
     clipper_.clip(polygon, planes);
     if (polygon.count < 3) return Fate::outside;
     const auto count = static_cast<std::size_t>(polygon.count);
     const auto first = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
     std::array<WindowCorner, std::tuple_size_v<decltype(polygon.corner)>> corner;
     std::array<VertexMarks, corner.size()> marks;
-    for (std::size_t i = 0; i < count; ++i) marks[i] = project(polygon.corner[i], corner[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+        marks[i] = project(polygon.corner[i], corner[i]);
+        if (polygon.has_units && (marks[i] & marks_window) == 0) marks[i] |= marks_of(polygon.units[i], corner[i]);
+    }
     Fate fate = Fate::outside;
     bool any_kept = false;
     for (std::size_t i = 2; i < count; ++i) {
@@ -130,6 +144,8 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
     if (any_kept) {
         out.vertices.insert(out.vertices.end(), polygon.corner.begin(), polygon.corner.begin() + polygon.count);
         out.corners.insert(out.corners.end(), corner.begin(), corner.begin() + polygon.count);
+        if (polygon.has_units)
+            out.units.insert(out.units.end(), polygon.units.begin(), polygon.units.begin() + polygon.count);
     }
     return fate;
 }

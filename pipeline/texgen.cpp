@@ -1,0 +1,117 @@
+#include "pipeline/texgen.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "pipeline/matrix.h"
+
+namespace strata::pipeline {
+namespace {
+
+using Rows = std::array<float, 16>;
+
+Rows to_binary32(const Matrix& m) {
+    Rows rounded{};
+    for (std::size_t i = 0; i < rounded.size(); ++i) rounded[i] = static_cast<float>(m[i]);
+    return rounded;
+}
+
+float row(const Rows& m, std::size_t r, const std::array<float, 4>& p) noexcept {
+    return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r] * p[3];
+}
+
+// The matrix whose rows are the planes of a unit, over object coordinates.
+Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
+    Matrix object{}, eye{};
+    for (std::size_t r = 0; r < 4; ++r)
+        for (std::size_t c = 0; c < 4; ++c)
+            (unit.gen[r].mode == TexGenMode::eye_linear ? eye : object)[4 * c + r] = unit.gen[r].plane[c];
+    const Matrix seen = product(eye, modelview);
+    Matrix rows{};
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i] = unit.gen[i % 4].mode == TexGenMode::eye_linear ? seen[i] : object[i];
+    return rows;
+}
+
+// Row and right-hand side of Gaussian elimination: x M = plane, solved on the transpose.
+using Equation = std::array<double, 5>;
+
+void eliminate(std::array<Equation, 4>& e, std::size_t column) {
+    std::size_t pivot = column;
+    for (std::size_t r = column + 1; r < 4; ++r)
+        if (std::fabs(e[r][column]) > std::fabs(e[pivot][column])) pivot = r;
+    std::swap(e[column], e[pivot]);
+    if (!(std::fabs(e[column][column]) > 0)) throw std::logic_error("an eye plane under a singular modelview matrix");
+    for (std::size_t r = 0; r < 4; ++r) {
+        if (r == column) continue;
+        const double factor = e[r][column] / e[column][column];
+        for (std::size_t c = column; c < 5; ++c) e[r][c] = e[r][c] - factor * e[column][c];
+    }
+}
+
+}  // namespace
+
+Plane4 eye_plane(const Plane4& plane, const Matrix& modelview) {
+    std::array<Equation, 4> e{};
+    for (std::size_t r = 0; r < 4; ++r) {
+        for (std::size_t c = 0; c < 4; ++c) e[r][c] = modelview[4 * r + c];  // transposed
+        e[r][4] = plane[r];
+    }
+    for (std::size_t column = 0; column < 4; ++column) eliminate(e, column);
+    Plane4 solution{};
+    for (std::size_t r = 0; r < 4; ++r) solution[r] = e[r][4] / e[r][r];
+    return solution;
+}
+
+std::array<TexGen, 4> eye_position() {
+    std::array<TexGen, 4> gen;
+    for (std::size_t c = 0; c < 4; ++c) gen[c] = {TexGenMode::eye_linear, eye_plane(identity_planes[c], identity)};
+    return gen;
+}
+
+Matrix in_depth_units(const Matrix& matrix, double units) noexcept {
+    Matrix scaled = matrix;
+    for (std::size_t i = 0; i < scaled.size(); ++i)
+        if (i % 4 != 3) scaled[i] = units * matrix[i];
+    return scaled;
+}
+
+Matrix with_r_in_depth_units(const Matrix& matrix, double units) noexcept {
+    Matrix scaled = matrix;
+    for (std::size_t c = 0; c < 4; ++c) scaled[4 * c + 2] = units * matrix[4 * c + 2];
+    return scaled;
+}
+
+VertexCoordinates::VertexCoordinates(const CoordinateUnits& units, const Matrix& view, const Matrix& model) {
+    const Matrix modelview = product(view, model);
+    for (std::size_t u = 0; u < units.size(); ++u) {
+        Unit& unit = units_[u];
+        unit.enabled = units[u].enabled;
+        unit.all_generated = true;
+        for (std::size_t c = 0; c < 4; ++c) {
+            unit.generated[c] = units[u].gen[c].mode != TexGenMode::off;
+            unit.all_generated &= unit.generated[c];
+        }
+        const Matrix planes = planes_of(units[u], modelview);
+        unit.of_position = to_binary32(unit.all_generated ? product(units[u].matrix, planes) : planes);
+        unit.of_coordinates = to_binary32(units[u].matrix);
+    }
+}
+
+rasterizer::UnitCoordinates VertexCoordinates::at(const Vec3& position, const Vec2& texcoord) const noexcept {
+    const std::array<float, 4> p{position[0], position[1], position[2], 1.0f};
+    rasterizer::UnitCoordinates all{};
+    for (std::size_t u = 0; u < units_.size(); ++u) {
+        const Unit& unit = units_[u];
+        if (!unit.enabled) continue;
+        std::array<float, 4> coordinates{u == 0 ? texcoord[0] : 0.0f, u == 0 ? texcoord[1] : 0.0f, 0.0f, 1.0f};
+        for (std::size_t c = 0; c < 4; ++c)
+            if (unit.generated[c]) coordinates[c] = row(unit.of_position, c, p);
+        for (std::size_t c = 0; c < 4; ++c)
+            all[u][c] = unit.all_generated ? coordinates[c] : row(unit.of_coordinates, c, coordinates);
+    }
+    return all;
+}
+
+}  // namespace strata::pipeline
