@@ -1,8 +1,6 @@
 #include "pipeline/texgen.h"
 
-#include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "pipeline/matrix.h"
 
@@ -34,33 +32,27 @@ Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
     return rows;
 }
 
-// Row and right-hand side of Gaussian elimination: x M = plane, solved on the transpose.
-using Equation = std::array<double, 5>;
-
-void eliminate(std::array<Equation, 4>& e, std::size_t column) {
-    std::size_t pivot = column;
-    for (std::size_t r = column + 1; r < 4; ++r)
-        if (std::fabs(e[r][column]) > std::fabs(e[pivot][column])) pivot = r;
-    std::swap(e[column], e[pivot]);
-    if (!(std::fabs(e[column][column]) > 0)) throw std::logic_error("an eye plane under a singular modelview matrix");
-    for (std::size_t r = 0; r < 4; ++r) {
-        if (r == column) continue;
-        const double factor = e[r][column] / e[column][column];
-        for (std::size_t c = column; c < 5; ++c) e[r][c] = e[r][c] - factor * e[column][c];
-    }
+// (-1)^(r + c) times the determinant without row r and column c; three rows in cyclic order are an even permutation.
+double cofactor(const Matrix& m, std::size_t r, std::size_t c) {
+    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * ((c + column) % 4) + (r + row) % 4]; };
+    const double minor = a(1, 1) * (a(2, 2) * a(3, 3) - a(2, 3) * a(3, 2)) -
+                         a(1, 2) * (a(2, 1) * a(3, 3) - a(2, 3) * a(3, 1)) +
+                         a(1, 3) * (a(2, 1) * a(3, 2) - a(2, 2) * a(3, 1));
+    return (r + c) % 2 == 0 ? minor : -minor;
 }
 
 }  // namespace
 
+// plane M^-1, M^-1 = adjugate / determinant.
 Plane4 eye_plane(const Plane4& plane, const Matrix& modelview) {
-    std::array<Equation, 4> e{};
-    for (std::size_t r = 0; r < 4; ++r) {
-        for (std::size_t c = 0; c < 4; ++c) e[r][c] = modelview[4 * r + c];  // transposed
-        e[r][4] = plane[r];
-    }
-    for (std::size_t column = 0; column < 4; ++column) eliminate(e, column);
+    double determinant = 0;
+    for (std::size_t c = 0; c < 4; ++c) determinant += modelview[4 * c] * cofactor(modelview, 0, c);
+    if (determinant == 0) throw std::logic_error("an eye plane under a singular modelview matrix");
     Plane4 solution{};
-    for (std::size_t r = 0; r < 4; ++r) solution[r] = e[r][4] / e[r][r];
+    for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t r = 0; r < 4; ++r) solution[c] += plane[r] * cofactor(modelview, c, r);
+        solution[c] /= determinant;
+    }
     return solution;
 }
 
