@@ -18,11 +18,12 @@ namespace strata::pipeline {
 [[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const PreparedDraw& list, Effects effects,
                                                           DepthOutcome depth = DepthOutcome::open) {
     rasterizer::FragmentNeeds needs = state.needs;
-    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.units};
+    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, static_cast<rasterizer::UnitMask>(needs.units | list.shadow_coordinates)};
     needs.code |= (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
     needs.facing |= state.stencil.enabled && state.stencil.two_sided;
     needs.color |= list.needs_color;
     needs.texcoord |= list.needs_texcoord && needs.color;
+    if (needs.color) needs.units |= list.shadow_coordinates;
     return needs;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipeline/matrix.h"
+#include "pipeline/shadow_stage.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/numerics.h"
 #include "rasterizer/parallel.h"
@@ -164,6 +165,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     PreparedDraw prepared;
     prepared.geometry = rasterizer::set_up(std::move(soup), state, profile.raster, options.threads);
     bin_triangles(prepared.geometry, options.tile_size, options.threads);
+    if (options.receives_shadow) prepared.shadow_coordinates = shadow_coordinates;
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;

@@ -29,6 +29,7 @@ struct PreparedDraw {
     rasterizer::Geometry geometry;
     std::vector<MaterialStage> materials;
     bool needs_texcoord = false;  // some material has a texture
+    rasterizer::UnitMask shadow_coordinates = 0;  // what a shadow lookup of every fragment's colour looks at
     bool needs_color = false;     // some material tests its alpha, so that even a depth-only pass must shade
 };
 
@@ -41,6 +42,7 @@ struct PrepareOptions {
     int tile_size = 32;
     int threads = 0;
     CoordinateUnits units{};  // texture units that somebody looks at
+    bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h
 };
 
 // Inverts nothing it need not: mirrored instances keep their winding and flip their facing.

@@ -226,6 +226,7 @@ class Region {
     PassKind kind_ = PassKind::geometry;
     int pass_samples_ = 1;
     bool samples_textures_ = false;  // somebody looks at the colours of this pass
+    bool takes_shadow_ = false;      // and they are shadowed
     std::uint64_t tallied_ = 0;
     bool counts_ = true;          // false during the emulator's own work (opaque priming, capture)
     IterationRecord uncounted_;   // where that work is counted instead

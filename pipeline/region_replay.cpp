@@ -16,6 +16,7 @@ FragmentStore& Region::store() noexcept { return scratch_->store; }
 
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer::BatchSink sink) {
     samples_textures_ = needs.color && list.needs_texcoord;
+    takes_shadow_ = needs.color && list.shadow_coordinates != 0;
     const auto& geometry = list.geometry;
     const auto triangles =
         extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
@@ -56,6 +57,8 @@ void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, r
     needs.color |= list.needs_color;  // MASK decides which fragments there are
     needs.texcoord |= list.needs_texcoord && needs.color;
     samples_textures_ = needs.texcoord;
+    takes_shadow_ = needs.color && list.shadow_coordinates != 0;
+    if (takes_shadow_) needs.units |= list.shadow_coordinates;
     rasterizer::TileRasterizer rows{band};
     rows.draw(list.geometry, list.geometry.bin(tile_), frame_.key_request(), needs, sink);
 }
@@ -94,13 +97,15 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
                                            needs.color && list.needs_texcoord, &list == frame_.opaque, iterations_});
     const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent;
     FragmentNeeds kept = needs;
-    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture
+    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow
+    kept.units = state.needs.units;
     if (may_replay && store().serves(kept)) {
         replay(sink);
     } else if (may_replay && store().may_start()) {
         source_ = Source::captured;
         needs = needs | frame_.replay.needs;
         needs.texcoord |= list.needs_texcoord && needs.color;
+        if (needs.color) needs.units |= list.shadow_coordinates;
         store().start(kept | frame_.replay.needs, frame_.replay.bytes);
         rasterize(list, needs, sink);
         store().finish();

@@ -11,6 +11,7 @@
 #include "pipeline/effects.h"
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
+#include "pipeline/shadow_stage.h"
 #include "pipeline/stencil.h"
 #include "pipeline/texture_sample.h"
 
@@ -104,6 +105,7 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
                 batch.color[c][i] *= scratch_->texel[c][i];
     }
+    if (takes_shadow_) cast_shadow(*frame_.shadow, profile(), batch, scratch_->texel);
     if (!material.mask.enabled) return;
     const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
     alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
