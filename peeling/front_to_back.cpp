@@ -23,10 +23,13 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     state.depth_target = nearest;
     state.color[0] = layer;
     if (!first) state.reads[0] = peeled;
+    const DepthCompare compare = region.frame().depth_compare();
     state.needs.shader_z = false;
-    return region.draw(state, [first](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    state.needs.reference = !first && !compare.is_plain();
+    const List list = first ? List::first : List::second;
+    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
-        if (!first) discard_peeled(in, own.depth(0), out);
+        if (!first) discard_peeled(compare, in, own.depth(0), out);
     });
 }
 
@@ -59,7 +62,7 @@ void front_to_back(Region& region) {
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, layer, nearest, peeled, first);
         composite(region, layer, nearest, accumulated);
-        if (!region.any(drawn.passed, Idle::when_zero)) break;
+        if (!region.any(drawn.passed, promise(region.frame(), Idle::when_zero))) break;
         region.keep_layer(layer, nearest);
         std::swap(peeled, nearest);
     }

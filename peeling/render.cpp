@@ -4,6 +4,8 @@
 #include <chrono>
 
 #include "pipeline/check_pass.h"
+#include "pipeline/effects.h"
+#include "pipeline/other_splits.h"
 #include "rasterizer/input_error.h"
 #include "rasterizer/parallel.h"
 
@@ -35,6 +37,11 @@ void check_options(const RenderOptions& o) {
     if (std::find(std::begin(tile_sizes), std::end(tile_sizes), o.tile_size) == std::end(tile_sizes))
         throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(o.tile_size));
     in_range("--threads", o.threads, 0, 1024);
+    in_range("the window's origin: x", o.window_origin[0], 0, 32768 - o.width);
+    in_range("the window's origin: y", o.window_origin[1], 0, 32768 - o.height);
+    in_range("--compare-epsilon: units in the last place", o.compare_epsilon.ulps, 0, 1 << 24);
+    if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
+        throw InputError("strata", "--compare-epsilon", "a number from 0 to 1", std::to_string(o.compare_epsilon.absolute));
     in_range("--max-passes", o.max_passes, 0, 1000000);
     if (o.termination.rule == TerminationRule::fixed) in_range("--termination fixed", o.termination.passes, 1, 1000000);
     if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
@@ -47,9 +54,17 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     if (auto lacking = check(profile, depth.format)) return lacking;
     const bool has_chip_rule =
         profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
-    if (depth.path == DepthPath::window_z && !has_chip_rule)
+    const bool uses_chip_rule = depth.path == DepthPath::window_z || depth.reference == DepthPath::window_z;
+    if (uses_chip_rule && !has_chip_rule)
         return Refusal{"GeForce3's depth interpolator window_z", "", "use --profile geforce3 with --depth d16 or d24"};
+    if (depth.reference)
+        if (auto lacking = check_reference(profile, *depth.reference)) return lacking;
     return check(profile, depth.path);
+}
+
+// Whether a path takes r and q of the vertices.
+bool is_quotient(std::optional<rasterizer::DepthPath> path) {
+    return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
 }
 
 // A closed form where the algorithm offers one, its passes elsewhere.
@@ -100,12 +115,14 @@ struct Renderer::State {
     Format color_format = Format::rgba8;
     rasterizer::RasterState raster{};
     PreparedDraw transparent{}, opaque{};
-    std::optional<PreparedDraw> sorted{};
+    std::optional<PreparedDraw> second{}, sorted{};
     bool has_opaque = false;
     double geometry_seconds = 0;
+    std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
 
     [[nodiscard]] PrepareOptions prepare_options(Selection selection) const {
-        return {.selection = selection, .alpha_scale = options.alpha.value_or(1.0f), .tile_size = options.tile_size,
+        return {.selection = selection, .alpha_scale = options.alpha.value_or(1.0f),
+                .depth_quotient = is_quotient(depth.path) || is_quotient(depth.reference), .tile_size = options.tile_size,
                 .threads = options.threads};
     }
 
@@ -120,6 +137,25 @@ struct Renderer::State {
             return m.alpha_mode != AlphaMode::blend;
         });
         if (has_opaque) opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque));
+        prepare_second();
+        for (PreparedDraw* const prepared : {&transparent, has_opaque ? &opaque : nullptr, second ? &*second : nullptr})
+            if (prepared != nullptr) move_to_origin(*prepared);
+    }
+
+    void move_to_origin(PreparedDraw& prepared) const {
+        const auto& [x, y] = options.window_origin;
+        if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
+    }
+
+    void prepare_second() {
+        View other = view;
+        other.vertex_path = options.vertex_paths.second.value_or(view.vertex_path);
+        rasterizer::RasterState clamped = raster;
+        clamped.depth_clamp = options.second_depth_clamp.value_or(raster.depth_clamp);
+        const bool differs = other.vertex_path != view.vertex_path || options.second_list != nullptr || clamped != raster;
+        if (!differs) return;
+        const DrawList& split = options.second_list != nullptr ? *options.second_list : list;
+        second = prepare(split, other, clamped, profile, prepare_options(transparent_selection()));
     }
 
     const PreparedDraw& list_for(const Algorithm& algorithm) {
@@ -129,15 +165,36 @@ struct Renderer::State {
             PrepareOptions sorting = prepare_options(transparent_selection());
             sorting.sort_back_to_front = true;
             sorted = prepare(list, view, raster, profile, sorting);
+            move_to_origin(*sorted);
         }
         return *sorted;
     }
 
     // To simulate every effect is to rasterize in every pass.
-    [[nodiscard]] Replay replay(const Algorithm& algorithm) const {
+    [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
         const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
         if (!replays || !algorithm.replayed) return {};
-        return {options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)), *algorithm.replayed};
+        rasterizer::FragmentNeeds needs = *algorithm.replayed;
+        needs.reference = compares_apart;
+        return {options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)), needs};
+    }
+
+    // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
+    // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
+    [[nodiscard]] int pass_limit(const Frame& f) {
+        if (options.max_passes > 0 || f.is_invariant()) return options.max_passes;
+        if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
+        return 2 * *deepest + 2;
+    }
+
+    void note_endless(const Frame& f, FrameResult& result) const {
+        if (options.max_passes > 0 || f.max_passes == 0 || result.passes.geometry < f.max_passes) return;
+        const std::string why =
+            !f.quantize_reference ? "the compared depth is not rounded like the stored one, so a fragment lies behind itself"
+                                  : "some fragments' compared depth lies behind the depth that they stored themselves";
+        merge(result.diagnostics, {Fault::endless, 0, -1, -1,
+                                   "stopped after " + std::to_string(f.max_passes) +
+                                       " geometry passes, twice what the deepest pixel needs: " + why});
     }
 
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
@@ -145,21 +202,24 @@ struct Renderer::State {
         f.profile = &profile;
         f.opaque = has_opaque ? &opaque : nullptr;
         f.transparent = &list_for(algorithm);
+        f.second = second ? &*second : nullptr;
+        f.epsilon = options.compare_epsilon;
+        f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         f.depth = depth;
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
         f.color_format = color_format;
         f.background = options.background;
         f.termination = options.termination;
-        f.max_passes = options.max_passes;
         f.effects = options.effects;
-        f.replay = replay(algorithm);
+        f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
         f.trust_idle = options.trust_idle;
         f.trace = options.audit;
         f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
+        f.max_passes = pass_limit(f);
         f.average_count = options.average_count;
         return f;
     }
@@ -185,7 +245,8 @@ struct Renderer::State {
                             std::to_string(counters.first_non_finite)});
         if (algorithm.run == find_algorithm("depth_units")->run)
             merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
-        const bool compares_in_program = algorithm.name == "front_to_back" && depth.format != DepthFormat::d32f;
+        const bool compares_in_program = algorithm.name == "front_to_back" && depth.format != DepthFormat::d32f &&
+                                         options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         if (compares_in_program)
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
@@ -197,6 +258,8 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
     state_->depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
     state_->depth.path = options.depth_path.value_or(profile.raster.depth_path);
+    state_->depth.reference = options.reference_path;
+    state_->view.vertex_path = options.vertex_paths.first.value_or(view.vertex_path);
     state_->color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
     state_->raster = options.raster;
     state_->raster.viewport = {0, 0, options.width, options.height};
@@ -214,6 +277,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
             result.frame = run(frame, body_of(algorithm), state_->options.execution, state_->options.threads, progress);
+            state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }

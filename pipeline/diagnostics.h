@@ -11,6 +11,7 @@ enum class Fault : std::uint8_t {
     stencil_saturated,      // INCR or DECR met its limit
     half_saturated,         // an fp16 sum or count stopped growing or overflowed
     early_end,              // a query ended the peel while fragments were left
+    endless,                // a peel whose compared depth misses the stored one found the same fragments again and again
     truncated,              // --max-passes, fixed:N or ratio:R ended the peel while fragments were left
     merged_ties,            // equal depths met in one layer: colours mixed or fragments lost
     depth_quantized,        // a program had to quantise its z like the buffer before comparing
@@ -23,6 +24,7 @@ enum class Fault : std::uint8_t {
         case Fault::stencil_saturated: return "stencil_saturated";
         case Fault::half_saturated: return "half_saturated";
         case Fault::early_end: return "early_end";
+        case Fault::endless: return "endless";
         case Fault::truncated: return "truncated";
         case Fault::merged_ties: return "merged_ties";
         case Fault::depth_quantized: return "depth_quantized";

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/texture.h"
+#include "pipeline/vertex_path.h"
 
 namespace strata::pipeline {
 
@@ -74,6 +75,7 @@ struct DrawList {
 struct View {
     Matrix view = identity;        // world to eye
     Matrix projection = identity;  // eye to clip
+    VertexPath vertex_path = VertexPath::separate;
 };
 
 }  // namespace strata::pipeline

@@ -35,8 +35,8 @@ FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPat
       machine_{machine_of(region, path.shader)},
       combiners_{path.combiners},
       results_{std::make_unique<ShaderResults>()} {
-    if (auto lacking = check(region.profile(), Feature::texture_shader))
-        throw Refused{region.profile(), *std::move(lacking)};
+    if (auto lacking = check(region.profile(), Feature::depth_replace))
+        throw Refused{region.profile(), {"texture shaders", lacking->extension, lacking->way_out}};
 }
 
 void FragmentPathProgram::apply(PassState& state) const {

@@ -5,8 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "pipeline/depth_rows.h"
 #include "pipeline/matrix.h"
 #include "pipeline/shadow_stage.h"
+#include "pipeline/vertex_transform.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/numerics.h"
 #include "rasterizer/parallel.h"
@@ -14,12 +16,6 @@
 namespace strata::pipeline {
 
 namespace {
-
-std::array<float, 16> to_binary32(const Matrix& m) {
-    std::array<float, 16> rounded{};
-    std::transform(m.begin(), m.end(), rounded.begin(), [](double x) { return static_cast<float>(x); });
-    return rounded;
-}
 
 // Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for mirrored
 // models, a sign that |N.L| does not see.
@@ -61,16 +57,14 @@ float lighting(const std::array<float, 9>& m, const Vec3& n, const Vec3& light) 
 struct VertexStage {
     const Mesh& mesh;
     const Material& material;
-    std::array<float, 16> clip;
+    VertexTransform clip;
     std::array<float, 9> normal;
     Vec3 light;
     float alpha_scale;
 
     [[nodiscard]] rasterizer::ClipVertex operator()(std::size_t i) const {
-        const auto& m = clip;
-        const Vec3& p = mesh.positions[i];
-        const auto row = [&](std::size_t r) { return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r]; };
-        rasterizer::ClipVertex v{.x = row(0), .y = row(1), .z = row(2), .w = row(3)};
+        const std::array<float, 4> p = clip(mesh.positions[i]);
+        rasterizer::ClipVertex v{.x = p[0], .y = p[1], .z = p[2], .w = p[3]};
         const bool lit = !material.unlit && !mesh.normals.empty();
         const float light_factor = lit ? lighting(normal, mesh.normals[i], light) : 1.0f;
         const Rgba color = mesh.colors.empty() ? Rgba{1, 1, 1, 1} : mesh.colors[i];
@@ -94,13 +88,12 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
             rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
-    const VertexStage stage{mesh, material, to_binary32(product(product(view.projection, view.view), instance.model)),
+    const VertexTransform clip{view.vertex_path, product(product(view.projection, view.view), instance.model),
+                               view.projection, product(view.view, instance.model)};
+    const VertexStage stage{mesh, material, clip,
                             normal_matrix(instance.model), light_direction(view.view),
                             material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
-    const bool has_units = std::ranges::any_of(options.units, &CoordinateUnit::enabled);
-    const VertexCoordinates coordinates{options.units, view.view, instance.model};
     const std::size_t base = soup.vertices.size(), first_index = soup.indices.size();
-    if (has_units) soup.units.resize(base + mesh.positions.size());
     soup.vertices.resize(base + mesh.positions.size());
     soup.indices.resize(first_index + mesh.indices.size());
     constexpr std::size_t chunk = 4096;
@@ -110,9 +103,6 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
         if (c < vertex_chunks) {
             const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
             for (std::size_t i = c * chunk; i < end; ++i) soup.vertices[base + i] = stage(i);
-            for (std::size_t i = c * chunk; has_units && i < end; ++i)
-                soup.units[base + i] =
-                    coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]);
             return;
         }
         const std::size_t begin = (c - vertex_chunks) * chunk, end = std::min(mesh.indices.size(), begin + chunk);
@@ -124,6 +114,29 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .material = instance.material,
                          .double_sided = material.double_sided,
                          .mirrored = determinant(instance.model) < 0});
+}
+
+// What the options ask for beside the soup's vertices, in their order: r and q, texture units.
+rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                                       const rasterizer::RasterRules& rules, const PrepareOptions& options) {
+    rasterizer::VertexExtras extras;
+    extras.has_rq = options.depth_quotient;
+    extras.has_units = std::ranges::any_of(options.units, &CoordinateUnit::enabled);
+    extras.stride = (extras.has_rq ? 2u : 0u) + (extras.has_units ? 4 * rasterizer::texture_units : 0u);
+    for (const Instance& instance : list.instances) {
+        if (extras.stride == 0 || !is_selected(list.materials[instance.material], options.selection)) continue;
+        const Mesh& mesh = list.meshes[instance.mesh];
+        const VertexTransform rows = depth_rows(view, instance.model, state, rules);
+        const VertexCoordinates coordinates{options.units, view, instance.model};
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const std::array<float, 4> rq = rows(mesh.positions[i]);
+            if (extras.has_rq) extras.values.insert(extras.values.end(), {rq[2], rq[3]});
+            if (!extras.has_units) continue;
+            for (const auto& unit : coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]))
+                extras.values.insert(extras.values.end(), unit.begin(), unit.end());
+        }
+    }
+    return extras;
 }
 
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
@@ -162,8 +175,11 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     const FloatEnvironment ours;
     rasterizer::TriangleSoup soup = transform(list, view, options);
     if (options.sort_back_to_front) soup.order = back_to_front_order(soup);
+    rasterizer::RasterRules rules = profile.raster;
+    if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
+    soup.extras = vertex_extras(list, view, state, rules, options);
     PreparedDraw prepared;
-    prepared.geometry = rasterizer::set_up(std::move(soup), state, profile.raster, options.threads);
+    prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
     bin_triangles(prepared.geometry, options.tile_size, options.threads);
     if (options.receives_shadow) prepared.shadow_coordinates = shadow_coordinates;
     for (const Material& material : list.materials) {

@@ -1,7 +1,7 @@
 // pipeline/prepare.h - the vertex stage and everything else that is done once a frame: transform, light, clip, set up, bin.
 //
 // Rule     Matrices are multiplied in binary64 (projection * view * model) and rounded once to binary32;
-//          clip[r] = ((m[r] x + m[4+r] y) + m[8+r] z) + m[12+r] in binary32, every operation rounded (vertex path `separate`).
+//          positions go through it by the view's vertex path (vertex_transform.h); nv20 divides by w in its own way, too.
 //          Lighting is two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye,
 //          per vertex in binary32, on the frame's colour values.
 // Source   decisions.md 1.
@@ -39,6 +39,7 @@ struct PrepareOptions {
     Selection selection = Selection::all;
     float alpha_scale = 1.0f;     // --alpha: every alpha times this, at the vertex; a MASK material's after its test
     bool sort_back_to_front = false;  // painter: triangles by centroid, far first, ties in submission order
+    bool depth_quotient = false;  // also r and q of every vertex, for perspective_rq and depth_replace (depth_rows.h)
     int tile_size = 32;
     int threads = 0;
     CoordinateUnits units{};  // texture units that somebody looks at

@@ -27,7 +27,7 @@ DeviceProfile geforce3() {
     p.quantizes_vertex_color = true;
     p.has_d16 = true;
     p.has_depth_clamp = true;
-    p.has_texture_shader = true;
+    p.has_depth_replace = true;
     p.max_samples = 4;
     return p;
 }
@@ -65,8 +65,8 @@ DeviceProfile ideal() {
     p.raster.depth_path = DepthPath::exact;
     p.denormals = DenormalRule::keep;
     p.has_d16 = true;
+    p.has_depth_replace = true;
     p.has_ordered_rmw = true;
-    p.has_texture_shader = true;
     p.max_viewport_px = 16384;
     return p;
 }

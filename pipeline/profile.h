@@ -42,9 +42,9 @@ struct DeviceProfile {
     bool has_independent_blend = false;       // ARB_draw_buffers_blend
     bool has_two_sided_stencil = false;       // EXT_stencil_two_side
     bool has_depth_clamp = false;             // ARB_depth_clamp, NV_depth_clamp
+    bool has_depth_replace = false;           // NV_texture_shader: DOT_PRODUCT_DEPTH_REPLACE
     bool has_sequential_depth_units = true;   // STRATA_depth_units: an emulator extension, reported when used
     bool has_ordered_rmw = false;             // STRATA_ordered_rmw: targets that a program reads and writes
-    bool has_texture_shader = false;          // NV_texture_shader and the register combiners behind it
     int max_render_targets = 1;
     int max_texture_units = 4;
     int max_viewport_px = 4096;

@@ -53,6 +53,8 @@ struct KeptLayer {
 };
 
 enum class Extent : std::uint8_t { frame, tile };
+// Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
+enum class List : std::uint8_t { first, second };
 enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
 
 class Region {
@@ -94,6 +96,10 @@ class Region {
     template <FragmentProgram P>
     Drawn draw(const PassState& state, P&& program) {
         return draw_list(state, *frame_.transparent, program);
+    }
+    template <FragmentProgram P>
+    Drawn draw(const PassState& state, List list, P&& program) {
+        return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent, program);
     }
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>

@@ -1,5 +1,6 @@
 #include "pipeline/shadow_compare.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "pipeline/compare.h"
@@ -36,6 +37,11 @@ void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail,
     }
 }
 
+// What R is multiplied with to be in codes.
+[[nodiscard]] double units_of(const DepthTexels& depth, const rasterizer::RasterRules& rules) noexcept {
+    return rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : depth.max();
+}
+
 // R as the texels' format would store it; binary32 bits, unclamped, for D32F. A product of [0,1] with 2^n - 1 is exact in
 // binary64.
 void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, const Lanes<float>& r,
@@ -45,7 +51,7 @@ void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, co
         return;
     }
     const double max = depth.max(), half = rules.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
-    const double units = rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : max;
+    const double units = units_of(depth, rules);
     for (std::size_t i = 0; i < count; ++i) {
         const double scaled = r[i] > 0.0f ? double{r[i]} * units : 0.0;  // 0 for NaN
         codes[i] = static_cast<std::uint32_t>(scaled < max ? scaled + half : max);
@@ -83,9 +89,18 @@ void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const 
             compare_linear(lookup, r, state.fail_value, result, n, passed);
         }
     };
+    const bool quantizes = profile.raster.hypothesis.quantize_reference;
+    const double units = units_of(depth, profile.raster);
     with_compare(state.func, [&](auto chosen) {
         constexpr CompareFunc func = chosen();
-        if (is_float) {
+        if (!is_float && !quantizes) {
+            for (std::size_t i = 0; i < n; ++i) r[i] = std::bit_cast<std::uint32_t>(at.r[i]);
+            const double max = depth.max();
+            compare([units, max](std::uint32_t a, std::uint32_t b) {
+                const double scaled = double{std::bit_cast<float>(a)} * units;
+                return passes<func>(scaled > 0.0 ? std::min(scaled, max) : 0.0, static_cast<double>(b));
+            });
+        } else if (is_float) {
             compare([](std::uint32_t a, std::uint32_t b) {
                 return passes<func>(std::bit_cast<float>(a), std::bit_cast<float>(b));
             });

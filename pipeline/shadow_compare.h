@@ -2,7 +2,7 @@
 //
 // Rule     A texel passes if R FUNC D: LEQUAL is R <= D, as ARB_shadow says and all hardware does, though
 //          SGIX_shadow's text has it the other way round. D16, D24 and 8-bit texels: R is clamped to the depth range
-//          and quantised exactly like a depth write, then integers compare; R is in [0,1], or in buffer units
+//          and quantised exactly like a depth write (under the hypothesis that it is not: compared as it is); R is in [0,1], or in buffer units
 //          (0..2^n - 1) on devices whose vertex depth is. D32F: floats as they are, no clamp; NaN passes `notequal`
 //          and `always` alone. Linear: each of four texels gives 1 or the fail value, then the bilinear sum of
 //          texel_address.h with 8-bit fractions.

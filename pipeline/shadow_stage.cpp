@@ -11,10 +11,10 @@ CoordinateUnits shadow_units(const ShadowLight& light, const Matrix& camera_view
     const bool symmetric = state.clip_depth == rasterizer::ClipDepth::minus_one_to_one;
     const Matrix to_window = product(translation(0.5, 0.5, symmetric ? (f + n) * 0.5 : n),
                                      scaling(0.5, 0.5, symmetric ? (f - n) * 0.5 : f - n));
-    const Matrix rows = with_r_in_depth_units(product(to_window, product(light.projection, light.view)),
-                                              rasterizer::z_units(state, profile.raster));
+    const Matrix rows = product(to_window, product(light.projection, light.view));
     CoordinateUnits units{};
     units[shadow_unit].enabled = true;
+    units[shadow_unit].depth_units[2] = rasterizer::z_units(state, profile.raster);
     for (std::size_t c = 0; c < 4; ++c)
         units[shadow_unit].gen[c] = {TexGenMode::eye_linear,
                                      eye_plane({rows[c], rows[4 + c], rows[8 + c], rows[12 + c]}, camera_view)};

@@ -9,12 +9,6 @@ namespace {
 
 using Rows = std::array<float, 16>;
 
-Rows to_binary32(const Matrix& m) {
-    Rows rounded{};
-    for (std::size_t i = 0; i < rounded.size(); ++i) rounded[i] = static_cast<float>(m[i]);
-    return rounded;
-}
-
 float row(const Rows& m, std::size_t r, const std::array<float, 4>& p) noexcept {
     return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r] * p[3];
 }
@@ -30,6 +24,13 @@ Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
     for (std::size_t i = 0; i < rows.size(); ++i)
         rows[i] = unit.gen[i % 4].mode == TexGenMode::eye_linear ? seen[i] : object[i];
     return rows;
+}
+
+// Behind the product, as depth_rows.h scales its row r: the same bits from the same matrices.
+Matrix in_depth_units(const CoordinateUnit& unit, Matrix m) {
+    for (std::size_t i = 0; i < m.size(); ++i)
+        if (i % 4 != 3) m[i] *= unit.depth_units[i % 4];
+    return m;
 }
 
 // (-1)^(r + c) times the determinant without row r and column c; three rows in cyclic order are an even permutation.
@@ -62,46 +63,33 @@ std::array<TexGen, 4> eye_position() {
     return gen;
 }
 
-Matrix in_depth_units(const Matrix& matrix, double units) noexcept {
-    Matrix scaled = matrix;
-    for (std::size_t i = 0; i < scaled.size(); ++i)
-        if (i % 4 != 3) scaled[i] = units * matrix[i];
-    return scaled;
-}
-
-Matrix with_r_in_depth_units(const Matrix& matrix, double units) noexcept {
-    Matrix scaled = matrix;
-    for (std::size_t c = 0; c < 4; ++c) scaled[4 * c + 2] = units * matrix[4 * c + 2];
-    return scaled;
-}
-
-VertexCoordinates::VertexCoordinates(const CoordinateUnits& units, const Matrix& view, const Matrix& model) {
-    const Matrix modelview = product(view, model);
-    for (std::size_t u = 0; u < units.size(); ++u) {
-        Unit& unit = units_[u];
-        unit.enabled = units[u].enabled;
-        unit.all_generated = true;
-        for (std::size_t c = 0; c < 4; ++c) {
-            unit.generated[c] = units[u].gen[c].mode != TexGenMode::off;
-            unit.all_generated &= unit.generated[c];
-        }
-        const Matrix planes = planes_of(units[u], modelview);
-        unit.of_position = to_binary32(unit.all_generated ? product(units[u].matrix, planes) : planes);
-        unit.of_coordinates = to_binary32(units[u].matrix);
+VertexCoordinates::VertexCoordinates(const CoordinateUnits& units, const View& view, const Matrix& model) {
+    const Matrix modelview = product(view.view, model);
+    for (const CoordinateUnit& unit : units) {
+        std::array<bool, 4> generated{};
+        for (std::size_t c = 0; c < 4; ++c) generated[c] = unit.gen[c].mode != TexGenMode::off;
+        const bool all = generated == std::array{true, true, true, true};
+        const Matrix planes = planes_of(unit, modelview), texture = in_depth_units(unit, unit.matrix);
+        const Matrix whole = all ? in_depth_units(unit, product(unit.matrix, planes)) : planes;
+        units_.push_back({unit.enabled, all, generated,
+                          VertexTransform{view.vertex_path, whole, all ? texture : identity, planes}, to_binary32(texture)});
     }
 }
 
-rasterizer::UnitCoordinates VertexCoordinates::at(const Vec3& position, const Vec2& texcoord) const noexcept {
-    const std::array<float, 4> p{position[0], position[1], position[2], 1.0f};
-    rasterizer::UnitCoordinates all{};
+UnitCoordinates VertexCoordinates::at(const Vec3& position, const Vec2& texcoord) const {
+    UnitCoordinates all{};
     for (std::size_t u = 0; u < units_.size(); ++u) {
         const Unit& unit = units_[u];
         if (!unit.enabled) continue;
+        const std::array<float, 4> generated = unit.of_position(position);
+        if (unit.all_generated) {
+            all[u] = generated;
+            continue;
+        }
         std::array<float, 4> coordinates{u == 0 ? texcoord[0] : 0.0f, u == 0 ? texcoord[1] : 0.0f, 0.0f, 1.0f};
         for (std::size_t c = 0; c < 4; ++c)
-            if (unit.generated[c]) coordinates[c] = row(unit.of_position, c, p);
-        for (std::size_t c = 0; c < 4; ++c)
-            all[u][c] = unit.all_generated ? coordinates[c] : row(unit.of_coordinates, c, coordinates);
+            if (unit.generated[c]) coordinates[c] = generated[c];
+        for (std::size_t c = 0; c < 4; ++c) all[u][c] = row(unit.of_coordinates, c, coordinates);
     }
     return all;
 }

@@ -3,15 +3,17 @@
 // Rule     A generated coordinate is plane . position, in object or eye space; an eye plane is multiplied by the inverse
 //          of the modelview in force when it is specified. What is not generated is the vertex's own: s and t of its
 //          mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix. Planes, texture matrix and modelview are
-//          multiplied in binary64 and rounded once to binary32 [A: a driver may]; a coordinate is
-//          ((m0 x + m4 y) + m8 z) + m12 in binary32, every operation rounded, as a clip coordinate is.
+//          multiplied in binary64 and rounded once to binary32 [A: a driver may]; positions go through them by the view's
+//          vertex path, as they do on their way to clip space (vertex_transform.h).
 // Source   GL 1.2.1 2.10.2 and 2.10.4; hardware.md 3; decisions.md 1.
 // Tests    tests/pipeline/texgen_test.cpp, tests/pipeline/listing2_test.cpp
 #pragma once
 #include <array>
+#include <vector>
 
 #include "pipeline/draw_list.h"
-#include "rasterizer/geometry.h"
+#include "pipeline/vertex_transform.h"
+#include "rasterizer/fragment_batch.h"
 
 namespace strata::pipeline {
 
@@ -31,9 +33,13 @@ struct CoordinateUnit {
     bool enabled = false;  // somebody looks at this unit
     std::array<TexGen, 4> gen{};
     Matrix matrix = identity;
+    // Factors of s, t and r behind the texture matrix: 2^n - 1 where a quotient by q, or by another unit, is to be in the
+    // units of a depth buffer. OpenGL has none of it: its driver scales the rows of a GeForce3, and so do we.
+    std::array<double, 3> depth_units{1, 1, 1};
     friend bool operator==(const CoordinateUnit&, const CoordinateUnit&) = default;
 };
 using CoordinateUnits = std::array<CoordinateUnit, rasterizer::texture_units>;
+using UnitCoordinates = std::array<std::array<float, 4>, rasterizer::texture_units>;  // s t r q of each
 
 // glTexGendv(EYE_PLANE) under `modelview`: plane times its inverse. Throws std::logic_error for a singular matrix.
 [[nodiscard]] Plane4 eye_plane(const Plane4& plane, const Matrix& modelview);
@@ -49,27 +55,20 @@ using CoordinateUnits = std::array<CoordinateUnit, rasterizer::texture_units>;
     return {x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1};
 }
 
-// `matrix` with rows s, t, r multiplied by `units`, q left alone: quotients in buffer units, as GeForce3 compares and
-// stores them (2^n - 1 for a fixed-point format). The driver's work there, so ours.
-[[nodiscard]] Matrix in_depth_units(const Matrix& matrix, double units) noexcept;
-// The same with row r alone: for a depth comparison, whose s and t address texels.
-[[nodiscard]] Matrix with_r_in_depth_units(const Matrix& matrix, double units) noexcept;
-
 // The coordinates of one mesh's vertices.
 class VertexCoordinates {
   public:
-    VertexCoordinates(const CoordinateUnits& units, const Matrix& modelview, const Matrix& model);
-    [[nodiscard]] rasterizer::UnitCoordinates at(const Vec3& position, const Vec2& texcoord) const noexcept;
+    VertexCoordinates(const CoordinateUnits& units, const View& view, const Matrix& model);
+    [[nodiscard]] UnitCoordinates at(const Vec3& position, const Vec2& texcoord) const;
 
   private:
-    using Rows = std::array<float, 16>;  // a matrix in binary32
     struct Unit {
         bool enabled = false, all_generated = false;
         std::array<bool, 4> generated{};
-        Rows of_position{};     // all generated: matrix . planes . modelview; else planes . modelview
-        Rows of_coordinates{};  // the texture matrix, where some coordinate is given
+        VertexTransform of_position;            // all generated: matrix . planes . modelview; else planes . modelview
+        std::array<float, 16> of_coordinates{};  // the texture matrix, where some coordinate is given
     };
-    std::array<Unit, rasterizer::texture_units> units_;
+    std::vector<Unit> units_;
 };
 
 }  // namespace strata::pipeline

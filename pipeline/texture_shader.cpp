@@ -8,6 +8,7 @@
 #include "pipeline/texel_address.h"
 #include "pipeline/texture_sample.h"
 #include "pipeline/unorm8.h"
+#include "rasterizer/depth_quotient.h"
 
 namespace strata::pipeline {
 namespace {
@@ -34,8 +35,14 @@ void clear(ColorLanes& rgba, std::size_t count) noexcept {
     for (Lanes<float>& channel : rgba) std::fill_n(channel.begin(), count, 0.0f);
 }
 
-void divide(const Lanes<float>& a, const Lanes<float>& q, Lanes<float>& out, std::size_t count) noexcept {
-    for (std::size_t i = 0; i < count; ++i) out[i] = a[i] / q[i];
+// Every divide of a stage is the one of perspective_rq and depth_replace.
+[[nodiscard]] rasterizer::DivideRule divide_rule(const ShaderMachine& machine) noexcept {
+    return machine.profile->raster.hypothesis.divide;
+}
+
+void divide(const StageRun& run, std::size_t component, Lanes<float>& out) noexcept {
+    for (std::size_t i = 0; i < run.count; ++i)
+        out[i] = rasterizer::divide(run.coordinate[component][i], run.coordinate[3][i], divide_rule(run.machine));
 }
 
 float hilo_component(std::uint16_t k, bool is_signed) noexcept {
@@ -71,7 +78,7 @@ void look_up(const StageRun& run, const Lanes<float>& s, const Lanes<float>& t) 
     } else {
         Lanes<float> r{};
         if (texture.reference == CompareReference::r_over_q)
-            divide(run.coordinate[2], run.coordinate[3], r, run.count);
+            divide(run, 2, r);
         shadow_compare(run.machine.texels[run.number], texture.compare, profile, {s, t, r}, own.rgba,
                        static_cast<int>(run.count));
     }
@@ -80,8 +87,8 @@ void look_up(const StageRun& run, const Lanes<float>& s, const Lanes<float>& t) 
 
 void projective_lookup(const StageRun& run) {
     Lanes<float> s, t;
-    divide(run.coordinate[0], run.coordinate[3], s, run.count);
-    divide(run.coordinate[1], run.coordinate[3], t, run.count);
+    divide(run, 0, s);
+    divide(run, 1, t);
     look_up(run, s, t);
 }
 
@@ -136,7 +143,9 @@ struct DepthRule {
         units = scaled ? 1.0 : max;
         half = rules.depth_rounding == DepthRounding::nearest && !is_float ? 0.5 : 0.0;
     }
-    [[nodiscard]] bool accepts(float z) const noexcept { return (z >= least && z <= greatest) || (clamps && z == z); }
+    [[nodiscard]] bool accepts(float z) const noexcept {
+        return rasterizer::is_in_depth_range(z, least, greatest) || (clamps && z == z);
+    }
     [[nodiscard]] std::uint32_t code(float z) const noexcept {
         const double clamped = std::clamp(double{z}, least, greatest);
         if (is_float) return std::bit_cast<std::uint32_t>(static_cast<float>(clamped) + 0.0f);  // -0 is 0
@@ -147,7 +156,7 @@ struct DepthRule {
 void replace_depth(const StageRun& run) {
     const DepthRule rule{run.machine};
     for (std::size_t i = 0; i < run.count; ++i) {
-        const float z = run.before().dot[i] / run.own().dot[i];
+        const float z = rasterizer::divide(run.before().dot[i], run.own().dot[i], divide_rule(run.machine));
         const bool accepted = rule.accepts(z);
         run.out.alive[i] &= mask(accepted);
         run.out.code[i] = accepted ? rule.code(z) : 0u;

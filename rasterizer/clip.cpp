@@ -1,5 +1,6 @@
 #include "rasterizer/clip.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "rasterizer/numerics.h"
@@ -7,16 +8,8 @@
 namespace strata::rasterizer {
 namespace {
 
-// Where a side crosses a plane, as Clipper::crossing computes every other attribute.
-[[nodiscard]] UnitCoordinates between(const UnitCoordinates& in, double d_in, const UnitCoordinates& out,
-                                      double d_out) noexcept {
-    const double t = d_in / (d_in - d_out);
-    UnitCoordinates mixed;
-    for (std::size_t u = 0; u < texture_units; ++u)
-        for (std::size_t c = 0; c < 4; ++c)
-            mixed[u][c] = static_cast<float>(in[u][c] + t * (double{out[u][c]} - in[u][c]));
-    return mixed;
-}
+// The share t of the way from a to b.
+[[nodiscard]] float mix(float a, float b, double t) noexcept { return static_cast<float>(a + t * (double{b} - a)); }
 
 }  // namespace
 
@@ -66,15 +59,14 @@ std::uint32_t Clipper::outside_planes(const ClipVertex& v) const noexcept {
 ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_in, const ClipVertex& out,
                              double d_out) noexcept {
     const double t = d_in / (d_in - d_out);
-    const auto mix = [t](float a, float b) { return static_cast<float>(a + t * (double{b} - a)); };
     ClipVertex v;
-    v.x = mix(in.x, out.x);
-    v.y = mix(in.y, out.y);
-    v.z = mix(in.z, out.z);
-    v.w = mix(in.w, out.w);
-    for (std::size_t i = 0; i < v.front.size(); ++i) v.front[i] = mix(in.front[i], out.front[i]);
-    for (std::size_t i = 0; i < v.back.size(); ++i) v.back[i] = mix(in.back[i], out.back[i]);
-    for (std::size_t i = 0; i < v.texcoord.size(); ++i) v.texcoord[i] = mix(in.texcoord[i], out.texcoord[i]);
+    v.x = mix(in.x, out.x, t);
+    v.y = mix(in.y, out.y, t);
+    v.z = mix(in.z, out.z, t);
+    v.w = mix(in.w, out.w, t);
+    for (std::size_t i = 0; i < v.front.size(); ++i) v.front[i] = mix(in.front[i], out.front[i], t);
+    for (std::size_t i = 0; i < v.back.size(); ++i) v.back[i] = mix(in.back[i], out.back[i], t);
+    for (std::size_t i = 0; i < v.texcoord.size(); ++i) v.texcoord[i] = mix(in.texcoord[i], out.texcoord[i], t);
     switch (plane.kind) {  // what the plane says holds exactly: window z of the corner is n or f
         case Kind::w: v.w = least_w; break;
         case Kind::z_is_minus_w: v.z = -v.w; break;
@@ -87,22 +79,24 @@ ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_
 
 void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept {
     to.count = 0;
-    to.has_units = from.has_units;
-    const auto emit = [&](const ClipVertex& v, const auto& units) {
+    to.extra_count = from.extra_count;
+    const auto keep = [&](std::size_t i) {
         const auto n = static_cast<std::size_t>(to.count++);
-        to.corner[n] = v;
-        if (from.has_units) to.units[n] = units();
+        to.corner[n] = from.corner[i];
+        std::copy_n(from.extra[i].begin(), from.extra_count, to.extra[n].begin());
+    };
+    const auto cross = [&](std::size_t in, double d_in, std::size_t out, double d_out) {
+        const auto n = static_cast<std::size_t>(to.count++);
+        to.corner[n] = crossing(plane, from.corner[in], d_in, from.corner[out], d_out);
+        for (std::size_t e = 0; e < from.extra_count; ++e)
+            to.extra[n][e] = mix(from.extra[in][e], from.extra[out][e], d_in / (d_in - d_out));
     };
     for (int i = 0; i < from.count; ++i) {
-        const auto here = static_cast<std::size_t>(i), next = static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1);
-        const ClipVertex& a = from.corner[here];
-        const ClipVertex& b = from.corner[next];
-        const double da = distance(plane, a), db = distance(plane, b);
-        const UnitCoordinates& ua = from.units[here];
-        const UnitCoordinates& ub = from.units[next];
-        if (da >= 0.0) emit(a, [&] { return ua; });
-        if (da > 0.0 && db < 0.0) emit(crossing(plane, a, da, b, db), [&] { return between(ua, da, ub, db); });
-        if (da < 0.0 && db > 0.0) emit(crossing(plane, b, db, a, da), [&] { return between(ub, db, ua, da); });
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1);
+        const double da = distance(plane, from.corner[a]), db = distance(plane, from.corner[b]);
+        if (da >= 0.0) keep(a);
+        if (da >= 0.0 && db < 0.0 && da > 0.0) cross(a, da, b, db);
+        if (da < 0.0 && db > 0.0) cross(b, db, a, da);
     }
 }
 

@@ -22,8 +22,19 @@ struct ClipVertex {
     std::array<float, 2> texcoord{0, 0};
 };
 
-// s t r q of a vertex for every texture unit, beside the vertices: only who asks for texture units pays for them.
-using UnitCoordinates = std::array<std::array<float, 4>, texture_units>;
+// Further values of vertices, interpolated by perspective like the colours: `stride` a vertex, none if it is 0.
+inline constexpr std::size_t max_extras = 18;
+struct VertexExtras {
+    std::size_t stride = 0;
+    bool has_rq = false;  // the first two are r and q, whose quotient is the depth of perspective_rq and depth_replace,
+                          // r in units of vertex z (rules.window_z)
+    bool has_units = false;  // the last sixteen are s, t, r, q of the texture units, one after the other
+    std::vector<float> values;
+    [[nodiscard]] const float* of(std::size_t vertex) const noexcept { return &values[vertex * stride]; }
+    [[nodiscard]] const float* units_of(std::size_t vertex) const noexcept {
+        return &values[vertex * stride + stride - 4 * texture_units];
+    }
+};
 
 // A run of triangles with one material: three indices each, in submission order.
 struct TriangleRun {
@@ -37,8 +48,8 @@ struct TriangleSoup {
     std::vector<ClipVertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<TriangleRun> runs;
-    std::vector<UnitCoordinates> units;  // of every vertex; empty: nobody looks at texture units
     std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter)
+    VertexExtras extras;
 };
 
 // A vertex in the window, shared by all triangles that it is a corner of.
@@ -82,7 +93,7 @@ struct Geometry {
     RasterRules rules;
     std::vector<ClipVertex> vertices;             // the soup's, then those that clipping made
     std::vector<WindowCorner> corners;            // the same vertices in the window
-    std::vector<UnitCoordinates> units;           // and their texture units; empty if the soup had none
+    VertexExtras extras;                          // of the same vertices
     std::vector<TriangleRecord> triangles;        // in submission order
     std::vector<std::array<double, 3>> offset_z;  // of every triangle; empty without polygon offset
     SetupCounters counters;

@@ -110,7 +110,7 @@ TEST_CASE("a depth pass is refused for a colour format as any algorithm is: by i
     }
 }
 
-TEST_CASE("depth paths run where their machine exists, and those of a later issue are refused by name") {
+TEST_CASE("depth paths run where their machine exists, and are refused by name elsewhere") {
     using strata::rasterizer::DepthPath;
     const auto with_path = [](const Machine& machine, DepthPath path) {
         RenderOptions options = options_for(one_fragment());
@@ -125,12 +125,13 @@ TEST_CASE("depth paths run where their machine exists, and those of a later issu
         CHECK(with_path({profile, "depth_units"}, DepthPath::window_z) ==
               "profile " + profile +
                   " has no GeForce3's depth interpolator window_z; use --profile geforce3 with --depth d16 or d24");
-    CHECK(with_path({"geforce8", "dual"}, DepthPath::perspective_rq) ==
-          "profile geforce8 has no depth path perspective_rq yet; use window_z, float32 or exact");
-    CHECK(with_path({"geforce3", "depth_units"}, DepthPath::depth_replace) ==
-          "profile geforce3 has no depth path depth_replace yet (NV_texture_shader); use window_z, float32 or exact");
-    CHECK(with_path({"geforce8", "dual"}, DepthPath::float32_plane) ==
-          "profile geforce8 has no depth path float32_plane yet; use window_z, float32 or exact");
+    for (const char* profile : {"geforce3", "ideal"})
+        CHECK(with_path({profile, "depth_units"}, DepthPath::depth_replace).empty());
+    for (const char* profile : {"geforce8", "ideal"})
+        CHECK(with_path({profile, "depth_units"}, DepthPath::perspective_rq).empty());
+    CHECK(with_path({"geforce8", "depth_units"}, DepthPath::depth_replace) ==
+          "profile geforce8 has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
+    CHECK(with_path({"geforce3", "depth_units"}, DepthPath::float32_plane).empty());
 }
 
 TEST_CASE("a viewport beyond the device's limit is refused before anything of its size is made") {

@@ -8,7 +8,6 @@
 
 using namespace strata::pipeline;
 using model::Rational;
-using strata::rasterizer::UnitCoordinates;
 
 namespace {
 
@@ -59,7 +58,7 @@ TEST_CASE("generated coordinates are planes over object or eye space, taken thro
         const Vec3 p{static_cast<float>(small(random)), static_cast<float>(small(random)),
                      static_cast<float>(small(random))};
         const Vec2 st{static_cast<float>(small(random)), static_cast<float>(small(random))};
-        const UnitCoordinates found = VertexCoordinates{units, view, model_matrix}.at(p, st);
+        const UnitCoordinates found = VertexCoordinates{units, {.view = view}, model_matrix}.at(p, st);
 
         const std::array<Rational, 4> object{Rational{p[0]}, Rational{p[1]}, Rational{p[2]}, Rational{1}};
         const auto eye = times(view, times(model_matrix, object));
@@ -100,18 +99,20 @@ TEST_CASE("a coordinate is rounded to binary32 after every operation, its matrix
     CoordinateUnits units{};
     units[1] = {.enabled = true, .gen = eye_position(), .matrix = scaling(1 + 0x1p-30, 1, 1)};
     const Vec3 p{1 + 0x1p-23f, 0x1p-24f, 0x1p-24f};
-    CHECK(VertexCoordinates{units, identity, identity}.at(p, {})[1][0] == p[0]);  // 1 + 2^-30 is 1 in binary32
+    CHECK(VertexCoordinates{units, {}, identity}.at(p, {})[1][0] == p[0]);  // 1 + 2^-30 is 1 in binary32
     units[1].matrix[4] = 1;  // s = x + y + z: each half of a unit in the last place is lost, though both together count
     units[1].matrix[8] = 1;
     const Vec3 halves{1, 0x1p-24f, 0x1p-24f};
-    CHECK(VertexCoordinates{units, identity, identity}.at(halves, {})[1][0] == 1.0f);
+    CHECK(VertexCoordinates{units, {}, identity}.at(halves, {})[1][0] == 1.0f);
 }
 
-TEST_CASE("depth units scale the rows that hold a depth, and leave q and what addresses texels alone") {
-    Matrix m{};
-    for (std::size_t i = 0; i < m.size(); ++i) m[i] = static_cast<double>(i + 1);
-    for (std::size_t i = 0; i < m.size(); ++i) {
-        CHECK(in_depth_units(m, 65535)[i] == m[i] * (i % 4 == 3 ? 1 : 65535));
-        CHECK(with_r_in_depth_units(m, 65535)[i] == m[i] * (i % 4 == 2 ? 65535 : 1));
-    }
+TEST_CASE("depth units multiply s, t and r behind the texture matrix, and leave q alone") {
+    Random random{303};
+    CoordinateUnits plain{};
+    plain[2] = {.enabled = true, .gen = eye_position(), .matrix = any_matrix(random)};
+    CoordinateUnits scaled = plain;
+    scaled[2].depth_units = {2, 4, 8};
+    const Vec3 p{0.5f, 3, -2};
+    const auto a = VertexCoordinates{plain, {}, identity}.at(p, {}), b = VertexCoordinates{scaled, {}, identity}.at(p, {});
+    CHECK(b[2] == std::array{2 * a[2][0], 4 * a[2][1], 8 * a[2][2], a[2][3]});
 }

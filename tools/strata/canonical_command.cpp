@@ -50,9 +50,25 @@ void add_view(Words& words, const RunOptions& options) {
     if (b != pipeline::Rgba{0, 0, 0, 1}) add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));
 }
 
+void add_comparison(Words& words, const peeling::RenderOptions& render) {
+    if (render.reference_path) add(words, "--reference-path", name_of(depth_paths(), *render.reference_path));
+    const pipeline::CompareEpsilon& epsilon = render.compare_epsilon;
+    if (epsilon.ulps != 0) add(words, "--compare-epsilon", fmt::format("{}ulp", epsilon.ulps));
+    if (epsilon.absolute != 0) add(words, "--compare-epsilon", fmt::format("{}", epsilon.absolute));
+    if (!render.quantize_reference) words.emplace_back("--no-quantize-reference");
+    if (render.vertex_paths.first) {
+        std::string paths = name_of(vertex_paths(), *render.vertex_paths.first);
+        if (render.vertex_paths.second) paths += "," + name_of(vertex_paths(), *render.vertex_paths.second);
+        add(words, "--vertex-path", paths);
+    }
+    const rasterizer::PolygonOffset& offset = render.raster.polygon_offset;
+    if (offset.enabled) add(words, "--polygon-offset", fmt::format("{},{}", offset.factor, offset.units));
+}
+
 void add_machine(Words& words, const peeling::RenderOptions& render) {
     if (render.depth) add(words, "--depth", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
+    add_comparison(words, render);
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));

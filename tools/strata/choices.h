@@ -29,6 +29,13 @@ inline const std::vector<Choice<pipeline::Format>> count_formats{{"r16f", pipeli
     return paths;
 }
 
+[[nodiscard]] inline std::vector<Choice<pipeline::VertexPath>> vertex_paths() {
+    std::vector<Choice<pipeline::VertexPath>> paths;
+    for (const std::string_view name : pipeline::vertex_path_names)
+        paths.push_back({std::string(name), static_cast<pipeline::VertexPath>(paths.size())});
+    return paths;
+}
+
 inline const std::vector<Choice<pipeline::ColorSpace>> color_spaces{{"encoded", pipeline::ColorSpace::encoded},
                                                                     {"linear", pipeline::ColorSpace::linear}};
 
