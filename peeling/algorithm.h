@@ -23,6 +23,7 @@ struct Algorithm {
     bool makes_layers = false;
     bool premultiplied_layers = false;  // their colours are times alpha
     bool sorts_triangles = false;
+    bool kills_alpha_zero = false;  // an alpha test keeps fragments that store alpha 0 from being layers
     bool is_oracle = false;    // not a device's algorithm: never refused
     int (*geometry_passes)(int layers) = nullptr;  // the formula
     void (*run)(pipeline::Region&) = nullptr;
@@ -31,9 +32,11 @@ struct Algorithm {
     std::optional<rasterizer::FragmentNeeds> replayed{};
     std::vector<pipeline::Feature> features{};  // what a profile must have
     int render_targets = 1;
+    std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes, whatever the options say
+    std::optional<rasterizer::DepthPath> compares{};  // the one that it compares, unless the options say otherwise
 };
 
-// unsorted, painter, depth_units, front_to_back, dual, dual_independent, weighted_average, weighted_sum, a_buffer.
+// unsorted, painter, depth_units, shadow_map, shadow_map_depth_replace, front_to_back, dual, dual_independent, weighted_average, weighted_sum, a_buffer.
 [[nodiscard]] const std::vector<Algorithm>& algorithms();
 [[nodiscard]] const Algorithm* find_algorithm(std::string_view name);  // null if there is none
 

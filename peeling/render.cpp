@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "peeling/shadow_light.h"
 #include "pipeline/check_pass.h"
 #include "pipeline/effects.h"
 #include "pipeline/other_splits.h"
@@ -74,18 +75,6 @@ Body body_of(const Algorithm& algorithm) {
     };
 }
 
-void draw_depth(Region& region) {
-    const Target depth = region.make_depth();
-    region.copy(region.opaque_depth(), depth);
-    PassState state;
-    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
-    state.depth_target = depth;
-    state.needs = {.shader_z = false, .code = true, .color = false};
-    region.begin_iteration();
-    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
-    region.publish(depth);
-}
-
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
                            std::vector<Diagnostic>& all) {
     const auto note = [&](Fault fault, const PixelCount& where, std::string detail) {
@@ -104,6 +93,12 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
         note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
 }
 
+// What is drawn, in the window.
+struct Lists {
+    PreparedDraw transparent{}, opaque{};
+    std::optional<PreparedDraw> second{};  // what further passes draw, if it is something else
+};
+
 }  // namespace
 
 struct Renderer::State {
@@ -114,32 +109,53 @@ struct Renderer::State {
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
     rasterizer::RasterState raster{};
-    PreparedDraw transparent{}, opaque{};
-    std::optional<PreparedDraw> second{}, sorted{};
+    Lists lists{};
+    std::optional<Lists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
+    std::optional<LightMap> light{};
+    std::optional<PreparedDraw> sorted{};
     bool has_opaque = false;
     double geometry_seconds = 0;
     std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
 
-    [[nodiscard]] PrepareOptions prepare_options(Selection selection) const {
-        return {.selection = selection, .alpha_scale = options.alpha.value_or(1.0f),
-                .depth_quotient = is_quotient(depth.path) || is_quotient(depth.reference), .tile_size = options.tile_size,
-                .threads = options.threads};
+    [[nodiscard]] PrepareOptions prepare_options(Selection selection, bool depth_quotient) const {
+        PrepareOptions prepared{.selection = selection, .alpha_scale = options.alpha.value_or(1.0f),
+                                .depth_quotient = depth_quotient, .tile_size = options.tile_size, .threads = options.threads};
+        if (light) {
+            prepared.units = shadow_units(*list.light, view.view, light->state, profile);
+            prepared.receives_shadow = true;
+        }
+        return prepared;
     }
 
     [[nodiscard]] Selection transparent_selection() const {
         return options.alpha ? Selection::all : Selection::transparent;
     }
 
-    void prepare_lists() {
+    [[nodiscard]] bool takes_quotient(const rasterizer::DepthRequest& request) const {
+        return is_quotient(request.path) || is_quotient(request.reference);
+    }
+
+    void prepare_light() {
+        rasterizer::DepthRequest request = depth;
+        request.path = profile.raster.depth_path;
+        if (!list.light || check_depth(profile, {request.path, request.format})) return;
         const Stopwatch watch{geometry_seconds};
-        transparent = prepare(list, view, raster, profile, prepare_options(transparent_selection()));
+        light = light_map(list, profile, raster, {request.path, request.format}, options.threads);
+    }
+
+    [[nodiscard]] Lists prepare_lists(bool depth_quotient) {
+        const Stopwatch watch{geometry_seconds};
+        Lists made;
+        made.transparent = prepare(list, view, raster, profile, prepare_options(transparent_selection(), depth_quotient));
         has_opaque = !options.alpha && std::any_of(list.materials.begin(), list.materials.end(), [](const Material& m) {
             return m.alpha_mode != AlphaMode::blend;
         });
-        if (has_opaque) opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque));
-        prepare_second();
-        for (PreparedDraw* const prepared : {&transparent, has_opaque ? &opaque : nullptr, second ? &*second : nullptr})
+        if (has_opaque) made.opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque, depth_quotient));
+        prepare_second(made, depth_quotient);
+        for (PreparedDraw* const prepared :
+             {&made.transparent, has_opaque ? &made.opaque : nullptr, made.second ? &*made.second : nullptr})
             if (prepared != nullptr) move_to_origin(*prepared);
+        return made;
     }
 
     void move_to_origin(PreparedDraw& prepared) const {
@@ -147,7 +163,7 @@ struct Renderer::State {
         if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
     }
 
-    void prepare_second() {
+    void prepare_second(Lists& made, bool depth_quotient) const {
         View other = view;
         other.vertex_path = options.vertex_paths.second.value_or(view.vertex_path);
         rasterizer::RasterState clamped = raster;
@@ -155,19 +171,33 @@ struct Renderer::State {
         const bool differs = other.vertex_path != view.vertex_path || options.second_list != nullptr || clamped != raster;
         if (!differs) return;
         const DrawList& split = options.second_list != nullptr ? *options.second_list : list;
-        second = prepare(split, other, clamped, profile, prepare_options(transparent_selection()));
+        made.second = prepare(split, other, clamped, profile, prepare_options(transparent_selection(), depth_quotient));
     }
 
-    const PreparedDraw& list_for(const Algorithm& algorithm) {
-        if (!algorithm.sorts_triangles) return transparent;
+    const Lists& lists_for(const Algorithm& algorithm) {
+        if (!takes_quotient(depth_of(algorithm)) || takes_quotient(depth)) return lists;
+        if (!quotient_lists) quotient_lists = prepare_lists(true);
+        return *quotient_lists;
+    }
+
+    const PreparedDraw& transparent_for(const Algorithm& algorithm) {
+        if (!algorithm.sorts_triangles) return lists_for(algorithm).transparent;
         if (!sorted) {
             const Stopwatch watch{geometry_seconds};
-            PrepareOptions sorting = prepare_options(transparent_selection());
+            PrepareOptions sorting = prepare_options(transparent_selection(), takes_quotient(depth));
             sorting.sort_back_to_front = true;
             sorted = prepare(list, view, raster, profile, sorting);
             move_to_origin(*sorted);
         }
         return *sorted;
+    }
+
+    // What an algorithm stores and compares.
+    [[nodiscard]] rasterizer::DepthRequest depth_of(const Algorithm& algorithm) const {
+        rasterizer::DepthRequest request = depth;
+        if (algorithm.stores) request.path = *algorithm.stores;
+        if (!request.reference) request.reference = algorithm.compares;
+        return request;
     }
 
     // To simulate every effect is to rasterize in every pass.
@@ -200,12 +230,14 @@ struct Renderer::State {
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
-        f.opaque = has_opaque ? &opaque : nullptr;
-        f.transparent = &list_for(algorithm);
-        f.second = second ? &*second : nullptr;
+        const Lists& own = lists_for(algorithm);
+        f.opaque = has_opaque ? &own.opaque : nullptr;
+        f.transparent = &transparent_for(algorithm);
+        f.second = own.second ? &*own.second : nullptr;
+        f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
-        f.depth = depth;
+        f.depth = depth_of(algorithm);
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
         f.color_format = color_format;
@@ -226,7 +258,7 @@ struct Renderer::State {
 
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
-        if (auto lacking = check_depth(profile, depth)) return lacking;
+        if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
         if (auto lacking = check(profile, color_format)) return lacking;
         if (options.raster.depth_near > options.raster.depth_far)
             return Refusal{"peeling over a reversed depth range yet", "", "use a depth range with near below far"};
@@ -238,7 +270,7 @@ struct Renderer::State {
     }
 
     void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) const {
-        const auto& counters = transparent.geometry.counters;
+        const auto& counters = lists.transparent.geometry.counters;
         if (counters.non_finite > 0)
             merge(all, {Fault::non_finite_vertices, 0, -1, -1,
                         std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
@@ -264,7 +296,8 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     state_->raster = options.raster;
     state_->raster.viewport = {0, 0, options.width, options.height};
     state_->raster.depth_format = state_->depth.format;
-    state_->prepare_lists();
+    state_->prepare_light();
+    state_->lists = state_->prepare_lists(state_->takes_quotient(state_->depth));
 }
 
 Renderer::~Renderer() = default;
@@ -329,6 +362,6 @@ std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }
-const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->transparent.geometry.counters; }
+const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->lists.transparent.geometry.counters; }
 
 }  // namespace strata::peeling

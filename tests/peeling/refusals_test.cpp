@@ -39,14 +39,16 @@ const std::string no_programs =
 }  // namespace
 
 TEST_CASE("the table of algorithms and profiles is that of decisions.md 4") {
-    const std::vector<std::string> geforce3{"unsorted", "painter", "depth_units", "a_buffer"};
-    const std::vector<std::string> geforce8{"unsorted", "painter",          "depth_units",  "front_to_back",
+    const std::vector<std::string> geforce3{"unsorted",   "painter", "depth_units", "shadow_map", "shadow_map_depth_replace",
+                                            "a_buffer"};
+    const std::vector<std::string> geforce8{"unsorted", "painter",          "depth_units",  "front_to_back", "shadow_map",
                                             "dual",     "weighted_average", "weighted_sum", "a_buffer"};
     for (const DeviceProfile& profile : builtin_profiles())
         for (const auto& algorithm : strata::peeling::algorithms()) {
             const auto& runs = profile.name == "geforce3" ? geforce3 : geforce8;
             const bool everything = profile.name != "geforce3" && profile.name != "geforce8";
-            const bool expected = everything || std::ranges::find(runs, algorithm.name) != runs.end();
+            const bool replaces = algorithm.name == "shadow_map_depth_replace" && profile.name != "ideal";
+            const bool expected = (everything && !replaces) || std::ranges::find(runs, algorithm.name) != runs.end();
             INFO(algorithm.name << " on " << profile.name);
             CHECK(sentence({profile.name, algorithm.name}).empty() == expected);
         }
@@ -62,6 +64,12 @@ TEST_CASE("a refused algorithm names the first feature that is missing, its exte
             sentence({profile, "dual_independent"}) ==
             "profile " + profile +
                 " has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal or llvmpipe");
+}
+
+TEST_CASE("the fix of shadow-map peeling is refused by its extension where there are no texture shaders") {
+    for (const std::string profile : {"geforce8", "geforce8_dx101", "llvmpipe"})
+        CHECK(sentence({profile, "shadow_map_depth_replace"}) ==
+              "profile " + profile + " has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
 }
 
 TEST_CASE("depth formats that a device lacks are refused for every algorithm") {
