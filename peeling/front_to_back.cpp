@@ -7,6 +7,7 @@
 //            and `peeled` = the depth of layer i-1.
 #include <utility>
 
+#include "peeling/layer_target.h"
 #include "peeling/programs.h"
 #include "peeling/runs.h"
 
@@ -33,7 +34,9 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     });
 }
 
-void composite(Region& region, Target layer, Target depth, Target accumulated) {
+}  // namespace
+
+void composite_layer(Region& region, Target layer, Target depth, Target accumulated) {
     PassState state;
     state.color[0] = accumulated;
     state.blend[0] = blend_mode::under;
@@ -48,8 +51,6 @@ void composite(Region& region, Target layer, Target depth, Target accumulated) {
     }));
 }
 
-}  // namespace
-
 void front_to_back(Region& region) {
     const Target accumulated = region.make_color();
     const Target layer = region.make_color();
@@ -61,7 +62,7 @@ void front_to_back(Region& region) {
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, layer, nearest, peeled, first);
-        composite(region, layer, nearest, accumulated);
+        composite_layer(region, layer, nearest, accumulated);
         if (!region.any(drawn.passed, promise(region.frame(), Idle::when_zero))) break;
         region.keep_layer(layer, nearest);
         std::swap(peeled, nearest);

@@ -1,12 +1,12 @@
 #include "peeling/render.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "peeling/prepared_lists.h"
 #include "peeling/shadow_light.h"
+#include "peeling/stopwatch.h"
 #include "pipeline/check_pass.h"
 #include "pipeline/effects.h"
-#include "pipeline/other_splits.h"
 #include "rasterizer/input_error.h"
 #include "rasterizer/parallel.h"
 
@@ -15,18 +15,6 @@ namespace strata::peeling {
 using namespace pipeline;
 
 namespace {
-
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& seconds) : seconds_{seconds}, start_{std::chrono::steady_clock::now()} {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point start_;
-};
 
 void check_options(const RenderOptions& o) {
     const auto in_range = [](const char* option, int value, int low, int high) {
@@ -63,9 +51,12 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     return check(profile, depth.path);
 }
 
-// Whether a path takes r and q of the vertices.
-bool is_quotient(std::optional<rasterizer::DepthPath> path) {
-    return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
+// A light's map in the depth that the device writes by itself; none if it cannot be had, for then nothing runs.
+std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfile& profile,
+                                         const rasterizer::RasterState& eye, int threads) {
+    const rasterizer::DepthRequest request{profile.raster.depth_path, eye.depth_format};
+    if (!list.light || check_depth(profile, request)) return nullptr;
+    return std::make_unique<const LightMap>(light_map(list, profile, eye, request, threads));
 }
 
 // A closed form where the algorithm offers one, its passes elsewhere.
@@ -84,112 +75,37 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
     if (audit.lost_by_ties > 0 && (merges || drops))
         note(Fault::merged_ties, audit.ties,
              std::to_string(audit.lost_by_ties) + (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
-    if (!algorithm.exact || audit.order_errors.value_or(0) == 0) return;
+    const bool orders = algorithm.exact || algorithm.order == ListOrder::objects;
+    if (!orders || audit.order_errors.value_or(0) == 0) return;
     const bool limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed ||
                          options.termination.rule == TerminationRule::ratio;
     if (limited)
         note(Fault::truncated, audit.misordered, "the peel ended before the last layer");
-    else if (options.termination.rule == TerminationRule::paper)
+    else if (algorithm.has_published_form && options.formulation == Formulation::published)
+        note(Fault::as_published, audit.misordered,
+             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced by the listing as printed");
+    else if (algorithm.order == ListOrder::sets)
+        note(Fault::out_of_order, audit.misordered, "the ordered set (--sorted) does not arrive front to back");
+    else if (algorithm.order == ListOrder::objects && !algorithm.exact)
+        note(Fault::out_of_order, audit.misordered, "objects or their own triangles overlap out of order");
+    else if (options.termination.rule == TerminationRule::paper && algorithm.ties == TiePolicy::merged)
         note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
 }
-
-// What is drawn, in the window.
-struct Lists {
-    PreparedDraw transparent{}, opaque{};
-    std::optional<PreparedDraw> second{};  // what further passes draw, if it is something else
-};
 
 }  // namespace
 
 struct Renderer::State {
-    const DrawList& list;
-    View view;
     DeviceProfile profile;
     RenderOptions options;
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
-    rasterizer::RasterState raster{};
-    Lists lists{};
-    std::optional<Lists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
-    std::optional<LightMap> light{};
-    std::optional<PreparedDraw> sorted{};
-    bool has_opaque = false;
-    double geometry_seconds = 0;
+    std::unique_ptr<const LightMap> light{};
+    PreparedLists lists;
+    std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
     std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
 
-    [[nodiscard]] PrepareOptions prepare_options(Selection selection, bool depth_quotient) const {
-        PrepareOptions prepared{.selection = selection, .alpha_scale = options.alpha.value_or(1.0f),
-                                .depth_quotient = depth_quotient, .tile_size = options.tile_size, .threads = options.threads};
-        if (light) {
-            prepared.units = shadow_units(*list.light, view.view, light->state, profile);
-            prepared.receives_shadow = true;
-        }
-        return prepared;
-    }
-
-    [[nodiscard]] Selection transparent_selection() const {
-        return options.alpha ? Selection::all : Selection::transparent;
-    }
-
-    [[nodiscard]] bool takes_quotient(const rasterizer::DepthRequest& request) const {
-        return is_quotient(request.path) || is_quotient(request.reference);
-    }
-
-    void prepare_light() {
-        rasterizer::DepthRequest request = depth;
-        request.path = profile.raster.depth_path;
-        if (!list.light || check_depth(profile, {request.path, request.format})) return;
-        const Stopwatch watch{geometry_seconds};
-        light = light_map(list, profile, raster, {request.path, request.format}, options.threads);
-    }
-
-    [[nodiscard]] Lists prepare_lists(bool depth_quotient) {
-        const Stopwatch watch{geometry_seconds};
-        Lists made;
-        made.transparent = prepare(list, view, raster, profile, prepare_options(transparent_selection(), depth_quotient));
-        has_opaque = !options.alpha && std::any_of(list.materials.begin(), list.materials.end(), [](const Material& m) {
-            return m.alpha_mode != AlphaMode::blend;
-        });
-        if (has_opaque) made.opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque, depth_quotient));
-        prepare_second(made, depth_quotient);
-        for (PreparedDraw* const prepared :
-             {&made.transparent, has_opaque ? &made.opaque : nullptr, made.second ? &*made.second : nullptr})
-            if (prepared != nullptr) move_to_origin(*prepared);
-        return made;
-    }
-
-    void move_to_origin(PreparedDraw& prepared) const {
-        const auto& [x, y] = options.window_origin;
-        if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
-    }
-
-    void prepare_second(Lists& made, bool depth_quotient) const {
-        View other = view;
-        other.vertex_path = options.vertex_paths.second.value_or(view.vertex_path);
-        rasterizer::RasterState clamped = raster;
-        clamped.depth_clamp = options.second_depth_clamp.value_or(raster.depth_clamp);
-        const bool differs = other.vertex_path != view.vertex_path || options.second_list != nullptr || clamped != raster;
-        if (!differs) return;
-        const DrawList& split = options.second_list != nullptr ? *options.second_list : list;
-        made.second = prepare(split, other, clamped, profile, prepare_options(transparent_selection(), depth_quotient));
-    }
-
-    const Lists& lists_for(const Algorithm& algorithm) {
-        if (!takes_quotient(depth_of(algorithm)) || takes_quotient(depth)) return lists;
-        if (!quotient_lists) quotient_lists = prepare_lists(true);
-        return *quotient_lists;
-    }
-
-    const PreparedDraw& transparent_for(const Algorithm& algorithm) {
-        if (!algorithm.sorts_triangles) return lists_for(algorithm).transparent;
-        if (!sorted) {
-            const Stopwatch watch{geometry_seconds};
-            PrepareOptions sorting = prepare_options(transparent_selection(), takes_quotient(depth));
-            sorting.sort_back_to_front = true;
-            sorted = prepare(list, view, raster, profile, sorting);
-            move_to_origin(*sorted);
-        }
-        return *sorted;
+    [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
+        return algorithm.whole_frame ? Execution::literal : options.execution;
     }
 
     // What an algorithm stores and compares.
@@ -198,6 +114,17 @@ struct Renderer::State {
         if (algorithm.stores) request.path = *algorithm.stores;
         if (!request.reference) request.reference = algorithm.compares;
         return request;
+    }
+
+    PreparedLists& lists_for(const Algorithm& algorithm) {
+        const rasterizer::DepthRequest request = depth_of(algorithm);
+        if (!takes_quotient(request) || takes_quotient(depth)) return lists;
+        if (!quotient_lists) {
+            PreparedLists::Settings settings = lists.settings();
+            settings.depth = request;
+            quotient_lists.emplace(std::move(settings));
+        }
+        return *quotient_lists;
     }
 
     // To simulate every effect is to rasterize in every pass.
@@ -230,10 +157,10 @@ struct Renderer::State {
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
-        const Lists& own = lists_for(algorithm);
-        f.opaque = has_opaque ? &own.opaque : nullptr;
-        f.transparent = &transparent_for(algorithm);
-        f.second = own.second ? &*own.second : nullptr;
+        PreparedLists& own = lists_for(algorithm);
+        f.opaque = own.opaque();
+        f.transparent = &own.transparent(algorithm.order);
+        f.second = own.second();
         f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
@@ -243,6 +170,7 @@ struct Renderer::State {
         f.color_format = color_format;
         f.background = options.background;
         f.termination = options.termination;
+        f.formulation = options.formulation;
         f.effects = options.effects;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
@@ -269,35 +197,49 @@ struct Renderer::State {
         return peeling::refusal(algorithm, profile);
     }
 
-    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) const {
-        const auto& counters = lists.transparent.geometry.counters;
+    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
+        const auto& counters = lists.transparent(ListOrder::given).geometry.counters;
         if (counters.non_finite > 0)
             merge(all, {Fault::non_finite_vertices, 0, -1, -1,
                         std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
                             std::to_string(counters.first_non_finite)});
         if (algorithm.run == find_algorithm("depth_units")->run)
             merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
-        const bool compares_in_program = algorithm.name == "front_to_back" && depth.format != DepthFormat::d32f &&
-                                         options.quantize_reference && profile.raster.hypothesis.quantize_reference;
-        if (compares_in_program)
+        const auto needs = [&](Feature f) {
+            return std::find(algorithm.features.begin(), algorithm.features.end(), f) != algorithm.features.end();
+        };
+        if (needs(Feature::ordered_rmw))
+            merge(all, {Fault::emulator_extension, 0, -1, -1,
+                        "STRATA_ordered_rmw: no device's programs read what they write, in order"});
+        const bool compares_in_program =
+            algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f;
+        if (compares_in_program && options.quantize_reference && profile.raster.hypothesis.quantize_reference)
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
 };
 
-Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options)
-    : state_{std::make_unique<State>(State{.list = list, .view = view, .profile = profile, .options = options})} {
+Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options) {
     check_options(options);
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
-    state_->depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
-    state_->depth.path = options.depth_path.value_or(profile.raster.depth_path);
-    state_->depth.reference = options.reference_path;
-    state_->view.vertex_path = options.vertex_paths.first.value_or(view.vertex_path);
-    state_->color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
-    state_->raster = options.raster;
-    state_->raster.viewport = {0, 0, options.width, options.height};
-    state_->raster.depth_format = state_->depth.format;
-    state_->prepare_light();
-    state_->lists = state_->prepare_lists(state_->takes_quotient(state_->depth));
+    rasterizer::DepthRequest depth;
+    depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
+    depth.path = options.depth_path.value_or(profile.raster.depth_path);
+    depth.reference = options.reference_path;
+    View first = view;
+    first.vertex_path = options.vertex_paths.first.value_or(view.vertex_path);
+    rasterizer::RasterState raster = options.raster;
+    raster.viewport = {0, 0, options.width, options.height};
+    raster.depth_format = depth.format;
+    auto light = light_of(list, profile, raster, options.threads);
+    state_ = std::unique_ptr<State>(new State{
+        .profile = profile,
+        .options = options,
+        .depth = depth,
+        .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
+        .light = nullptr,
+        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster,
+                                .depth = depth, .light = light.get()}}});
+    state_->light = std::move(light);
 }
 
 Renderer::~Renderer() = default;
@@ -309,13 +251,13 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
         try {
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
-            result.frame = run(frame, body_of(algorithm), state_->options.execution, state_->options.threads, progress);
+            result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
             state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }
     }
-    result.seconds.geometry = state_->geometry_seconds;
+    result.seconds.geometry = state_->lists.seconds();
     if (result.refusal) {
         result.outcome = Outcome::refused;
         return result;
@@ -344,7 +286,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     const Stopwatch watch{result.seconds.passes};
     result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress);
     std::swap(result.frame.depth, result.frame.color);
-    result.seconds.geometry = state_->geometry_seconds;
+    result.seconds.geometry = state_->lists.seconds();
     return result;
 }
 
@@ -362,6 +304,8 @@ std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }
-const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->lists.transparent.geometry.counters; }
+const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { 
+    return state_->lists.transparent(ListOrder::given).geometry.counters;
+}
 
 }  // namespace strata::peeling

@@ -7,6 +7,7 @@
 
 #include "peeling/algorithm.h"
 #include "peeling/audit.h"
+#include "peeling/sort.h"
 #include "pipeline/executor.h"
 
 namespace strata::peeling {
@@ -33,6 +34,9 @@ struct RenderOptions {
     std::optional<float> alpha;   // draws everything as transparent, its own alpha times this
     pipeline::Rgba background{0, 0, 0, 1};
     pipeline::Termination termination;
+    pipeline::Formulation formulation = pipeline::Formulation::resolved;
+    Sort sort;                        // the order in which triangles are submitted
+    std::vector<std::string> sorted;  // meshes or materials that arrive front to back, for hybrid; beside those that the scene names
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments

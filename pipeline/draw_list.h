@@ -50,6 +50,7 @@ struct Material {
 struct Instance {
     std::uint32_t mesh = 0, material = 0;
     Matrix model = identity;
+    bool arrives_sorted = false;  // front to back at every pixel, as listed, from the scene's own view
     friend bool operator==(const Instance&, const Instance&) = default;
 };
 

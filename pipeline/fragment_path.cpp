@@ -52,7 +52,7 @@ void FragmentPathProgram::operator()(const FragmentBatch& in, const Loads&, Outp
     run_texture_shader(path_.shader, ops_, machine_, in, *results_);
     for (std::size_t i = 0; i < count; ++i) out.alive[i] &= results_->alive[i];
     if (replaces_depth(ops_)) {
-        std::copy_n(results_->code.begin(), count, out.code.begin());
+        std::copy_n(results_->code.begin(), count, out.depth.begin());
         out.replaces_depth = true;
     }
     CombinerSources sources{.primary = &in.color};

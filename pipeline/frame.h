@@ -24,6 +24,9 @@ struct Termination {
 // What an algorithm orders fragments by (decisions.md 3).
 enum class DepthKey : std::uint8_t { shader_z, stored_code };
 
+// Of a listing with errata: repaired as little as it takes, or as it was printed.
+enum class Formulation : std::uint8_t { resolved, published };
+
 enum class Effects : std::uint8_t { needed, all };  // all: simulate every stage even where nothing calls for it; same bits
 
 // What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
@@ -48,6 +51,7 @@ struct Frame {
     std::optional<Format> published_format;  // of what the body publishes, if it is not a colour of the frame
     Rgba background{0, 0, 0, 1};
     Termination termination;
+    Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
     bool alike_where_blank = false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place

@@ -3,7 +3,9 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <span>
 
+#include "pipeline/primitive_range.h"
 #include "pipeline/state.h"
 #include "pipeline/target.h"
 
@@ -32,8 +34,10 @@ struct PassState {
     std::array<DepthUnit, max_depth_units> depth_units{};
     int depth_unit_count = 0;
     std::array<Target, 4> textures{};              // depth targets that texture units sample, anywhere in the region
-    bool replaces_depth = false;                   // the program may leave another depth (Outputs::code)
+    bool replaces_depth = false;                   // the program may leave another depth (Outputs::depth)
     rasterizer::FragmentNeeds needs;               // what the program looks at; the stages add what they need themselves
+    std::span<const PrimitiveRange> primitives{};  // of a geometry pass: these alone, ascending and disjoint; empty: all
+    bool saturates_by_design = false;              // a stencil count that stops at its limit is what the listing wants
 };
 
 // What a program may load: the declared reads, gathered at the fragments' own pixels.
@@ -61,13 +65,16 @@ struct Outputs {
     std::array<ColorLanes, max_color_targets> color;
     Lanes<std::uint32_t> alive;  // ~0 or 0; a program discards with &=
     std::uint64_t tally = 0;     // counts whatever the program calls an event
-    Lanes<std::uint32_t> code;   // with replaces_depth: the depth that takes the place of the batch's
-    bool replaces_depth = false;
 
     // For the audit: lane i composites depth key `key[i]` on `side[i]`, if it survives the tests. Used when `traced` is set.
     Lanes<Side> side;
     Lanes<std::uint32_t> key;
     bool traced = false;
+
+    // The codes that depth units and depth test compare and write instead of the batch's own (a quad has none). Used when
+    // `replaces_depth` is set; a geometry pass says so beforehand in PassState::replaces_depth.
+    Lanes<std::uint32_t> depth;
+    bool replaces_depth = false;
 
     void discard(int i) noexcept { alive[static_cast<std::size_t>(i)] = 0; }
 };

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "pipeline/depth_rows.h"
 #include "pipeline/matrix.h"
 #include "pipeline/shadow_stage.h"
 #include "pipeline/vertex_transform.h"
+#include "rasterizer/depth_bound.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/numerics.h"
 #include "rasterizer/parallel.h"
+#include "rasterizer/window.h"
 
 namespace strata::pipeline {
 
@@ -112,6 +113,7 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
     soup.runs.push_back({.first_index = static_cast<std::uint32_t>(first_index),
                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
                          .material = instance.material,
+                         .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
                          .double_sided = material.double_sided,
                          .mirrored = determinant(instance.model) < 0});
 }
@@ -139,6 +141,25 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
     return extras;
 }
 
+DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& primitives) {
+    DrawPart part{primitives, 1, 0};
+    if (geometry.state.depth_clamp) return {primitives, 0, 1};
+    const double units = z_units(geometry.state, geometry.rules);
+    const auto before = [](const rasterizer::TriangleRecord& t, std::uint32_t primitive) { return t.primitive < primitive; };
+    const auto begin = geometry.triangles.begin(), end = geometry.triangles.end();
+    const auto first = std::lower_bound(begin, end, primitives.first, before);
+    const auto last = std::lower_bound(first, end, primitives.last, before);
+    for (auto t = first; t != last; ++t) {
+        const auto i = static_cast<std::size_t>(t - begin);
+        const auto z = geometry.depths(i);
+        const auto [least, most] = std::minmax({z[0] / units, z[1] / units, z[2] / units});
+        const double bound = depth_bound(geometry, std::span{geometry.all_triangles}.subspan(i, 1));
+        part.near = std::min(part.near, least - (bound - most));  // a fragment strays as far on either side
+        part.far = std::max(part.far, bound);
+    }
+    return part;
+}
+
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
     MaterialStage stage;
     if (material.texture >= 0) stage.texture = &list.textures[static_cast<std::size_t>(material.texture)];
@@ -157,24 +178,13 @@ rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const
     return soup;
 }
 
-std::vector<std::uint32_t> back_to_front_order(const rasterizer::TriangleSoup& soup) {
-    std::vector<double> key(soup.indices.size() / 3);
-    for (std::size_t t = 0; t < key.size(); ++t) {
-        double sum = 0;
-        for (std::size_t corner = 0; corner < 3; ++corner) sum += double{soup.vertices[soup.indices[3 * t + corner]].z};
-        key[t] = sum == sum ? sum : 0;  // a NaN is dropped at set-up; here it must only not upset the order
-    }
-    std::vector<std::uint32_t> order(key.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] > key[b]; });
-    return order;
-}
-
 PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                      const DeviceProfile& profile, const PrepareOptions& options) {
     const FloatEnvironment ours;
     rasterizer::TriangleSoup soup = transform(list, view, options);
-    if (options.sort_back_to_front) soup.order = back_to_front_order(soup);
+    SubmissionOrder order;
+    if (options.order) order = options.order(soup);
+    soup.order = std::move(order.triangles);
     rasterizer::RasterRules rules = profile.raster;
     if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
     soup.extras = vertex_extras(list, view, state, rules, options);
@@ -182,6 +192,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
     bin_triangles(prepared.geometry, options.tile_size, options.threads);
     if (options.receives_shadow) prepared.shadow_coordinates = shadow_coordinates;
+    for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;

@@ -92,7 +92,7 @@ class Region {
     // A depth target as texture units see it; `t` runs up where the frame's y does.
     [[nodiscard]] DepthTexels depth_texels(Target depth) const;
 
-    // One geometry pass over the transparent list.
+    // One geometry pass over the transparent list, or over the part of it that `state.primitives` names.
     template <FragmentProgram P>
     Drawn draw(const PassState& state, P&& program) {
         return draw_list(state, *frame_.transparent, program);
@@ -117,8 +117,8 @@ class Region {
     // Work after the last iteration that each iteration causes (the compositing of its layer) is counted with it: from now on
     // counters go to the record of iteration `iteration`, from 1.
     void count_with(int iteration) { counted_record_ = static_cast<std::size_t>(iteration); }
-    // True once --max-passes or fixed:N are used up; the same in every region.
-    [[nodiscard]] bool limit_reached();
+    // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
+    [[nodiscard]] bool limit_reached(int passes = 1);
     void keep_layer(Target color, Target depth);
     // `pixels` of this region, the first of them at region index `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail);
@@ -147,7 +147,7 @@ class Region {
     void trace(const TraceEntry& entry) { trace_.push_back(entry); }
 
     // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
-    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel) const;  // of sample 0, as a program would load it
+    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;  // as a program would load it
     void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
     [[nodiscard]] const TargetStorage& storage(Target target) const { return storages_[static_cast<std::size_t>(target.id)]; }
     [[nodiscard]] Image image(Target target) const;
@@ -178,7 +178,8 @@ class Region {
 
     void begin_pass(const PassState& state, PassKind kind);
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
-    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, rasterizer::BatchSink sink);
+    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
+                   rasterizer::BatchSink sink);
     void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] bool holds(rasterizer::FragmentNeeds needs) noexcept;
@@ -190,11 +191,10 @@ class Region {
     void load(const PassState& state, const FragmentBatch& batch);
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
-    std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, const Lanes<std::uint32_t>& code,
-                                         int sample, Lanes<std::uint32_t>& alive);  // answers how many pass
+    std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                         Lanes<std::uint32_t>& alive);  // answers how many pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
-    void test_depth_units(const PassState& state, const FragmentBatch& batch, const std::uint32_t* code,
-                          Lanes<std::uint32_t>& alive);
+    void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);

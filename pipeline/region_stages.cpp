@@ -151,11 +151,10 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
 void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn) {
     Lanes<std::uint32_t>& alive = scratch_->alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
-    const Lanes<std::uint32_t>& code = out.replaces_depth ? out.code : batch.code;
-    if (state.depth_unit_count > 0) test_depth_units(state, batch, code.data(), alive);
+    if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
     const bool is_tested = state.depth.enabled || state.stencil.enabled;
     const std::uint64_t passed =
-        is_tested ? test_depth_and_stencil(state, batch, code, sample, alive) : count_lanes(alive, batch.count);
+        is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
     drawn.passed.own_ += passed;
     if (passed == 0) return;
     if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
@@ -170,20 +169,19 @@ void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const 
                               kind_ == PassKind::geometry});
 }
 
-void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, const std::uint32_t* code,
-                              Lanes<std::uint32_t>& alive) {
+void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
     for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
         TargetStorage& target = at(state.depth_units[unit].depth);
         const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
         const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(0),
-                                              lanes_of(batch), code, alive.data());
+                                              lanes_of(batch), batch.code.data(), alive.data());
         record().counters.bytes_read += pixel_bytes(target) * result.arriving;
         record().counters.depth_killed += result.arriving - result.passed;
     }
 }
 
-std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch,
-                                             const Lanes<std::uint32_t>& code, int sample, Lanes<std::uint32_t>& alive) {
+std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                             Lanes<std::uint32_t>& alive) {
     Scratch& s = *scratch_;
     Counters& counters = record().counters;
     TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
@@ -193,7 +191,7 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
         tested.arriving = tested.passed = count_lanes(alive, batch.count);
     } else if (!state.stencil.enabled) {
         tested = test_depth(state.depth, depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
-                            code.data(), alive.data());
+                            batch.code.data(), alive.data());
     } else {
         // The depth's answer for every fragment first; it is written when the stencil has had its say.
         tested.arriving = count_lanes(alive, batch.count);
@@ -201,11 +199,11 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
         if (depth != nullptr)
             static_cast<void>(test_depth({.enabled = true, .func = state.depth.func, .write = false},
                                          depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
-                                         code.data(), s.depth_pass.data()));
+                                         batch.code.data(), s.depth_pass.data()));
         stencil_killed = test_stencil(state, batch, sample, alive);
         tested.passed = count_lanes(alive, batch.count);
         if (depth != nullptr && state.depth.write)
-            scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &code);
+            scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
     counters.stencil_killed += stencil_killed;
     counters.depth_killed += tested.arriving - stencil_killed - tested.passed;
@@ -227,7 +225,7 @@ std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& 
     scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
     record().counters.bytes_read += arriving;
     record().counters.bytes_written += arriving;
-    report_saturation(batch);
+    if (!state.saturates_by_design) report_saturation(batch);
     return static_cast<std::uint64_t>(killed);
 }
 

@@ -40,6 +40,7 @@ struct VertexExtras {
 struct TriangleRun {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;
+    std::uint32_t object = 0;  // whose triangles these are: the caller's number
     bool double_sided = true;
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
 };

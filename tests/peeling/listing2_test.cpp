@@ -103,7 +103,7 @@ Codes codes_of(const Frame& frame, PassState state, Program&& program) {
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         program(in, own, out);
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
-            if (out.alive[i] != 0) codes[{in.pixel[i], in.primitive[i]}] = (out.replaces_depth ? out.code : in.code)[i];
+            if (out.alive[i] != 0) codes[{in.pixel[i], in.primitive[i]}] = (out.replaces_depth ? out.depth : in.code)[i];
     }));
     return codes;
 }
@@ -156,7 +156,7 @@ TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_repl
                 if (out.alive[i] == 0) continue;
                 ++fragments;
                 other_pixel += static_cast<int>(over_q(0)) != in.x[i] || static_cast<int>(over_q(1)) != height - 1 - in.y[i];
-                other_r += static_cast<std::uint32_t>(over_q(2)) != out.code[i];
+                other_r += static_cast<std::uint32_t>(over_q(2)) != out.depth[i];
             }
         });
         Frame replaced = scene.frame;

@@ -29,6 +29,17 @@ std::string to_text(const pipeline::Termination& termination) {
     return "";  // unreachable: the enum is closed
 }
 
+std::string to_text(const peeling::Sort& sort) {
+    switch (sort.rule) {
+        case peeling::SortRule::none: return "none";
+        case peeling::SortRule::exact: return "exact";
+        case peeling::SortRule::reverse: return "reverse";
+        case peeling::SortRule::bucket: return fmt::format("bucket:{}", sort.buckets);
+        case peeling::SortRule::shuffle: return fmt::format("shuffle:{},{}", sort.fraction, sort.seed);
+    }
+    return "";  // unreachable: the enum is closed
+}
+
 void add_scene(Words& words, const RunOptions& options) {
     const scenes::SceneOptions& scene = options.scene_options;
     if (scene.scene) add(words, "--scene", fmt::format("{}", *scene.scene));
@@ -76,6 +87,13 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
     if (render.max_passes != 0) add(words, "--max-passes", fmt::format("{}", render.max_passes));
 }
 
+void add_order(Words& words, const peeling::RenderOptions& render) {
+    if (render.formulation != pipeline::Formulation::resolved)
+        add(words, "--formulation", name_of(formulations, render.formulation));
+    if (!render.sorted.empty()) add(words, "--sorted", fmt::format("{}", fmt::join(render.sorted, ",")));
+    if (render.sort.rule != peeling::SortRule::none) add(words, "--sort", to_text(render.sort));
+}
+
 }  // namespace
 
 std::string canonical_command(const std::string& verb, const RunOptions& options, const peeling::Algorithm& algorithm) {
@@ -85,6 +103,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     add_scene(words, options);
     add_view(words, options);
     add_machine(words, options.render);
+    add_order(words, options.render);
     return fmt::format("{}", fmt::join(words, " "));
 }
 

@@ -43,6 +43,9 @@ inline const std::vector<Choice<pipeline::Execution>> executions{{"literal", pip
                                                                  {"tiled", pipeline::Execution::tiled},
                                                                  {"replay", pipeline::Execution::replay}};
 
+inline const std::vector<Choice<pipeline::Formulation>> formulations{{"resolved", pipeline::Formulation::resolved},
+                                                                     {"published", pipeline::Formulation::published}};
+
 inline const std::vector<Choice<Simd>> simds{{"scalar", Simd::scalar},
                                              {"sse4", Simd::sse4},
                                              {"avx2", Simd::avx2},

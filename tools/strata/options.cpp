@@ -68,6 +68,26 @@ std::optional<pipeline::Termination> to_termination(std::string_view text) {
     return std::nullopt;
 }
 
+std::optional<peeling::Sort> to_sort(std::string_view text) {
+    using enum peeling::SortRule;
+    if (text == "none") return peeling::Sort{.rule = none};
+    if (text == "exact") return peeling::Sort{.rule = exact};
+    if (text == "reverse") return peeling::Sort{.rule = reverse};
+    if (text.starts_with("bucket:")) {
+        const auto buckets = to_int(text.substr(7));
+        if (buckets && *buckets >= 1) return peeling::Sort{.rule = bucket, .buckets = *buckets};
+    }
+    if (text.starts_with("shuffle:")) {
+        const auto parts = split(text.substr(8), ',');
+        if (parts.size() != 2) return std::nullopt;
+        const auto fraction = to_number<double>(parts[0]);
+        const auto seed = to_int<std::uint64_t>(parts[1]);
+        if (fraction && seed && *fraction >= 0 && *fraction <= 1)
+            return peeling::Sort{.rule = shuffle, .fraction = *fraction, .seed = *seed};
+    }
+    return std::nullopt;
+}
+
 // Bytes, or K, M and G of them.
 std::optional<std::uint64_t> to_bytes(std::string_view text) {
     constexpr std::string_view suffixes = "KMG";
@@ -186,6 +206,19 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
         to_count);
 }
 
+void add_order_options(CLI::App& app, peeling::RenderOptions& options) {
+    add_choice(app, options.formulation, "--formulation", formulations,
+               "the listings of Carr et al. repaired, or as printed, with what they lose (default resolved)");
+    app.add_option_function<std::string>(
+           "--sorted", [&options](const std::string& text) { options.sorted = split(text, ','); },
+           "meshes or materials that arrive front to back, for hybrid (default: those that the scene names)")
+        ->type_name("NAME[,NAME...]");
+    add_option(app, options.sort,
+               {"--sort", "bucket:N|exact|none|reverse|shuffle:F,SEED", "order of triangles, by centroid (default none: as listed)",
+                "bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to 1"},
+               to_sort);
+}
+
 std::vector<std::string> algorithm_names() {
     std::vector<std::string> names;
     for (const peeling::Algorithm& algorithm : peeling::algorithms()) names.push_back(algorithm.name);
@@ -214,6 +247,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
     add_algorithm_option(app, options);
     add_profile_option(app, options.profile);
     add_machine_options(app, options.render);
+    add_order_options(app, options.render);
     add_view_options(app, options);
 }
 
