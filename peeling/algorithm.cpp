@@ -9,6 +9,7 @@ namespace strata::peeling {
 
 using pipeline::DepthKey;
 using pipeline::Feature;
+using rasterizer::DepthPath;
 
 namespace {
 
@@ -41,6 +42,15 @@ std::vector<Algorithm> make_algorithms() {
          .summary = "one layer a pass by two sequential depth units; layers composited back to front",  .pass_formula = "N + 1", .ties = TiePolicy::unique,
          .key = DepthKey::stored_code, .exact = true, .makes_layers = true, .geometry_passes = every_layer_and_one,
          .run = depth_units, .replayed = code_and_color, .features = {Feature::sequential_depth_units}},
+        {.name = "shadow_map", .paper = everitt, .section = "Shadow Mapping as Depth Test; An Invariance Issue",
+         .summary = "one layer a pass by shadow comparison and alpha test; its two depths may differ in their last bits", .pass_formula = "N + 1 where the compared depth is the stored one",
+         .ties = TiePolicy::unique, .key = DepthKey::stored_code, .makes_layers = true, .kills_alpha_zero = true, .geometry_passes = every_layer_and_one,
+         .run = shadow_map, .replayed = code_and_color, .compares = DepthPath::perspective_rq},
+        {.name = "shadow_map_depth_replace", .paper = everitt, .section = "An Invariance Issue, Listing 2",
+         .summary = "the same with a depth replaced by a texture shader: stored and compared depth are one quotient", .pass_formula = "N + 1",
+         .ties = TiePolicy::unique, .key = DepthKey::stored_code, .exact = true, .makes_layers = true, .kills_alpha_zero = true,
+         .geometry_passes = every_layer_and_one, .run = shadow_map, .replayed = code_and_color, .features = {Feature::depth_replace},
+         .stores = DepthPath::depth_replace, .compares = DepthPath::perspective_rq},
         {.name = "front_to_back", .paper = bavoil, .section = "Depth Peeling; Under Blending",
          .summary = "one layer a pass, nearest first, blended UNDER",  .pass_formula = "N + 1", .ties = TiePolicy::unique,
          .key = DepthKey::stored_code, .exact = true, .makes_layers = true, .premultiplied_layers = true, .geometry_passes = every_layer_and_one,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "peeling/prepared_lists.h"
+#include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
 #include "pipeline/check_pass.h"
 #include "pipeline/effects.h"
@@ -50,23 +51,19 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     return check(profile, depth.path);
 }
 
+// A light's map in the depth that the device writes by itself; none if it cannot be had, for then nothing runs.
+std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfile& profile,
+                                         const rasterizer::RasterState& eye, int threads) {
+    const rasterizer::DepthRequest request{profile.raster.depth_path, eye.depth_format};
+    if (!list.light || check_depth(profile, request)) return nullptr;
+    return std::make_unique<const LightMap>(light_map(list, profile, eye, request, threads));
+}
+
 // A closed form where the algorithm offers one, its passes elsewhere.
 Body body_of(const Algorithm& algorithm) {
     return [&](Region& region) {
         if (algorithm.closed_form == nullptr || !algorithm.closed_form(region)) algorithm.run(region);
     };
-}
-
-void draw_depth(Region& region) {
-    const Target depth = region.make_depth();
-    region.copy(region.opaque_depth(), depth);
-    PassState state;
-    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
-    state.depth_target = depth;
-    state.needs = {.shader_z = false, .code = true, .color = false};
-    region.begin_iteration();
-    static_cast<void>(region.draw_depth(state));
-    region.publish(depth);
 }
 
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
@@ -102,11 +99,32 @@ struct Renderer::State {
     RenderOptions options;
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
+    std::unique_ptr<const LightMap> light{};
     PreparedLists lists;
+    std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
     std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
         return algorithm.whole_frame ? Execution::literal : options.execution;
+    }
+
+    // What an algorithm stores and compares.
+    [[nodiscard]] rasterizer::DepthRequest depth_of(const Algorithm& algorithm) const {
+        rasterizer::DepthRequest request = depth;
+        if (algorithm.stores) request.path = *algorithm.stores;
+        if (!request.reference) request.reference = algorithm.compares;
+        return request;
+    }
+
+    PreparedLists& lists_for(const Algorithm& algorithm) {
+        const rasterizer::DepthRequest request = depth_of(algorithm);
+        if (!takes_quotient(request) || takes_quotient(depth)) return lists;
+        if (!quotient_lists) {
+            PreparedLists::Settings settings = lists.settings();
+            settings.depth = request;
+            quotient_lists.emplace(std::move(settings));
+        }
+        return *quotient_lists;
     }
 
     // To simulate every effect is to rasterize in every pass.
@@ -141,12 +159,14 @@ struct Renderer::State {
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
-        f.opaque = lists.opaque();
-        f.transparent = &lists.transparent(algorithm.order);
-        f.second = lists.second();
+        PreparedLists& own = lists_for(algorithm);
+        f.opaque = own.opaque();
+        f.transparent = &own.transparent(algorithm.order);
+        f.second = own.second();
+        f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
-        f.depth = depth;
+        f.depth = depth_of(algorithm);
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
         f.color_format = color_format;
@@ -169,7 +189,7 @@ struct Renderer::State {
 
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
-        if (auto lacking = check_depth(profile, depth)) return lacking;
+        if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
         if (auto lacking = check(profile, color_format)) return lacking;
         if (options.raster.depth_near > options.raster.depth_far)
             return Refusal{"peeling over a reversed depth range yet", "", "use a depth range with near below far"};
@@ -224,12 +244,16 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     rasterizer::RasterState raster = options.raster;
     raster.viewport = {0, 0, options.width, options.height};
     raster.depth_format = depth.format;
+    auto light = light_of(list, profile, raster, options.threads);
     state_ = std::unique_ptr<State>(new State{
         .profile = profile,
         .options = options,
         .depth = depth,
         .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
-        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster, .depth = depth}}});
+        .light = nullptr,
+        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster,
+                                .depth = depth, .light = light.get()}}});
+    state_->light = std::move(light);
 }
 
 Renderer::~Renderer() = default;

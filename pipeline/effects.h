@@ -20,11 +20,13 @@ namespace strata::pipeline {
 [[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const MaterialNeeds& materials, Effects effects,
                                                           DepthOutcome depth = DepthOutcome::open) {
     rasterizer::FragmentNeeds needs = state.needs;
-    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.reference};
+    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.reference,
+                                        static_cast<rasterizer::UnitMask>(needs.units | materials.shadow)};
     needs.code |= needs.reference || (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
     needs.facing |= state.stencil.enabled && state.stencil.two_sided;
     needs.color |= materials.color;
     needs.texcoord |= materials.texcoord && needs.color;
+    if (needs.color) needs.units |= materials.shadow;
     return needs;
 }
 

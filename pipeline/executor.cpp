@@ -255,7 +255,14 @@ class FrameRun {
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
                 const std::function<void(double)>& progress) {
     const FloatEnvironment ours;
-    return FrameRun{frame, body, execution, threads, progress}.finish();
+    if (execution == Execution::literal) return FrameRun{frame, body, execution, threads, progress}.finish();
+    if (!frame.needs_frame) try {
+            return FrameRun{frame, body, execution, threads, progress}.finish();
+        } catch (const NeedsFrame&) {  // a lookup left its region: all of it again, as the definition has it
+        }
+    Frame whole = frame;
+    whole.replay = {};
+    return FrameRun{whole, body, Execution::literal, threads, progress}.finish();
 }
 
 }  // namespace strata::pipeline

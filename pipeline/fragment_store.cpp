@@ -28,6 +28,9 @@ void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visi
         visit(batch.reference_code);
     }
     if (needs.facing) visit(batch.front_facing);
+    for (std::size_t u = 0; needs.units != 0 && u < rasterizer::texture_units; ++u)
+        for (std::size_t c = 0; c < 4; ++c)
+            if (rasterizer::names(needs.units, u, c)) visit(batch.unit[u][c]);
 }
 
 std::size_t FragmentStore::packed_bytes(std::size_t count) const noexcept {
@@ -84,7 +87,7 @@ bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
     return state_ == State::complete && has(needs_.shader_z, needs.shader_z) && has(needs_.code, needs.code) &&
            has(needs_.exact_code, needs.exact_code) && has(needs_.color, needs.color) &&
            has(needs_.texcoord, needs.texcoord) && has(needs_.facing, needs.facing) &&
-           has(needs_.reference, needs.reference);
+           has(needs_.reference, needs.reference) && (needs.units & ~needs_.units) == 0;
 }
 
 void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::uint32_t>& alive) const {

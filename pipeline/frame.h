@@ -39,6 +39,7 @@ struct Replay {
 };
 
 struct PassLog;
+struct ShadowStage;
 
 struct Frame {
     const DeviceProfile* profile = nullptr;
@@ -58,7 +59,9 @@ struct Frame {
     Effects effects = Effects::needed;
     Effect once_more = Effect::none;  // simulated once more than its state asks for; same bits, and what it costs can be measured
     bool alike_where_blank = false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
+    bool needs_frame = false;  // its texture lookups go anywhere: literal, whatever execution is asked for
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
+    const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/shadow_stage.h)
     Replay replay;
     bool keep_layers = false;
     bool trace = false;

@@ -16,6 +16,7 @@
 #include "pipeline/primitive_range.h"
 #include "pipeline/profile.h"
 #include "pipeline/state.h"
+#include "pipeline/texgen.h"
 #include "rasterizer/geometry.h"
 
 namespace strata::pipeline {
@@ -31,6 +32,7 @@ struct MaterialStage {
 struct MaterialNeeds {
     bool texcoord = false;  // one of them has a texture
     bool color = false;     // one of them tests its alpha, so that even a depth-only pass must shade
+    rasterizer::UnitMask shadow = 0;  // what a shadow lookup of every fragment's colour looks at
     friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
 };
 
@@ -67,6 +69,8 @@ struct PrepareOptions {
     Ordering order{};  // none: as listed
     int tile_size = 32;
     int threads = 0;
+    CoordinateUnits units{};  // texture units that somebody looks at
+    bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h
 };
 
 // Inverts nothing it need not: mirrored instances keep their winding and flip their facing.

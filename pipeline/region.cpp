@@ -87,6 +87,54 @@ void Region::copy(Target from, Target to) {
     ++record().passes.copies;
 }
 
+void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy) {
+    const TargetStorage& source = at(from);
+    TargetStorage& texture = at(to);
+    assert(source.format() == texture.format() && source.samples() == 1 && texture.samples() == 1);
+    opaque_depth_is_cleared_ &= to != opaque_depth_;
+    const auto [x0, y0, x1, y1] = from_rect;
+    const rasterizer::Rect written =
+        rasterizer::intersection(rect_, rasterizer::intersection({x0 + dx, y0 + dy, x1 + dx, y1 + dy}, frame_.rect()));
+    if (intersection(rasterizer::Rect{written.x0 - dx, written.y0 - dy, written.x1 - dx, written.y1 - dy}, rect_).area() !=
+        written.area())
+        throw NeedsFrame{};
+    for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
+    const std::uint64_t moved = written.area() * static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel);
+    record().counters.bytes_read += moved;
+    record().counters.bytes_written += moved;
+    ++record().passes.copies;
+}
+
+// Row y of `written`; overlapping copies within one target are not asked for.
+void Region::copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
+                      TargetStorage& texture) {
+    const auto index = [&](int column, int row) {
+        return static_cast<std::uint32_t>((row - rect_.y0) * rect_.width() + column - rect_.x0);
+    };
+    Scratch& s = *scratch_;
+    for (int x = written.x0; x < written.x1; x += batch_capacity) {
+        const int count = std::min(written.x1 - x, batch_capacity);
+        Lanes<std::uint32_t>& pixel = s.screen.pixel;
+        std::iota(pixel.begin(), pixel.begin() + count, index(x - dx, y - dy));
+        source.gather(pixel, count, 0, s.codes);
+        std::iota(pixel.begin(), pixel.begin() + count, index(x, y));
+        std::fill_n(s.alive.begin(), count, ~0u);
+        texture.scatter(pixel, s.alive, count, 0, 0xfu, s.codes);
+    }
+}
+
+DepthTexels Region::depth_texels(Target depth) const {
+    const rasterizer::Rect& frame = frame_.rect();
+    DepthTexels texels;
+    texels.codes = storage(depth).depth(0);
+    texels.held = {rect_.x0 - frame.x0, rect_.y0 - frame.y0, rect_.x1 - frame.x0, rect_.y1 - frame.y0};
+    texels.width = frame.width();
+    texels.height = frame.height();
+    texels.format = depth_format(storage(depth).format());
+    texels.bottom_up = frame_.transparent->geometry.state.y_direction == rasterizer::YDirection::up;
+    return texels;
+}
+
 void Region::draw_opaque() {
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};

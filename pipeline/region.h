@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/counters.h"
+#include "pipeline/depth_texels.h"
 #include "pipeline/diagnostics.h"
 #include "pipeline/frame.h"
 #include "pipeline/pass.h"
@@ -86,6 +87,12 @@ class Region {
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
+    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one sample
+    // each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in memory. Throws
+    // NeedsFrame where a region would have to look beyond itself.
+    void copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy);
+    // A depth target as texture units see it; `t` runs up where the frame's y does.
+    [[nodiscard]] DepthTexels depth_texels(Target depth) const;
 
     // One geometry pass over the transparent list, or over the part of it that `state.primitives` names.
     template <FragmentProgram P>
@@ -215,6 +222,8 @@ class Region {
     void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                       const Lanes<std::uint32_t>& alive, std::uint64_t passed);
     void draw_opaque();
+    void copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
+                  TargetStorage& texture);
     void read_row(const TargetStorage& from, int y, std::uint32_t* out) const;
     bool stop_iterating();
     void join_tail();
@@ -246,6 +255,7 @@ class Region {
     PassKind kind_ = PassKind::geometry;
     int pass_samples_ = 1;
     bool samples_textures_ = false;  // somebody looks at the colours of this pass
+    bool takes_shadow_ = false;      // and they are shadowed
     std::uint64_t tallied_ = 0;
     bool counts_ = true;          // false during the emulator's own work (opaque priming, capture)
     IterationRecord uncounted_;   // where that work is counted instead

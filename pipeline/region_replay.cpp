@@ -24,6 +24,7 @@ const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink sink) {
     samples_textures_ = needs.color && needs_of_tile(list).texcoord;
+    takes_shadow_ = needs.color && list.needs.shadow != 0;
     const auto& geometry = list.geometry;
     const auto triangles =
         extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
@@ -53,6 +54,8 @@ void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, r
     needs.color |= needs_of_tile(list).color;  // MASK decides which fragments there are
     needs.texcoord |= needs_of_tile(list).texcoord && needs.color;
     samples_textures_ = needs.texcoord;
+    takes_shadow_ = needs.color && list.needs.shadow != 0;
+    if (takes_shadow_) needs.units |= list.needs.shadow;
     rasterizer::TileRasterizer rows{band};
     auto triangles = list.geometry.bin(tile_);
     for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
@@ -75,7 +78,7 @@ void Region::replay(rasterizer::BatchSink sink) {
 DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& list) const {
     using rasterizer::DepthPath;
     const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
-                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0;
+                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0 && !state.replaces_depth;
     const rasterizer::DepthRequest depth = frame_.key_request();
     const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
     if (!is_plain || !has_bound || state.needs.code || !opaque_depth_is_cleared_ || extent_ == Extent::frame ||
@@ -97,13 +100,15 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
                                            needs.color && materials.texcoord, &list == frame_.opaque, iterations_});
     const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent && state.primitives.empty();
     FragmentNeeds kept = needs;
-    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture
+    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow
+    kept.units = state.needs.units;
     if (may_replay && store().serves(kept)) {
         replay(sink);
     } else if (may_replay && store().may_start()) {
         source_ = Source::captured;
         needs = needs | frame_.replay.needs;
         needs.texcoord |= materials.texcoord && needs.color;
+        if (needs.color) needs.units |= materials.shadow;
         store().start(kept | frame_.replay.needs, frame_.replay.bytes);
         rasterize(list, needs, {}, sink);
         store().finish();

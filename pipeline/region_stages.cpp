@@ -11,6 +11,7 @@
 #include "pipeline/effects.h"
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
+#include "pipeline/shadow_stage.h"
 #include "pipeline/stencil.h"
 #include "pipeline/texture_sample.h"
 
@@ -106,6 +107,7 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
                 batch.color[c][i] *= scratch_->texel[c][i];
     }
+    if (takes_shadow_) cast_shadow(*frame_.shadow, profile(), batch, scratch_->texel);
     if (!material.mask.enabled) return;
     const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
     alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
@@ -114,6 +116,8 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
 }
 
 void Region::load(const PassState& state, const FragmentBatch& batch) {
+    for (const Target t : state.textures)
+        if (t.exists()) record().counters.bytes_read += pixel_bytes(at(t)) * static_cast<std::uint64_t>(batch.count);
     for (std::size_t r = 0; r < state.reads.size(); ++r) {
         if (!state.reads[r].exists()) continue;
         TargetStorage& from = at(state.reads[r]);

@@ -87,7 +87,7 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     const bool is_float = depth.format == DepthFormat::d32f;
     needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
                      (needs.exact_code && is_float) || needs.reference;
-    needs_attributes_ = needs.color || needs.texcoord;
+    needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
     is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || depth.path == DepthPath::float32);
     assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0)) &&
@@ -340,6 +340,7 @@ int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch
     if (!fill_depth(triangle, first, batch, weights))
         fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
     if (needs_attributes_) fallbacks += fill_attributes(triangle, first, batch, weights);
+    if (needs_.units != 0) fallbacks += fill_units(triangle, first, batch, weights);
     if (needs_.facing)
         std::fill_n(&batch.front_facing[static_cast<std::size_t>(first)], batch.count - first,
                     std::uint8_t{triangle.record.front_facing});

@@ -77,6 +77,9 @@ class FragmentValues {
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;
 
+    [[nodiscard]] int fill_units(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                 const WeightLanes& weights) const;  // unit_values.cpp
+
     const LaneKernels& kernels_;
     RasterRules rules_;
     DepthRequest depth_;
