@@ -72,7 +72,7 @@ HWY_INLINE void append(const SmallCoverage<within_8>& coverage, const TriangleGr
 
 template <bool within_8>
 HWY_INLINE bool emit_covered(const TriangleGroup& g, std::size_t k, const RegionPlace& place, PixelClaims& claims,
-                            FragmentBatch& batch) {
+                             FragmentBatch& batch) {
     const SmallCoverage<within_8> coverage{g, k};
     if (coverage.pixels() == 0) return true;
     if (batch.count + coverage.pixels() > usable_capacity ||
