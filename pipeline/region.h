@@ -54,6 +54,13 @@ struct KeptLayer {
     Image color, depth;  // of the region's rectangle
 };
 
+// The targets of a full-screen pass as they are stored: for kernels that leave by themselves what the pass would leave.
+struct ScreenWords {
+    std::array<Texels, max_reads> reads;  // as PassState::reads; sample 0
+    Texels color;                         // target 0
+    std::size_t pixels = 0;
+};
+
 enum class Extent : std::uint8_t { frame, tile };
 // Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
 enum class List : std::uint8_t { first, second };
@@ -114,6 +121,11 @@ class Region {
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
+
+    // The same without a program, for targets of these formats: counts a pass that reads and writes every pixel and hands out its
+    // words. Nothing, and nothing counted, where a kernel must not stand in for the pass.
+    [[nodiscard]] std::optional<ScreenWords> full_screen_words(const PassState& state, std::span<const Format> reads,
+                                                               Format color);
 
     // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.
     template <FragmentProgram P>

@@ -1,5 +1,7 @@
 // pipeline/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the targets, where
 // that leaves the same bits and the same counts. Literal execution never takes this way: it is what this one is tested against.
+#include <algorithm>
+
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
 #include "pipeline/sum_rows.h"
@@ -113,6 +115,21 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     Drawn drawn;
     drawn.passed.own_ = rows.passed;
     return drawn;
+}
+
+std::optional<ScreenWords> Region::full_screen_words(const PassState& state, std::span<const Format> reads, Format color) {
+    const auto is = [&](Target t, Format format) { return is_one_sample(t) && storage(t).format() == format; };
+    const auto first_read = state.reads.begin();
+    if (extent_ != Extent::tile || frame_.effects != Effects::needed || !is(state.color[0], color) ||
+        !std::equal(reads.begin(), reads.end(), first_read, [&](Format format, Target t) { return is(t, format); }))
+        return {};
+    begin_pass(state, PassKind::full_screen);
+    ScreenWords words{{}, at(state.color[0]).texels(0), rect_.area()};
+    for (std::size_t r = 0; r < reads.size(); ++r) {
+        words.reads[r] = at(state.reads[r]).texels(0);
+        record().counters.bytes_read += static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel) * words.pixels;
+    }
+    return words;
 }
 
 }  // namespace strata::pipeline
