@@ -88,6 +88,11 @@ class Region {
     Drawn draw(const PassState& state, P&& program) {
         return draw_list(state, *frame_.transparent, program);
     }
+    // The same over a list that is not the frame's; whoever draws one needs a frame that is one region (surface.h).
+    template <FragmentProgram P>
+    Drawn draw(const PassState& state, const PreparedDraw& list, P&& program) {
+        return draw_list(state, list, program);
+    }
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);

@@ -69,8 +69,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     assert((!needs.code || depth.path == DepthPath::window_z || depth.path == DepthPath::float32 ||
             depth.path == DepthPath::exact) &&
            "the other depth paths are refused before rasterization");
-    assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0)) &&
-           "window_z works in the buffer units of a fixed-point format, the one that is stored");
+    assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0) ||
+            z_units_ == max_d16f) &&
+           "window_z works in the buffer units of the format that is stored");
 }
 
 TriangleLanes FragmentValues::lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
@@ -167,6 +168,13 @@ int FragmentValues::fill_codes(const SetupTriangle& t, const TriangleLanes& lane
             return 0;
         case DepthPath::exact: return fill_exact_codes(t, lanes, &batch.shader_z[f], out);
         case DepthPath::window_z: {
+            if (depth_.format == DepthFormat::d16f) {  // no rule of the chip's bits is known: the exact plane, cut
+                alignas(64) Lanes<float> z;
+                const int fallbacks = round_plane(RationalPlane{t.z, 1.0, 1.0}, lanes, z.data());
+                for (int i = 0; i < lanes.count; ++i)
+                    out[i] = std::clamp(to_d16f_code(z[static_cast<std::size_t>(i)]), least_code_, greatest_code_);
+                return fallbacks;
+            }
             const WindowZ24 rule{t.z, lanes.edges->area()};
             for (int i = 0; i < lanes.count; ++i)
                 out[i] = static_cast<std::uint32_t>(
