@@ -7,7 +7,7 @@
 // Numbers  Products <= 65025, sums within +-130050. The kernels hold these integers as binary32 values, where all of
 //          them and every operation on them are exact: vector units multiply four floats at once, but not four
 //          32-bit integers.
-// Tests    tests/pipeline/blend_unorm8_test.cpp; nv2a_blend_test.cpp: 37 pictures of silicon
+// Tests    tests/pipeline/blend_unorm8_test.cpp; tests/scenes/hardware_check_test.cpp: 43 pictures of silicon
 #pragma once
 #include <algorithm>
 #include <bit>

@@ -3,7 +3,7 @@
 //
 // Rule     A draw is set up, rasterized and finished before the next one begins, by the stages of region_stages.cpp. A
 //          surface is one region, the whole of itself.
-// Tests    tests/pipeline/surface_test.cpp
+// Tests    tests/scenes/hardware_check_test.cpp: 149 pictures of silicon
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -6,6 +6,7 @@
 // Source   nv2a-fragment.md, nv2a-geometry.md, nv2a-depth.md: scene by scene.
 // Tests    tests/scenes/hardware_check_test.cpp
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -45,6 +46,8 @@ struct Picture {
     Bound bound{};
     std::vector<std::uint64_t> reports{};  // what occlusion queries answered, in order
 };
+
+inline constexpr std::string_view unknown_name_reason = "no picture of this name is known";
 
 // A picture, or nothing and the reason why it is not modelled.
 struct Drawing {

@@ -4,7 +4,7 @@
 
 namespace strata::scenes::hardware_check {
 
-inline const Drawing unknown_name{std::nullopt, "no picture of this name is known"};
+inline const Drawing unknown_name{std::nullopt, std::string{unknown_name_reason}};
 
 Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile);
