@@ -14,6 +14,7 @@ namespace {
 
 int one(int) { return 1; }
 int every_layer_and_one(int layers) { return layers + 1; }
+int find_and_composite(int layers) { return 2 * layers + 1; }
 int dual_passes(int layers) { return 1 + std::max(1, (layers + 1) / 2); }
 int dual_independent_passes(int layers) { return (layers + 1) / 2 + 2; }
 
@@ -21,17 +22,20 @@ constexpr rasterizer::FragmentNeeds code_and_color{.shader_z = false, .code = tr
 constexpr rasterizer::FragmentNeeds z_and_color{.shader_z = true, .code = false, .color = true};
 
 std::vector<Algorithm> make_algorithms() {
-    const std::string everitt = "Everitt 2001", bavoil = "Bavoil and Myers 2008";
+    const std::string everitt = "Everitt 2001", bavoil = "Bavoil and Myers 2008", carr = "Carr, Mech and Miller 2008";
     const std::vector<Feature> programs{Feature::fragment_programs, Feature::separate_alpha_blend};
     const std::vector<Feature> float_programs{Feature::float_targets, Feature::fragment_programs};
     const std::vector<Feature> independent{Feature::independent_blend, Feature::separate_alpha_blend, Feature::float_targets,
                                            Feature::fragment_programs};
+    const std::vector<Feature> blended_depth{Feature::float_targets, Feature::fragment_programs, Feature::separate_alpha_blend};
+    const std::vector<Feature> rasterizer_stage{Feature::ordered_rmw, Feature::float_targets, Feature::fragment_programs,
+                                                Feature::separate_alpha_blend};
     return {
         {.name = "unsorted", .paper = everitt, .section = "Figure 1 (b)",
          .summary = "OVER in submission order; right where every pixel's fragments arrive back to front",  .pass_formula = "1", .ties = TiePolicy::none, .key = DepthKey::stored_code,
          .geometry_passes = one, .run = unsorted},
         {.name = "painter", .paper = everitt, .section = "Introduction",
-         .summary = "OVER of triangles sorted by centroid, far first; fails where triangles cross",  .pass_formula = "1", .ties = TiePolicy::last, .key = DepthKey::stored_code, .sorts_triangles = true,
+         .summary = "OVER of triangles sorted by centroid, far first; fails where triangles cross",  .pass_formula = "1", .ties = TiePolicy::last, .key = DepthKey::stored_code, .order = ListOrder::back_to_front,
          .geometry_passes = one, .run = unsorted},
         {.name = "depth_units", .paper = everitt, .section = "Multiple Depth Tests, Listing 1",
          .summary = "one layer a pass by two sequential depth units; layers composited back to front",  .pass_formula = "N + 1", .ties = TiePolicy::unique,
@@ -54,6 +58,38 @@ std::vector<Algorithm> make_algorithms() {
         {.name = "weighted_sum", .paper = bavoil, .section = "Weighted Sum",
          .summary = "order-dependent terms ignored; darkens where alphas add up to more than 1",  .pass_formula = "1", .ties = TiePolicy::none, .key = DepthKey::shader_z,
          .geometry_passes = one, .run = weighted_sum, .features = float_programs},
+        {.name = "layer_peel", .paper = carr, .section = "section 2, Table 1",
+         .summary = "a pass finds the nearest layer left, another composites it: the baseline of Carr's paper", .pass_formula = "2 N + 1",
+         .ties = TiePolicy::first, .exact = true, .has_published_form = true, .geometry_passes = find_and_composite, .run = layer_peel,
+         .replayed = code_and_color, .features = programs},
+        {.name = "hybrid", .paper = carr, .section = "Algorithm 1",
+         .summary = "unordered meshes peeled, an ordered set (--sorted) composited between the peels", .pass_formula = "3 U + 2, U layers unordered",
+         .ties = TiePolicy::first, .exact = true, .order = ListOrder::sets, .has_published_form = true, .run = hybrid, .features = programs},
+        {.name = "coherent_stencil", .paper = carr, .section = "section 5 (A)",
+         .summary = "runs of fragments in order, found by counting in the stencil buffer", .pass_formula = "1 + 6 an iteration",
+         .ties = TiePolicy::first, .exact = true, .has_published_form = true, .run = coherent_stencil, .replayed = code_and_color,
+         .features = programs},
+        {.name = "coherent_blend", .paper = carr, .section = "section 6 (B)",
+         .summary = "the same runs, with the depth before the nearest shifted into the colour by blending", .pass_formula = "1 + 5 an iteration",
+         .ties = TiePolicy::first, .exact = true, .has_published_form = true, .run = coherent_blend, .replayed = code_and_color,
+         .features = blended_depth},
+        {.name = "coherent_ideal", .paper = carr, .section = "Algorithm 2",
+         .summary = "the same runs in two passes, by depths and a flag that the rasterizer reads and writes", .pass_formula = "2 an iteration - 1",
+         .ties = TiePolicy::first, .exact = true, .has_published_form = true, .run = coherent_ideal, .replayed = code_and_color,
+         .features = rasterizer_stage, .render_targets = 2},
+        {.name = "stencil_routed_k_buffer", .paper = "Myers and Bavoil 2007", .section = "",
+         .summary = "eight fragments a pass, routed by the stencil test into samples, sorted afterwards", .pass_formula = "ceil(M/8), M fragments",
+         .ties = TiePolicy::first, .exact = true, .run = stencil_routed_k_buffer, .replayed = code_and_color, .features = programs, .samples = 8},
+        {.name = "k_buffer", .paper = "Bavoil et al. 2007", .section = "",
+         .summary = "the four nearest fragments so far, sorted as they come; the fifth pushes the nearest out", .pass_formula = "1",
+         .ties = TiePolicy::first, .geometry_passes = one, .run = k_buffer, .features = rasterizer_stage, .render_targets = 6},
+        {.name = "batched", .paper = "Wexler et al. 2005", .section = "",
+         .summary = "objects taken in batches by depth, each batch's interval of depth peeled by itself", .pass_formula = "sum of L + 1 over intervals",
+         .ties = TiePolicy::unique, .exact = true, .order = ListOrder::objects, .whole_frame = true, .run = batched, .features = programs},
+        {.name = "object_sorted", .paper = "Govindaraju et al. 2005", .section = "",
+         .summary = "objects ordered by occlusion queries, then composited; wrong where objects or their own triangles overlap out of order",
+         .pass_formula = "3 n - 2 to n^2 + 2 n - 2, n objects", .ties = TiePolicy::first, .order = ListOrder::objects, .whole_frame = true,
+         .run = object_sorted, .features = programs},
         {.name = "a_buffer", .paper = "Carpenter 1984", .section = "the oracle",
          .summary = "every fragment sorted by exact depth and composited in binary64; what the others are measured against",  .pass_formula = "1", .ties = TiePolicy::first, .key = DepthKey::stored_code, .exact = true,
          .is_oracle = true, .geometry_passes = one, .run = a_buffer},
@@ -76,7 +112,8 @@ const Algorithm* find_algorithm(std::string_view name) {
 pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile) {
     if (auto lacking = check(profile, std::span{algorithm.features})) return lacking;
     const std::vector<pipeline::Blend> targets(static_cast<std::size_t>(algorithm.render_targets));
-    return check(profile, std::span{targets});
+    if (auto lacking = check(profile, std::span{targets})) return lacking;
+    return check_samples(profile, algorithm.samples);
 }
 
 }  // namespace strata::peeling

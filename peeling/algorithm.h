@@ -11,6 +11,14 @@
 
 namespace strata::peeling {
 
+// In which order, and in which parts, an algorithm wants its triangles.
+enum class ListOrder : std::uint8_t {
+    given,          // as --sort says
+    back_to_front,  // sorted by centroid, far first
+    sets,           // two parts: the ordered set, front to back as it comes, then the rest as --sort says
+    objects,        // a part for each instance; --sort sorts within them
+};
+
 struct Algorithm {
     std::string name;
     std::string paper;         // author and year
@@ -22,18 +30,21 @@ struct Algorithm {
     bool exact = false;        // order_errors must be 0
     bool makes_layers = false;
     bool premultiplied_layers = false;  // their colours are times alpha
-    bool sorts_triangles = false;
+    ListOrder order = ListOrder::given;
     bool is_oracle = false;    // not a device's algorithm: never refused
-    int (*geometry_passes)(int layers) = nullptr;  // the formula
+    bool whole_frame = false;  // its queries nest: runs literally, whatever --execution says
+    bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
+    int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
     void (*run)(pipeline::Region&) = nullptr;
     bool (*closed_form)(pipeline::Region&) = nullptr;  // peeling/closed_form.h; null if it has none
     // What its geometry passes look at, all together: what replay captures. Empty: one pass, nothing to replay.
     std::optional<rasterizer::FragmentNeeds> replayed{};
     std::vector<pipeline::Feature> features{};  // what a profile must have
     int render_targets = 1;
+    int samples = 1;
 };
 
-// unsorted, painter, depth_units, front_to_back, dual, dual_independent, weighted_average, weighted_sum, a_buffer.
+// Everitt's and Bavoil's, then Carr's and what they compare themselves with, at last the oracle.
 [[nodiscard]] const std::vector<Algorithm>& algorithms();
 [[nodiscard]] const Algorithm* find_algorithm(std::string_view name);  // null if there is none
 

@@ -18,11 +18,11 @@ namespace strata::peeling {
 [[nodiscard]] bool dual_closed(pipeline::Region& region);
 [[nodiscard]] bool front_to_back_closed(pipeline::Region& region);
 
-// A query that every layer answers, and nothing that wants the layers one by one.
+// A query that every layer answers, passes that see one depth of a fragment, and nothing that wants the layers one by one.
 [[nodiscard]] inline bool peels_to_the_end(const pipeline::Frame& frame) {
     using pipeline::TerminationRule;
     const bool exact = frame.termination.rule == TerminationRule::exact || frame.termination.rule == TerminationRule::any;
-    return frame.replay.bytes > 0 && exact && frame.max_passes == 0 && !frame.keep_layers;
+    return frame.is_invariant() && frame.replay.bytes > 0 && exact && frame.max_passes == 0 && !frame.keep_layers;
 }
 
 // A block of a band for block_passes.h; its targets' codes are the caller's.

@@ -14,15 +14,24 @@ using namespace pipeline;
 
 namespace {
 
-PassState peel_state(Target peeled, Target nearest, Target layer, bool first) {
+// What is nearest behind `peeled`. A compare that is more than one of codes goes before the units, in the program.
+Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool first) {
+    const DepthCompare compare = region.frame().depth_compare();
+    const bool in_program = !first && !compare.is_plain();
     PassState state;
     state.depth_units[0] = {.depth = peeled, .func = CompareFunc::greater};
-    state.depth_unit_count = first ? 0 : 1;
+    state.depth_unit_count = first || in_program ? 0 : 1;
+    if (in_program) state.reads[0] = peeled;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = nearest;
     state.color[0] = layer;
     state.needs.shader_z = false;
-    return state;
+    state.needs.reference = in_program;
+    const List list = first ? List::first : List::second;
+    return region.draw(state, list, [in_program, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.color[0] = in.color;
+        if (in_program) discard_peeled(compare, in, own.depth(0), out);
+    });
 }
 
 // Layers far to near with OVER, straight colours; a layer's depth says where it has a fragment.
@@ -56,13 +65,11 @@ void depth_units(Region& region) {
         const Target nearest = region.make_depth();
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
-        const PassState state = peel_state(peeled, nearest, layer, layers.empty());
-        const Drawn drawn = region.draw(
-            state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; });
+        const Drawn drawn = peel(region, peeled, nearest, layer, layers.empty());
         layers.push_back(layer);
         depths.push_back(nearest);
         peeled = nearest;
-        if (!region.any(drawn.passed, Idle::when_zero)) break;
+        if (!region.any(drawn.passed, promise(region.frame(), Idle::when_zero))) break;
         region.keep_layer(layer, nearest);
     }
     const Target result = region.make_color();

@@ -32,10 +32,12 @@ Drawn peel(Region& region, const DualTargets& t) {
     state.color = {t.next_min_max, t.next_front, t.back_dump};
     state.blend = {blend_mode::max, blend_mode::max, blend_mode::max};
     state.reads = {t.min_max, t.front, region.opaque_depth()};
+    const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
-    return region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    state.needs.reference = !compare.is_plain();
+    return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes place;
-        classify(in, own.color(0), own.depth(2), place);
+        classify(compare, in, own.color(0), own.depth(2), place);
         write_min_max(in, place.is_between, out.color[0]);
         write_layers(in, own.color(1), place, out.color[1], out.color[2]);
     });
@@ -104,7 +106,7 @@ void dual(Region& region) {
         std::swap(t.min_max, t.next_min_max);
         std::swap(t.front, t.next_front);
         // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
-        if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::steady))) break;
+        if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, promise(region.frame(), Idle::steady)))) break;
     }
     publish_front_and_back(region, t.front, t.back);
 }

@@ -23,10 +23,12 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     state.blend = {blend_mode::max, blend_mode::under, blend_mode::over};
     state.blend[2].write_mask = 0x7;
     state.reads = {min_max, region.opaque_depth()};
+    const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
-    return region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    state.needs.reference = !compare.is_plain();
+    return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes place;
-        classify(in, own.color(0), own.depth(1), place);
+        classify(compare, in, own.color(0), own.depth(1), place);
         write_min_max(in, place.is_between, out.color[0]);
         premultiply(in.color, out.color[1], lanes(in));
         out.color[2] = in.color;
@@ -56,7 +58,7 @@ void dual_independent(Region& region) {
         region.begin_iteration();
         const Drawn drawn = peel(region, min_max, next_min_max, front, back);
         std::swap(min_max, next_min_max);
-        if (!region.any(drawn.passed, Idle::steady)) break;
+        if (!region.any(drawn.passed, promise(region.frame(), Idle::steady))) break;
     }
     publish_over_background(region, front, back);
 }

@@ -7,6 +7,7 @@
 //            and `peeled` = the depth of layer i-1.
 #include <utility>
 
+#include "peeling/layer_target.h"
 #include "peeling/programs.h"
 #include "peeling/runs.h"
 
@@ -23,14 +24,19 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     state.depth_target = nearest;
     state.color[0] = layer;
     if (!first) state.reads[0] = peeled;
+    const DepthCompare compare = region.frame().depth_compare();
     state.needs.shader_z = false;
-    return region.draw(state, [first](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    state.needs.reference = !first && !compare.is_plain();
+    const List list = first ? List::first : List::second;
+    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
-        if (!first) discard_peeled(in, own.depth(0), out);
+        if (!first) discard_peeled(compare, in, own.depth(0), out);
     });
 }
 
-void composite(Region& region, Target layer, Target depth, Target accumulated) {
+}  // namespace
+
+void composite_layer(Region& region, Target layer, Target depth, Target accumulated) {
     PassState state;
     state.color[0] = accumulated;
     state.blend[0] = blend_mode::under;
@@ -45,8 +51,6 @@ void composite(Region& region, Target layer, Target depth, Target accumulated) {
     }));
 }
 
-}  // namespace
-
 void front_to_back(Region& region) {
     const Target accumulated = region.make_color();
     const Target layer = region.make_color();
@@ -58,8 +62,8 @@ void front_to_back(Region& region) {
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, layer, nearest, peeled, first);
-        composite(region, layer, nearest, accumulated);
-        if (!region.any(drawn.passed, Idle::when_zero)) break;
+        composite_layer(region, layer, nearest, accumulated);
+        if (!region.any(drawn.passed, promise(region.frame(), Idle::when_zero))) break;
         region.keep_layer(layer, nearest);
         std::swap(peeled, nearest);
     }

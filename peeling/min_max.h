@@ -18,6 +18,26 @@ inline namespace strict {
 void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
               const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept;
 
+// The same of the frame's reference depth, with its epsilon: within it, a depth is `near` or `far`. Ordered by value, as
+// binary32 or not rounded.
+inline void classify(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
+                     const pipeline::ColorLanes& min_max, const pipeline::Lanes<std::uint32_t>& opaque,
+                     PeelLanes& place) noexcept {
+    using pipeline::mask;
+    if (compare.is_plain()) return classify(in, min_max, opaque, place);
+    for (std::size_t i = 0; i < lanes(in); ++i) {
+        const double z = compare.quantizes ? double{static_cast<float>(in.reference_z[i])} : in.reference_z[i];
+        const double near = double{-min_max[0][i]}, far = double{min_max[1][i]};
+        const auto reaches = [&](double least, double greatest) { return !compare.exceeds(least, greatest); };
+        const bool left = near <= far && in.shader_z[i] < std::bit_cast<float>(opaque[i]);
+        const bool inside = left && reaches(near, z) && reaches(z, far);
+        const bool is_near = inside && reaches(z, near), is_far = inside && !is_near && reaches(far, z);
+        place.is_near[i] = mask(is_near);
+        place.is_far[i] = mask(is_far);
+        place.is_between[i] = mask(inside && !is_near && !is_far);
+    }
+}
+
 // (-z, z) where the mask is set, else (-1, -1), which MAX ignores.
 void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
                    pipeline::ColorLanes& out) noexcept;

@@ -29,6 +29,20 @@ void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t c
 void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,
                     pipeline::Outputs& out) noexcept;
 
+// A fragment dies unless it lies behind the one already peeled: by the frame's compare, reference and epsilon included.
+// Needs the reference arrays unless the compare is plain.
+inline void discard_peeled(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
+                           const pipeline::Lanes<std::uint32_t>& peeled, pipeline::Outputs& out) noexcept {
+    if (compare.is_plain()) return discard_peeled(in, peeled, out);
+    for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(compare.is_behind(in, i, peeled[i]));
+}
+
+// What a peel may promise about a region whose count is 0: where another depth is compared than stored, nothing, for
+// further passes may find fragments again.
+[[nodiscard]] inline pipeline::Idle promise(const pipeline::Frame& frame, pipeline::Idle idle) noexcept {
+    return frame.is_invariant() ? idle : pipeline::Idle::no;
+}
+
 namespace scalar {
 
 inline void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {

@@ -1,9 +1,11 @@
 #include "peeling/render.h"
 
 #include <algorithm>
-#include <chrono>
 
+#include "peeling/prepared_lists.h"
+#include "peeling/stopwatch.h"
 #include "pipeline/check_pass.h"
+#include "pipeline/effects.h"
 #include "rasterizer/input_error.h"
 #include "rasterizer/parallel.h"
 
@@ -12,18 +14,6 @@ namespace strata::peeling {
 using namespace pipeline;
 
 namespace {
-
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& seconds) : seconds_{seconds}, start_{std::chrono::steady_clock::now()} {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point start_;
-};
 
 void check_options(const RenderOptions& o) {
     const auto in_range = [](const char* option, int value, int low, int high) {
@@ -35,6 +25,11 @@ void check_options(const RenderOptions& o) {
     if (std::find(std::begin(tile_sizes), std::end(tile_sizes), o.tile_size) == std::end(tile_sizes))
         throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(o.tile_size));
     in_range("--threads", o.threads, 0, 1024);
+    in_range("the window's origin: x", o.window_origin[0], 0, 32768 - o.width);
+    in_range("the window's origin: y", o.window_origin[1], 0, 32768 - o.height);
+    in_range("--compare-epsilon: units in the last place", o.compare_epsilon.ulps, 0, 1 << 24);
+    if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
+        throw InputError("strata", "--compare-epsilon", "a number from 0 to 1", std::to_string(o.compare_epsilon.absolute));
     in_range("--max-passes", o.max_passes, 0, 1000000);
     if (o.termination.rule == TerminationRule::fixed) in_range("--termination fixed", o.termination.passes, 1, 1000000);
     if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
@@ -45,10 +40,14 @@ void check_options(const RenderOptions& o) {
 Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
     using rasterizer::DepthPath;
     if (auto lacking = check(profile, depth.format)) return lacking;
+    if (depth.format == DepthFormat::d16f) return Refusal{"peeling over 16-bit float depth", "", "use --depth d16 or d24"};
     const bool has_chip_rule =
         profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
-    if (depth.path == DepthPath::window_z && !has_chip_rule)
+    const bool uses_chip_rule = depth.path == DepthPath::window_z || depth.reference == DepthPath::window_z;
+    if (uses_chip_rule && !has_chip_rule)
         return Refusal{"GeForce3's depth interpolator window_z", "", "use --profile geforce3 with --depth d16 or d24"};
+    if (depth.reference)
+        if (auto lacking = check_reference(profile, *depth.reference)) return lacking;
     return check(profile, depth.path);
 }
 
@@ -80,86 +79,88 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
     if (audit.lost_by_ties > 0 && (merges || drops))
         note(Fault::merged_ties, audit.ties,
              std::to_string(audit.lost_by_ties) + (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
-    if (!algorithm.exact || audit.order_errors.value_or(0) == 0) return;
+    const bool orders = algorithm.exact || algorithm.order == ListOrder::objects;
+    if (!orders || audit.order_errors.value_or(0) == 0) return;
     const bool limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed ||
                          options.termination.rule == TerminationRule::ratio;
     if (limited)
         note(Fault::truncated, audit.misordered, "the peel ended before the last layer");
-    else if (options.termination.rule == TerminationRule::paper)
+    else if (algorithm.has_published_form && options.formulation == Formulation::published)
+        note(Fault::as_published, audit.misordered,
+             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced by the listing as printed");
+    else if (algorithm.order == ListOrder::sets)
+        note(Fault::out_of_order, audit.misordered, "the ordered set (--sorted) does not arrive front to back");
+    else if (algorithm.order == ListOrder::objects && !algorithm.exact)
+        note(Fault::out_of_order, audit.misordered, "objects or their own triangles overlap out of order");
+    else if (options.termination.rule == TerminationRule::paper && algorithm.ties == TiePolicy::merged)
         note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
 }
 
 }  // namespace
 
 struct Renderer::State {
-    const DrawList& list;
-    View view;
     DeviceProfile profile;
     RenderOptions options;
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
-    rasterizer::RasterState raster{};
-    PreparedDraw transparent{}, opaque{};
-    std::optional<PreparedDraw> sorted{};
-    bool has_opaque = false;
-    double geometry_seconds = 0;
+    PreparedLists lists;
+    std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
 
-    [[nodiscard]] PrepareOptions prepare_options(Selection selection) const {
-        return {.selection = selection, .alpha_scale = options.alpha.value_or(1.0f), .tile_size = options.tile_size,
-                .threads = options.threads};
-    }
-
-    [[nodiscard]] Selection transparent_selection() const {
-        return options.alpha ? Selection::all : Selection::transparent;
-    }
-
-    void prepare_lists() {
-        const Stopwatch watch{geometry_seconds};
-        transparent = prepare(list, view, raster, profile, prepare_options(transparent_selection()));
-        has_opaque = !options.alpha && std::any_of(list.materials.begin(), list.materials.end(), [](const Material& m) {
-            return m.alpha_mode != AlphaMode::blend;
-        });
-        if (has_opaque) opaque = prepare(list, view, raster, profile, prepare_options(Selection::opaque));
-    }
-
-    const PreparedDraw& list_for(const Algorithm& algorithm) {
-        if (!algorithm.sorts_triangles) return transparent;
-        if (!sorted) {
-            const Stopwatch watch{geometry_seconds};
-            PrepareOptions sorting = prepare_options(transparent_selection());
-            sorting.sort_back_to_front = true;
-            sorted = prepare(list, view, raster, profile, sorting);
-        }
-        return *sorted;
+    [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
+        return algorithm.whole_frame ? Execution::literal : options.execution;
     }
 
     // To simulate every effect is to rasterize in every pass.
-    [[nodiscard]] Replay replay(const Algorithm& algorithm) const {
+    [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
         const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
         if (!replays || !algorithm.replayed) return {};
-        return {options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)), *algorithm.replayed};
+        rasterizer::FragmentNeeds needs = *algorithm.replayed;
+        needs.reference = compares_apart;
+        return {options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)), needs};
+    }
+
+    // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
+    // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
+    [[nodiscard]] int pass_limit(const Frame& f) {
+        if (options.max_passes > 0 || f.is_invariant()) return options.max_passes;
+        if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
+        return 2 * *deepest + 2;
+    }
+
+    void note_endless(const Frame& f, FrameResult& result) const {
+        if (options.max_passes > 0 || f.max_passes == 0 || result.passes.geometry < f.max_passes) return;
+        const std::string why =
+            !f.quantize_reference ? "the compared depth is not rounded like the stored one, so a fragment lies behind itself"
+                                  : "some fragments' compared depth lies behind the depth that they stored themselves";
+        merge(result.diagnostics, {Fault::endless, 0, -1, -1,
+                                   "stopped after " + std::to_string(f.max_passes) +
+                                       " geometry passes, twice what the deepest pixel needs: " + why});
     }
 
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
-        f.opaque = has_opaque ? &opaque : nullptr;
-        f.transparent = &list_for(algorithm);
+        f.opaque = lists.opaque();
+        f.transparent = &lists.transparent(algorithm.order);
+        f.second = lists.second();
+        f.epsilon = options.compare_epsilon;
+        f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         f.depth = depth;
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
         f.color_format = color_format;
         f.background = options.background;
         f.termination = options.termination;
-        f.max_passes = options.max_passes;
+        f.formulation = options.formulation;
         f.effects = options.effects;
-        f.replay = replay(algorithm);
+        f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
         f.trust_idle = options.trust_idle;
         f.trace = options.audit;
         f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
+        f.max_passes = pass_limit(f);
         f.average_count = options.average_count;
         return f;
     }
@@ -177,31 +178,45 @@ struct Renderer::State {
         return peeling::refusal(algorithm, profile);
     }
 
-    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) const {
-        const auto& counters = transparent.geometry.counters;
+    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
+        const auto& counters = lists.transparent(ListOrder::given).geometry.counters;
         if (counters.non_finite > 0)
             merge(all, {Fault::non_finite_vertices, 0, -1, -1,
                         std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
                             std::to_string(counters.first_non_finite)});
         if (algorithm.run == find_algorithm("depth_units")->run)
             merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
-        const bool compares_in_program = algorithm.name == "front_to_back" && depth.format != DepthFormat::d32f;
-        if (compares_in_program)
+        const auto needs = [&](Feature f) {
+            return std::find(algorithm.features.begin(), algorithm.features.end(), f) != algorithm.features.end();
+        };
+        if (needs(Feature::ordered_rmw))
+            merge(all, {Fault::emulator_extension, 0, -1, -1,
+                        "STRATA_ordered_rmw: no device's programs read what they write, in order"});
+        const bool compares_in_program =
+            algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f;
+        if (compares_in_program && options.quantize_reference && profile.raster.hypothesis.quantize_reference)
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
 };
 
-Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options)
-    : state_{std::make_unique<State>(State{.list = list, .view = view, .profile = profile, .options = options})} {
+Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options) {
     check_options(options);
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
-    state_->depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
-    state_->depth.path = options.depth_path.value_or(profile.raster.depth_path);
-    state_->color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8);
-    state_->raster = options.raster;
-    state_->raster.viewport = {0, 0, options.width, options.height};
-    state_->raster.depth_format = state_->depth.format;
-    state_->prepare_lists();
+    rasterizer::DepthRequest depth;
+    depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
+    depth.path = options.depth_path.value_or(profile.raster.depth_path);
+    depth.reference = options.reference_path;
+    View first = view;
+    first.vertex_path = options.vertex_paths.first.value_or(view.vertex_path);
+    rasterizer::RasterState raster = options.raster;
+    raster.viewport = {0, 0, options.width, options.height};
+    raster.depth_format = depth.format;
+    state_ = std::unique_ptr<State>(new State{
+        .profile = profile,
+        .options = options,
+        .depth = depth,
+        .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
+        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster, .depth = depth}}});
 }
 
 Renderer::~Renderer() = default;
@@ -213,12 +228,13 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
         try {
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
-            result.frame = run(frame, body_of(algorithm), state_->options.execution, state_->options.threads, progress);
+            result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
+            state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }
     }
-    result.seconds.geometry = state_->geometry_seconds;
+    result.seconds.geometry = state_->lists.seconds();
     if (result.refusal) {
         result.outcome = Outcome::refused;
         return result;
@@ -247,7 +263,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     const Stopwatch watch{result.seconds.passes};
     result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress);
     std::swap(result.frame.depth, result.frame.color);
-    result.seconds.geometry = state_->geometry_seconds;
+    result.seconds.geometry = state_->lists.seconds();
     return result;
 }
 
@@ -265,6 +281,8 @@ std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }
-const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { return state_->transparent.geometry.counters; }
+const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { 
+    return state_->lists.transparent(ListOrder::given).geometry.counters;
+}
 
 }  // namespace strata::peeling

@@ -11,6 +11,15 @@ void dual(pipeline::Region& region);
 void dual_independent(pipeline::Region& region);
 void weighted_average(pipeline::Region& region);
 void weighted_sum(pipeline::Region& region);
+void layer_peel(pipeline::Region& region);
+void hybrid(pipeline::Region& region);
+void coherent_stencil(pipeline::Region& region);
+void coherent_blend(pipeline::Region& region);
+void coherent_ideal(pipeline::Region& region);
+void stencil_routed_k_buffer(pipeline::Region& region);
+void k_buffer(pipeline::Region& region);
+void batched(pipeline::Region& region);
+void object_sorted(pipeline::Region& region);
 void a_buffer(pipeline::Region& region);
 
 }  // namespace strata::peeling

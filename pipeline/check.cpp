@@ -31,6 +31,8 @@ constexpr std::array feature_rows{
     FeatureRow{Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side",
                &DeviceProfile::has_two_sided_stencil},
     FeatureRow{Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", &DeviceProfile::has_depth_clamp},
+    FeatureRow{Feature::depth_replace, "depth replace by texture shaders", "NV_texture_shader",
+               &DeviceProfile::has_depth_replace},
     FeatureRow{Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units",
                &DeviceProfile::has_sequential_depth_units},
     FeatureRow{Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw",
@@ -154,20 +156,16 @@ Verdict check(const DeviceProfile& profile, std::span<const Blend> targets) {
     return std::nullopt;
 }
 
-Verdict check(const DeviceProfile&, rasterizer::DepthPath path) {
-    using rasterizer::DepthPath;
-    switch (path) {
-        case DepthPath::window_z:
-        case DepthPath::float32:
-        case DepthPath::exact: return std::nullopt;
-        case DepthPath::perspective_rq:
-            return Refusal{"depth path perspective_rq yet", "", "use window_z, float32 or exact"};
-        case DepthPath::depth_replace:
-            return Refusal{"depth path depth_replace yet", "NV_texture_shader", "use window_z, float32 or exact"};
-        case DepthPath::float32_plane:
-            return Refusal{"depth path float32_plane yet", "", "use window_z, float32 or exact"};
-    }
-    return std::nullopt;  // unreachable: the enum is closed
+Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared) {
+    if (compared == rasterizer::DepthPath::depth_replace) return check(profile, Feature::depth_replace);
+    return std::nullopt;
+}
+
+Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written) {
+    if (written == rasterizer::DepthPath::perspective_rq && !profile.has_fragment_programs)
+        return Refusal{"fragment programs that write a depth", "ARB_fragment_program",
+                       "use depth path depth_replace, which writes the same depth"};
+    return check_reference(profile, written);
 }
 
 Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value) {

@@ -29,6 +29,7 @@ enum class Feature : std::uint8_t {
     independent_blend,
     two_sided_stencil,
     depth_clamp,
+    depth_replace,
     sequential_depth_units,
     ordered_rmw,
     signed_blend,
@@ -71,7 +72,9 @@ using Verdict = std::optional<Refusal>;  // empty: the profile can do it
 // always differ (EXT_draw_buffers2); equations, factors and constants of the targets that blend only with independent
 // blending.
 [[nodiscard]] Verdict check(const DeviceProfile& profile, std::span<const Blend> targets);
-[[nodiscard]] Verdict check(const DeviceProfile& profile, rasterizer::DepthPath path);
+// The path that a depth buffer is written by, or the one that a program or a shadow comparison compares.
+[[nodiscard]] Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written);
+[[nodiscard]] Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared);
 [[nodiscard]] Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value);
 [[nodiscard]] Verdict check_size(const DeviceProfile& profile, int width_px, int height_px);
 [[nodiscard]] Verdict check_samples(const DeviceProfile& profile, int samples);

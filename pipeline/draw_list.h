@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/texture.h"
+#include "pipeline/vertex_path.h"
 
 namespace strata::pipeline {
 
@@ -48,6 +49,7 @@ struct Material {
 struct Instance {
     std::uint32_t mesh = 0, material = 0;
     Matrix model = identity;
+    bool arrives_sorted = false;  // front to back at every pixel, as listed, from the scene's own view
     friend bool operator==(const Instance&, const Instance&) = default;
 };
 
@@ -61,6 +63,7 @@ struct DrawList {
 struct View {
     Matrix view = identity;        // world to eye
     Matrix projection = identity;  // eye to clip
+    VertexPath vertex_path = VertexPath::separate;
 };
 
 }  // namespace strata::pipeline

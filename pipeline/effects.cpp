@@ -27,6 +27,15 @@ std::uint32_t count_fragments(const PreparedDraw& list, std::size_t tile, std::v
 
 }  // namespace
 
+std::uint32_t deepest_pixel(const PreparedDraw& list) {
+    const FloatEnvironment ours;
+    std::vector<std::uint64_t> by_material(list.materials.size());
+    std::uint32_t most = 0;
+    for (std::size_t tile = 0; tile + 1 < list.geometry.bin_start.size(); ++tile)
+        most = std::max(most, count_fragments(list, tile, by_material));
+    return most;
+}
+
 TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque) {
     const FloatEnvironment ours;
     TileCensus census;

@@ -18,8 +18,8 @@ namespace strata::pipeline {
 [[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const PreparedDraw& list, Effects effects,
                                                           DepthOutcome depth = DepthOutcome::open) {
     rasterizer::FragmentNeeds needs = state.needs;
-    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true};
-    needs.code |= (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
+    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.reference};
+    needs.code |= needs.reference || (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
     needs.facing |= state.stencil.enabled && state.stencil.two_sided;
     needs.color |= list.needs_color;
     needs.texcoord |= list.needs_texcoord && needs.color;
@@ -53,6 +53,8 @@ struct TileCensus {
     std::vector<std::uint64_t> transparent_fragments, opaque_fragments;  // by material
     friend bool operator==(const TileCensus&, const TileCensus&) = default;
 };
+// The fragments of the deepest pixel, before any test.
+[[nodiscard]] std::uint32_t deepest_pixel(const PreparedDraw& list);
 [[nodiscard]] TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque);
 
 }  // namespace strata::pipeline

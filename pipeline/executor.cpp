@@ -68,7 +68,7 @@ class FrameRun {
     [[nodiscard]] bool is_blank(std::size_t r) const {
         const auto is_empty = [&](const PreparedDraw* list) { return list == nullptr || list->geometry.bin(r).empty(); };
         return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.alike_where_blank &&
-               is_empty(frame_.transparent) && is_empty(frame_.opaque);
+               is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
     }
 
     // What one blank tile does, every blank tile of its size does: the first of them stands for the others.

@@ -23,6 +23,10 @@ void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visi
         for (auto& channel : batch.color) visit(channel);
     if (needs.texcoord)
         for (auto& coordinate : batch.texcoord) visit(coordinate);
+    if (needs.reference) {
+        visit(batch.reference_z);
+        visit(batch.reference_code);
+    }
     if (needs.facing) visit(batch.front_facing);
 }
 
@@ -80,7 +84,8 @@ bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
     const auto has = [](bool held, bool needed) { return held || !needed; };
     return state_ == State::complete && has(needs_.shader_z, needs.shader_z) && has(needs_.code, needs.code) &&
            has(needs_.exact_code, needs.exact_code) && has(needs_.color, needs.color) &&
-           has(needs_.texcoord, needs.texcoord) && has(needs_.facing, needs.facing);
+           has(needs_.texcoord, needs.texcoord) && has(needs_.facing, needs.facing) &&
+           has(needs_.reference, needs.reference);
 }
 
 std::span<const std::uint32_t> FragmentStore::pixels(std::size_t number) const noexcept {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "pipeline/depth_compare.h"
 #include "pipeline/prepare.h"
 #include "pipeline/profile.h"
 #include "rasterizer/fragment_batch.h"
@@ -23,6 +24,9 @@ struct Termination {
 // What an algorithm orders fragments by (decisions.md 3).
 enum class DepthKey : std::uint8_t { shader_z, stored_code };
 
+// Of a listing with errata: repaired as little as it takes, or as it was printed.
+enum class Formulation : std::uint8_t { resolved, published };
+
 enum class Effects : std::uint8_t { needed, all };  // all: simulate every stage even where nothing calls for it; same bits
 
 // What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
@@ -37,12 +41,16 @@ struct Frame {
     const DeviceProfile* profile = nullptr;
     const PreparedDraw* opaque = nullptr;
     const PreparedDraw* transparent = nullptr;
-    rasterizer::DepthRequest depth;  // the frame's depth buffer: path and format
+    const PreparedDraw* second = nullptr;  // what List::second draws, binned alike; null: `transparent`
+    rasterizer::DepthRequest depth;  // the frame's depth buffer: path and format, and the path that programs compare
+    CompareEpsilon epsilon;          // what programs add to a stored depth before they compare
+    bool quantize_reference = true;  // false: they compare a depth that is not rounded like the stored one
     DepthKey key = DepthKey::stored_code;
     Format color_format = Format::rgba8;
     std::optional<Format> published_format;  // of what the body publishes, if it is not a colour of the frame
     Rgba background{0, 0, 0, 1};
     Termination termination;
+    Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
     bool alike_where_blank = false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
@@ -58,9 +66,16 @@ struct Frame {
 
     // How depths that this frame compares are computed and stored.
     [[nodiscard]] rasterizer::DepthRequest key_request() const noexcept {
-        if (key == DepthKey::shader_z) return {rasterizer::DepthPath::float32, DepthFormat::d32f};
+        if (key == DepthKey::shader_z) return {rasterizer::DepthPath::float32, DepthFormat::d32f, depth.reference};
         return depth;
     }
+    [[nodiscard]] DepthCompare depth_compare() const noexcept {
+        const rasterizer::DepthRequest request = key_request();
+        return {request.format, epsilon, request.reference.value_or(request.path) != request.path, quantize_reference};
+    }
+    // Every pass sees the same fragments, and compares the depth that it stores: what closed forms and promises of idleness
+    // rest on.
+    [[nodiscard]] bool is_invariant() const noexcept { return second == nullptr && depth_compare().is_plain(); }
 };
 
 }  // namespace strata::pipeline

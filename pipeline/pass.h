@@ -3,7 +3,9 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <span>
 
+#include "pipeline/primitive_range.h"
 #include "pipeline/state.h"
 #include "pipeline/target.h"
 
@@ -32,6 +34,8 @@ struct PassState {
     std::array<DepthUnit, max_depth_units> depth_units{};
     int depth_unit_count = 0;
     rasterizer::FragmentNeeds needs;               // what the program looks at; the stages add what they need themselves
+    std::span<const PrimitiveRange> primitives{};  // of a geometry pass: these alone, ascending and disjoint; empty: all
+    bool saturates_by_design = false;              // a stencil count that stops at its limit is what the listing wants
 };
 
 // What a program may load: the declared reads, gathered at the fragments' own pixels.
@@ -64,6 +68,11 @@ struct Outputs {
     Lanes<Side> side;
     Lanes<std::uint32_t> key;
     bool traced = false;
+
+    // Of a full-screen pass: the codes that its depth test compares and writes instead of a quad's own. Used when
+    // `replaces_depth` is set.
+    Lanes<std::uint32_t> depth;
+    bool replaces_depth = false;
 
     void discard(int i) noexcept { alive[static_cast<std::size_t>(i)] = 0; }
 };

@@ -2,23 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "pipeline/depth_rows.h"
 #include "pipeline/matrix.h"
+#include "pipeline/vertex_transform.h"
+#include "rasterizer/depth_bound.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/numerics.h"
 #include "rasterizer/parallel.h"
+#include "rasterizer/window.h"
 
 namespace strata::pipeline {
 
 namespace {
-
-std::array<float, 16> to_binary32(const Matrix& m) {
-    std::array<float, 16> rounded{};
-    std::transform(m.begin(), m.end(), rounded.begin(), [](double x) { return static_cast<float>(x); });
-    return rounded;
-}
 
 // Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for mirrored
 // models, a sign that |N.L| does not see.
@@ -60,16 +57,14 @@ float lighting(const std::array<float, 9>& m, const Vec3& n, const Vec3& light) 
 struct VertexStage {
     const Mesh& mesh;
     const Material& material;
-    std::array<float, 16> clip;
+    VertexTransform clip;
     std::array<float, 9> normal;
     Vec3 light;
     float alpha_scale;
 
     [[nodiscard]] rasterizer::ClipVertex operator()(std::size_t i) const {
-        const auto& m = clip;
-        const Vec3& p = mesh.positions[i];
-        const auto row = [&](std::size_t r) { return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r]; };
-        rasterizer::ClipVertex v{.x = row(0), .y = row(1), .z = row(2), .w = row(3)};
+        const std::array<float, 4> p = clip(mesh.positions[i]);
+        rasterizer::ClipVertex v{.x = p[0], .y = p[1], .z = p[2], .w = p[3]};
         const bool lit = !material.unlit && !mesh.normals.empty();
         const float light_factor = lit ? lighting(normal, mesh.normals[i], light) : 1.0f;
         const Rgba color = mesh.colors.empty() ? Rgba{1, 1, 1, 1} : mesh.colors[i];
@@ -93,7 +88,9 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
             rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
-    const VertexStage stage{mesh, material, to_binary32(product(product(view.projection, view.view), instance.model)),
+    const VertexTransform clip{view.vertex_path, product(product(view.projection, view.view), instance.model),
+                               view.projection, product(view.view, instance.model)};
+    const VertexStage stage{mesh, material, clip,
                             normal_matrix(instance.model), light_direction(view.view),
                             material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
     const std::size_t base = soup.vertices.size(), first_index = soup.indices.size();
@@ -115,8 +112,43 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
     soup.runs.push_back({.first_index = static_cast<std::uint32_t>(first_index),
                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
                          .material = instance.material,
+                         .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
                          .double_sided = material.double_sided,
                          .mirrored = determinant(instance.model) < 0});
+}
+
+// r and q of the soup's vertices, in its order.
+rasterizer::VertexExtras quotient_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                                         const rasterizer::RasterRules& rules, Selection selection) {
+    rasterizer::VertexExtras extras{.stride = 2, .has_rq = true, .values = {}};
+    for (const Instance& instance : list.instances) {
+        if (!is_selected(list.materials[instance.material], selection)) continue;
+        const VertexTransform rows = depth_rows(view, instance.model, state, rules);
+        for (const Vec3& position : list.meshes[instance.mesh].positions) {
+            const std::array<float, 4> v = rows(position);
+            extras.values.insert(extras.values.end(), {v[2], v[3]});
+        }
+    }
+    return extras;
+}
+
+DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& primitives) {
+    DrawPart part{primitives, 1, 0};
+    if (geometry.state.depth_clamp) return {primitives, 0, 1};
+    const double units = z_units(geometry.state, geometry.rules);
+    const auto before = [](const rasterizer::TriangleRecord& t, std::uint32_t primitive) { return t.primitive < primitive; };
+    const auto begin = geometry.triangles.begin(), end = geometry.triangles.end();
+    const auto first = std::lower_bound(begin, end, primitives.first, before);
+    const auto last = std::lower_bound(first, end, primitives.last, before);
+    for (auto t = first; t != last; ++t) {
+        const auto i = static_cast<std::size_t>(t - begin);
+        const auto z = geometry.depths(i);
+        const auto [least, most] = std::minmax({z[0] / units, z[1] / units, z[2] / units});
+        const double bound = depth_bound(geometry, std::span{geometry.all_triangles}.subspan(i, 1));
+        part.near = std::min(part.near, least - (bound - most));  // a fragment strays as far on either side
+        part.far = std::max(part.far, bound);
+    }
+    return part;
 }
 
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
@@ -137,27 +169,20 @@ rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const
     return soup;
 }
 
-std::vector<std::uint32_t> back_to_front_order(const rasterizer::TriangleSoup& soup) {
-    std::vector<double> key(soup.indices.size() / 3);
-    for (std::size_t t = 0; t < key.size(); ++t) {
-        double sum = 0;
-        for (std::size_t corner = 0; corner < 3; ++corner) sum += double{soup.vertices[soup.indices[3 * t + corner]].z};
-        key[t] = sum == sum ? sum : 0;  // a NaN is dropped at set-up; here it must only not upset the order
-    }
-    std::vector<std::uint32_t> order(key.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] > key[b]; });
-    return order;
-}
-
 PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                      const DeviceProfile& profile, const PrepareOptions& options) {
     const FloatEnvironment ours;
     rasterizer::TriangleSoup soup = transform(list, view, options);
-    if (options.sort_back_to_front) soup.order = back_to_front_order(soup);
+    SubmissionOrder order;
+    if (options.order) order = options.order(soup);
+    soup.order = std::move(order.triangles);
+    rasterizer::RasterRules rules = profile.raster;
+    if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
+    if (options.depth_quotient) soup.extras = quotient_extras(list, view, state, rules, options.selection);
     PreparedDraw prepared;
-    prepared.geometry = rasterizer::set_up(std::move(soup), state, profile.raster, options.threads);
+    prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
     bin_triangles(prepared.geometry, options.tile_size, options.threads);
+    for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;

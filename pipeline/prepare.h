@@ -1,16 +1,18 @@
 // pipeline/prepare.h - the vertex stage and everything else that is done once a frame: transform, light, clip, set up, bin.
 //
 // Rule     Matrices are multiplied in binary64 (projection * view * model) and rounded once to binary32;
-//          clip[r] = ((m[r] x + m[4+r] y) + m[8+r] z) + m[12+r] in binary32, every operation rounded (vertex path `separate`).
+//          positions go through it by the view's vertex path (vertex_transform.h); nv20 divides by w in its own way, too.
 //          Lighting is two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye,
 //          per vertex in binary32, on the frame's colour values.
 // Source   decisions.md 1.
 // Tests    tests/pipeline/prepare_test.cpp
 #pragma once
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "pipeline/draw_list.h"
+#include "pipeline/primitive_range.h"
 #include "pipeline/profile.h"
 #include "pipeline/state.h"
 #include "rasterizer/geometry.h"
@@ -24,8 +26,16 @@ struct MaterialStage {
     float alpha_scale = 1.0f;          // of what MASK keeps: after the test, so that it cuts at the material's own alpha
 };
 
+// Triangles that an algorithm draws together, and depths between which all their fragments lie, in units of shader_z.
+struct DrawPart {
+    PrimitiveRange primitives;
+    double near = 0, far = 0;
+    friend bool operator==(const DrawPart&, const DrawPart&) = default;
+};
+
 struct PreparedDraw {
     rasterizer::Geometry geometry;
+    std::vector<DrawPart> parts;  // in submission order, without gaps; empty unless the order made some
     std::vector<MaterialStage> materials;
     bool needs_texcoord = false;  // some material has a texture
     bool needs_color = false;     // some material tests its alpha, so that even a depth-only pass must shade
@@ -33,10 +43,18 @@ struct PreparedDraw {
 
 enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK
 
+// The order in which a soup's triangles are submitted; `parts` as in PreparedDraw.
+struct SubmissionOrder {
+    std::vector<std::uint32_t> triangles;  // numbers in the soup; empty: as listed
+    std::vector<PrimitiveRange> parts;
+};
+using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>;
+
 struct PrepareOptions {
     Selection selection = Selection::all;
     float alpha_scale = 1.0f;     // --alpha: every alpha times this, at the vertex; a MASK material's after its test
-    bool sort_back_to_front = false;  // painter: triangles by centroid, far first, ties in submission order
+    bool depth_quotient = false;  // also r and q of every vertex, for perspective_rq and depth_replace (depth_rows.h)
+    Ordering order{};  // none: as listed
     int tile_size = 32;
     int threads = 0;
 };
@@ -47,9 +65,5 @@ struct PrepareOptions {
 
 // The clip-space soup that `prepare` sets up; for tests and for whoever wants the vertices.
 [[nodiscard]] rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options);
-
-// Submission order of the soup's triangles, far first. Key: the sum of the three clip z, an increasing function of the
-// centroid's eye depth for every projection whose third row is (0, 0, a, b).
-[[nodiscard]] std::vector<std::uint32_t> back_to_front_order(const rasterizer::TriangleSoup& soup);
 
 }  // namespace strata::pipeline

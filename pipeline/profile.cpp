@@ -30,6 +30,7 @@ DeviceProfile geforce3() {
     p.has_signed_blend = true;
     p.has_d16f = true;
     p.has_narrow_surfaces = true;
+    p.has_depth_replace = true;
     p.max_samples = 4;
     return p;
 }
@@ -67,6 +68,7 @@ DeviceProfile ideal() {
     p.raster.depth_path = DepthPath::exact;
     p.denormals = DenormalRule::keep;
     p.has_d16 = true;
+    p.has_depth_replace = true;
     p.has_ordered_rmw = true;
     p.max_viewport_px = 16384;
     return p;

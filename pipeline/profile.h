@@ -44,6 +44,7 @@ struct DeviceProfile {
     bool has_independent_blend = false;       // ARB_draw_buffers_blend
     bool has_two_sided_stencil = false;       // EXT_stencil_two_side
     bool has_depth_clamp = false;             // ARB_depth_clamp, NV_depth_clamp
+    bool has_depth_replace = false;           // NV_texture_shader: DOT_PRODUCT_DEPTH_REPLACE
     bool has_sequential_depth_units = true;   // STRATA_depth_units: an emulator extension, reported when used
     bool has_ordered_rmw = false;             // STRATA_ordered_rmw: targets that a program reads and writes
     bool has_signed_blend = false;            // signed add and signed reverse subtract, on 8-bit targets

@@ -7,13 +7,14 @@ using Names = std::span<const std::string_view>;
 using Sources = std::array<std::string_view, 4>;
 using Profile = DeviceProfile;
 using Rules = rasterizer::RasterRules;
+using Hypothesis = rasterizer::DepthHypothesis;
 
 // In the order of the enums.
 constexpr std::string_view snap_names[] = {"toward_zero", "nearest_even"};
 constexpr std::string_view tie_names[] = {"top_left", "bottom_left", "top_right", "bottom_right"};
 constexpr std::string_view z_clip_names[] = {"per_primitive", "per_fragment"};
 constexpr std::string_view w_clip_names[] = {"clip", "drop"};
-constexpr std::string_view w_divide_names[] = {"quotient", "reciprocal"};
+constexpr std::string_view w_divide_names[] = {"quotient", "reciprocal", "nv20"};
 constexpr std::string_view viewport_names[] = {"separate", "fused"};
 constexpr std::string_view origin_names[] = {"snapped", "unsnapped"};
 constexpr std::string_view window_z_names[] = {"unit_interval", "buffer_units"};
@@ -22,6 +23,10 @@ constexpr std::string_view path_names[] = {"window_z", "perspective_rq", "depth_
 constexpr std::string_view depth_rounding_names[] = {"floor", "nearest"};
 constexpr std::string_view offset_names[] = {"format", "float_exponent"};
 constexpr std::string_view color_names[] = {"exact_plane", "weights_8bit"};
+constexpr std::string_view interpolant_names[] = {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"};
+constexpr std::string_view divide_names[] = {"exact", "cut_reciprocal", "low_reciprocal"};
+constexpr std::string_view window_z_rule_names[] = {"chip", "exact", "float32"};
+constexpr std::string_view anchor_names[] = {"first_vertex", "window_corner"};
 constexpr std::string_view alpha_names[] = {"unorm8", "by_target"};
 constexpr std::string_view blend_names[] = {"nearest", "truncate"};
 constexpr std::string_view half_names[] = {"nearest_even", "toward_zero"};
@@ -33,11 +38,13 @@ constexpr std::string_view filter_names[] = {"unorm8", "single"};
 static_assert(std::size(tie_names) == static_cast<std::size_t>(rasterizer::TieRule::bottom_right) + 1);
 static_assert(std::size(path_names) == static_cast<std::size_t>(rasterizer::DepthPath::exact) + 1);
 
-// A member of DeviceProfile or of its RasterRules.
+// A member of DeviceProfile, of its RasterRules or of their DepthHypothesis.
 template <auto member>
 [[nodiscard]] constexpr auto& at(auto& profile) {
     if constexpr (requires { profile.*member; }) {
         return profile.*member;
+    } else if constexpr (requires { profile.raster.hypothesis.*member; }) {
+        return profile.raster.hypothesis.*member;
     } else {
         return profile.raster.*member;
     }
@@ -82,9 +89,23 @@ constexpr ProfileField integer(std::string_view key, Range range, const Sources&
     return field;
 }
 
+// 16 to 24 and full_double, as the names above count them.
+constexpr ProfileField interpolant_bits(std::string_view key, const Sources& source) {
+    ProfileField field = choice<&Hypothesis::interpolant_bits>(key, interpolant_names, source);
+    field.value = [](const Profile& p) {
+        const int bits = p.raster.hypothesis.interpolant_bits;
+        return bits == rasterizer::full_double ? 9 : bits - 16;
+    };
+    field.set = [](Profile& p, int value) {
+        p.raster.hypothesis.interpolant_bits = value == 9 ? rasterizer::full_double : value + 16;
+    };
+    return field;
+}
+
 constexpr std::string_view ours = "ideal: no device";
 constexpr std::string_view drawn = "[M] tools/bench/README.md: Mesa 22.3 draws the same fragments";
 constexpr std::string_view opengl = "[D] OpenGL 4.5, which Mesa 22.3 implements";
+constexpr std::string_view unused = "[A] of path window_z, which this profile lacks";
 constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 
 // Sources: [D] documented, [M] measured by others, [A] our assumption; then the section of hardware.md.
@@ -125,6 +146,21 @@ constexpr std::array fields{
     choice<&Rules::color>(
         "raster.color", color_names,
         {"[M] nv2a-fragment.md R6: 489,784 of 489,788 pixels", "[A] 11: exact plane, one rounding", ours, unmeasured}),
+    interpolant_bits("raster.interpolant_bits", {"[A] 5: binary32", "[A] decisions.md 1: binary32", ours, unmeasured}),
+    choice<&Hypothesis::divide>("raster.divide", divide_names,
+                                {"[A] 5: rounded once; nv2a-geometry.md 2 knows no bit-exact rule",
+                                 "[A] decisions.md 1: rounded once", ours, unmeasured}),
+    choice<&Hypothesis::window_z>("raster.window_z_rule", window_z_rule_names,
+                                  {"[M] nv2a-depth.md 1: 4,927,976 of 4,927,976 words", unused, unused, unused}),
+    integer<&Hypothesis::reciprocal_bits>("raster.reciprocal_bits", {24, 30},
+                                          {"[M] nv2a-depth.md 4: fits three areas of four", unused, unused, unused}),
+    integer<&Hypothesis::sum_bits>("raster.sum_bits", {24, 29},
+                                   {"[M] nv2a-depth.md 1: a 29-bit aligned add", unused, unused, unused}),
+    boolean<&Hypothesis::quantize_reference>(
+        "raster.quantize_reference",
+        {"[M] nv2a-geometry.md 3.2: R is cut like a depth write", "[D] 4: D3D 11.3 22.4.19", ours, unmeasured}),
+    choice<&Hypothesis::plane_anchor>("raster.plane_anchor", anchor_names,
+                                      {"[A] either is in use", "[A] either is in use", ours, "[A] either is in use"}),
     choice<&Profile::alpha_test>(
         "alpha_test", alpha_names,
         {"[M] 7: nv2a-fragment.md R7, 16 of 16", "[D] 7: ARB_color_buffer_float", ours, unmeasured}),
@@ -171,6 +207,8 @@ constexpr std::array fields{
                                                                        "[D] 7: STENCIL_TWO_SIDE_ENABLE", ours, opengl}),
     boolean<&Profile::has_depth_clamp>(
         "has_depth_clamp", {"[M] 1: clamped when depth clamp is on", "[D] 1: NV_depth_clamp", ours, opengl}),
+    boolean<&Profile::has_depth_replace>(
+        "has_depth_replace", {"[D] 5: NV_texture_shader", "[D] decisions.md 4: refused", ours, "[A] as geforce8_dx101"}),
     boolean<&Profile::has_sequential_depth_units>(
         "has_sequential_depth_units",
         {"[A] decisions.md 4: an emulator extension", "[A] decisions.md 4: an emulator extension", ours,

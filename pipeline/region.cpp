@@ -160,12 +160,12 @@ void Region::load_pixels(Target target, std::uint32_t first, int pixels, ColorCo
     storage(target).gather(scratch_->screen.pixel, pixels, 0, codes);
 }
 
-Rgba Region::color(Target target, std::uint32_t pixel) const {
+Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
     const TargetStorage& from = storage(target);
     const FormatInfo format = info(from.format());
     Rgba color{0, 0, 0, 1};
     for (int c = 0; c < format.channels; ++c) {
-        const std::uint32_t code = from.code(pixel, c, 0);
+        const std::uint32_t code = from.code(pixel, c, sample);
         color[static_cast<std::size_t>(c)] = format.type == ChannelType::unorm8 ? from_unorm8(static_cast<std::uint8_t>(code))
                                              : format.type == ChannelType::half ? half_to_float(static_cast<std::uint16_t>(code))
                                                                                 : std::bit_cast<float>(code);

@@ -52,6 +52,8 @@ struct KeptLayer {
 };
 
 enum class Extent : std::uint8_t { frame, tile };
+// Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
+enum class List : std::uint8_t { first, second };
 enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
 
 class Region {
@@ -83,10 +85,14 @@ class Region {
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
 
-    // One geometry pass over the transparent list.
+    // One geometry pass over the transparent list, or over the part of it that `state.primitives` names.
     template <FragmentProgram P>
     Drawn draw(const PassState& state, P&& program) {
         return draw_list(state, *frame_.transparent, program);
+    }
+    template <FragmentProgram P>
+    Drawn draw(const PassState& state, List list, P&& program) {
+        return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent, program);
     }
     // The same over a list that is not the frame's; whoever draws one needs a frame that is one region (surface.h).
     template <FragmentProgram P>
@@ -109,8 +115,8 @@ class Region {
     // Work after the last iteration that each iteration causes (the compositing of its layer) is counted with it: from now on
     // counters go to the record of iteration `iteration`, from 1.
     void count_with(int iteration) { counted_record_ = static_cast<std::size_t>(iteration); }
-    // True once --max-passes or fixed:N are used up; the same in every region.
-    [[nodiscard]] bool limit_reached();
+    // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
+    [[nodiscard]] bool limit_reached(int passes = 1);
     void keep_layer(Target color, Target depth);
     // `pixels` of this region, the first of them at region index `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail);
@@ -139,7 +145,7 @@ class Region {
     void trace(const TraceEntry& entry) { trace_.push_back(entry); }
 
     // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
-    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel) const;  // of sample 0, as a program would load it
+    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;  // as a program would load it
     void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
     [[nodiscard]] const TargetStorage& storage(Target target) const { return storages_[static_cast<std::size_t>(target.id)]; }
     [[nodiscard]] Image image(Target target) const;
@@ -170,7 +176,8 @@ class Region {
 
     void begin_pass(const PassState& state, PassKind kind);
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
-    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, rasterizer::BatchSink sink);
+    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
+                   rasterizer::BatchSink sink);
     void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] bool holds(rasterizer::FragmentNeeds needs) noexcept;

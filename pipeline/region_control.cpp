@@ -56,10 +56,10 @@ bool Region::any(Count count, Idle idle) {
     return answer ? true : stop_iterating();
 }
 
-bool Region::limit_reached() {
+bool Region::limit_reached(int passes) {
     const int fixed = frame_.termination.rule == TerminationRule::fixed ? frame_.termination.passes : 0;
-    const bool reached = (frame_.max_passes > 0 && geometry_passes_ >= frame_.max_passes) ||
-                         (fixed > 0 && geometry_passes_ >= fixed);
+    const int after = geometry_passes_ + passes;
+    const bool reached = (frame_.max_passes > 0 && after > frame_.max_passes) || (fixed > 0 && after > fixed);
     return reached ? !stop_iterating() : false;
 }
 

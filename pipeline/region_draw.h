@@ -1,5 +1,7 @@
 // pipeline/region_draw.h - the two templates of Region: a fragment program between the rasterizer and the fixed stages.
 #pragma once
+#include <algorithm>
+
 #include "pipeline/region.h"
 
 namespace strata::pipeline {
@@ -68,6 +70,7 @@ void Region::run_program(P& program, FragmentBatch& batch, Outputs& out) {
     const std::uint64_t before = alive_count(out, batch.count);
     const std::uint64_t tally = out.tally;
     program(static_cast<const FragmentBatch&>(batch), loads(), out);
+    if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
     tallied_ += out.tally - tally;
     if (kind_ == PassKind::geometry) record().counters.discarded += before - alive_count(out, batch.count);
 }

@@ -14,12 +14,21 @@ using rasterizer::FragmentNeeds;
 
 FragmentStore& Region::store() noexcept { return scratch_->store; }
 
-void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, rasterizer::BatchSink sink) {
+void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
+                       rasterizer::BatchSink sink) {
     samples_textures_ = needs.color && list.needs_texcoord;
     const auto& geometry = list.geometry;
     const auto triangles =
         extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
-    rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
+    if (primitives.empty()) rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
+    const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
+        return geometry.triangles[triangle].primitive < primitive;
+    };
+    for (const PrimitiveRange& range : primitives) {
+        const auto first = std::lower_bound(triangles.begin(), triangles.end(), range.first, before);
+        const auto last = std::lower_bound(first, triangles.end(), range.last, before);
+        rasterizer_.draw(geometry, {first, last}, frame_.key_request(), needs, sink);
+    }
 }
 
 void Region::count_coverage(std::span<std::uint32_t> coverage) {
@@ -92,7 +101,7 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     if (frame_.pass_log != nullptr)
         frame_.pass_log->passes.push_back({state, needs, pass_needs(state, list, Effects::needed),
                                            needs.color && list.needs_texcoord, &list == frame_.opaque, iterations_});
-    const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent;
+    const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent && state.primitives.empty();
     FragmentNeeds kept = needs;
     kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture
     if (may_replay && store().serves(kept)) {
@@ -102,10 +111,10 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
         needs = needs | frame_.replay.needs;
         needs.texcoord |= list.needs_texcoord && needs.color;
         store().start(kept | frame_.replay.needs, frame_.replay.bytes);
-        rasterize(list, needs, sink);
+        rasterize(list, needs, {}, sink);
         store().finish();
     } else {
-        rasterize(list, needs, sink);
+        rasterize(list, needs, state.primitives, sink);
     }
     source_ = Source::rasterizer;
 }

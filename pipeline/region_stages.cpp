@@ -97,7 +97,7 @@ bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
 Outputs& Region::start_batch(const FragmentBatch& batch) {
     Outputs& out = scratch_->out;
     std::fill_n(out.alive.begin(), batch.count, ~0u);
-    out.traced = false;
+    out.traced = out.replaces_depth = false;
     return out;
 }
 
@@ -228,7 +228,7 @@ std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& 
     scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
     record().counters.bytes_read += arriving;
     record().counters.bytes_written += arriving;
-    report_saturation(batch);
+    if (!state.saturates_by_design) report_saturation(batch);
     return static_cast<std::uint64_t>(killed);
 }
 

@@ -1,10 +1,17 @@
 #include "rasterizer/clip.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "rasterizer/numerics.h"
 
 namespace strata::rasterizer {
+namespace {
+
+// The share t of the way from a to b.
+[[nodiscard]] float mix(float a, float b, double t) noexcept { return static_cast<float>(a + t * (double{b} - a)); }
+
+}  // namespace
 
 Clipper::Clipper(const RasterState& state, const RasterRules& rules)
     : symmetric_{state.clip_depth == ClipDepth::minus_one_to_one},
@@ -53,15 +60,14 @@ std::uint32_t Clipper::outside_planes(const ClipVertex& v) const noexcept {
 ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_in, const ClipVertex& out,
                              double d_out) noexcept {
     const double t = d_in / (d_in - d_out);
-    const auto mix = [t](float a, float b) { return static_cast<float>(a + t * (double{b} - a)); };
     ClipVertex v;
-    v.x = mix(in.x, out.x);
-    v.y = mix(in.y, out.y);
-    v.z = mix(in.z, out.z);
-    v.w = mix(in.w, out.w);
-    for (std::size_t i = 0; i < v.front.size(); ++i) v.front[i] = mix(in.front[i], out.front[i]);
-    for (std::size_t i = 0; i < v.back.size(); ++i) v.back[i] = mix(in.back[i], out.back[i]);
-    for (std::size_t i = 0; i < v.texcoord.size(); ++i) v.texcoord[i] = mix(in.texcoord[i], out.texcoord[i]);
+    v.x = mix(in.x, out.x, t);
+    v.y = mix(in.y, out.y, t);
+    v.z = mix(in.z, out.z, t);
+    v.w = mix(in.w, out.w, t);
+    for (std::size_t i = 0; i < v.front.size(); ++i) v.front[i] = mix(in.front[i], out.front[i], t);
+    for (std::size_t i = 0; i < v.back.size(); ++i) v.back[i] = mix(in.back[i], out.back[i], t);
+    for (std::size_t i = 0; i < v.texcoord.size(); ++i) v.texcoord[i] = mix(in.texcoord[i], out.texcoord[i], t);
     switch (plane.kind) {  // what the plane says holds exactly: window z of the corner is n or f
         case Kind::w: v.w = least_w; break;
         case Kind::z_is_minus_w: v.z = -v.w; break;
@@ -74,14 +80,24 @@ ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_
 
 void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept {
     to.count = 0;
-    const auto emit = [&](const ClipVertex& v) { to.corner[static_cast<std::size_t>(to.count++)] = v; };
+    to.extra_count = from.extra_count;
+    const auto keep = [&](std::size_t i) {
+        const auto n = static_cast<std::size_t>(to.count++);
+        to.corner[n] = from.corner[i];
+        std::copy_n(from.extra[i].begin(), from.extra_count, to.extra[n].begin());
+    };
+    const auto cross = [&](std::size_t in, double d_in, std::size_t out, double d_out) {
+        const auto n = static_cast<std::size_t>(to.count++);
+        to.corner[n] = crossing(plane, from.corner[in], d_in, from.corner[out], d_out);
+        for (std::size_t e = 0; e < from.extra_count; ++e)
+            to.extra[n][e] = mix(from.extra[in][e], from.extra[out][e], d_in / (d_in - d_out));
+    };
     for (int i = 0; i < from.count; ++i) {
-        const ClipVertex& a = from.corner[static_cast<std::size_t>(i)];
-        const ClipVertex& b = from.corner[static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1)];
-        const double da = distance(plane, a), db = distance(plane, b);
-        if (da >= 0.0) emit(a);
-        if (da >= 0.0 && db < 0.0 && da > 0.0) emit(crossing(plane, a, da, b, db));
-        if (da < 0.0 && db > 0.0) emit(crossing(plane, b, db, a, da));
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1);
+        const double da = distance(plane, from.corner[a]), db = distance(plane, from.corner[b]);
+        if (da >= 0.0) keep(a);
+        if (da >= 0.0 && db < 0.0 && da > 0.0) cross(a, da, b, db);
+        if (da < 0.0 && db > 0.0) cross(b, db, a, da);
     }
 }
 

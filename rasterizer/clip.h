@@ -21,6 +21,8 @@ inline constexpr float least_w = 0x1p-64f;
 struct ClipPolygon {
     std::array<ClipVertex, 3 + max_clip_planes> corner;
     int count = 0;
+    std::size_t extra_count = 0;
+    std::array<std::array<float, max_extras>, 3 + max_clip_planes> extra{};  // the first extra_count of each corner
 };
 
 class Clipper {

@@ -1,10 +1,10 @@
 // rasterizer/cut_weight.h - the weights of NV2A's interpolator: edge value times reciprocal of the area, both cut.
 //
-// Rule     r = 1 / A cut to 28 significant bits; b = e * r, product exact, cut to 24 significant bits. e and A in any
+// Rule     r = 1 / A cut to 28 significant bits (an experiment may take 24 to 30); b = e * r, product exact, cut to 24 significant bits. e and A in any
 //          unit that is a power of two (here square subpixels).
 // Source   nv2a-depth.md section 1, steps 1, 2 and 4; the last bits of r are open there (section 4).
-// Numbers  e <= A < 2^58. r = R 2^-(28 + L), L = floor(log2 A), R <= 2^28; e R fits 64 bits below 2^34, above it 24
-//          bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 13 stay.
+// Numbers  e <= A < 2^58. r = R 2^-(n + L), L = floor(log2 A), R <= 2^n, n <= 30; e R fits 64 bits below 2^34, above
+//          it 24 bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 9 stay.
 // Tests    tests/rasterizer/window_z_test.cpp
 #pragma once
 #include <bit>
@@ -29,8 +29,8 @@ struct CutWeight {
 
 class CutReciprocal {
   public:
-    explicit constexpr CutReciprocal(std::uint64_t area) noexcept
-        : exponent_{-(28 + static_cast<int>(std::bit_width(area)) - 1)} {
+    explicit constexpr CutReciprocal(std::uint64_t area, int bits = 28) noexcept
+        : exponent_{-(bits + static_cast<int>(std::bit_width(area)) - 1)} {
         const int shift = -exponent_, first = shift < 62 ? shift : 62;
         std::uint64_t rest = (std::uint64_t{1} << first) % area;
         mantissa_ = (std::uint64_t{1} << first) / area;
@@ -53,7 +53,7 @@ class CutReciprocal {
             product = (e >> 24) * mantissa_ + ((e & 0xffffff) * mantissa_ >> 24);
             exponent += 24;
         }
-        const int extra = static_cast<int>(std::bit_width(product)) - 24;  // >= 4: the mantissa alone has 28 bits
+        const int extra = static_cast<int>(std::bit_width(product)) - 24;  // >= 0: the mantissa alone has `bits`
         return {static_cast<std::uint32_t>(product >> extra), exponent + extra};
     }
 

@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "rasterizer/depth_code.h"
 #include "rasterizer/rules.h"
@@ -27,23 +28,30 @@ struct alignas(64) FragmentBatch {
     Lanes<std::uint8_t> front_facing;
     int count = 0;
     std::uint32_t material = 0;
+    // The depth that a program compares with stored ones: DepthRequest::reference's, or the stored path's own.
+    Lanes<std::uint32_t> reference_code;  // quantised like a depth write
+    Lanes<double> reference_z;            // before that, not clamped: in codes of a fixed format, in [0,1] of D32F
 };
 
 // Which of a batch's arrays a pass looks at; the others keep whatever they held. pixel, x, y and primitive are always
 // there.
 struct FragmentNeeds {
     bool shader_z = true, code = true, exact_code = false, color = true, texcoord = false, facing = false;
+    bool reference = false;  // reference_code and reference_z; code comes with them
     friend bool operator==(const FragmentNeeds&, const FragmentNeeds&) = default;
     [[nodiscard]] friend constexpr FragmentNeeds operator|(FragmentNeeds a, FragmentNeeds b) noexcept {
         return {a.shader_z || b.shader_z, a.code || b.code,         a.exact_code || b.exact_code,
-                a.color || b.color,       a.texcoord || b.texcoord, a.facing || b.facing};
+                a.color || b.color,       a.texcoord || b.texcoord, a.facing || b.facing,
+                a.reference || b.reference};
     }
 };
 
-// The depth that `code` holds: which path computes it, in which format it is stored.
+// The depth that `code` holds: which path computes it, in which format it is stored, and which path computes the depth
+// that is compared with it; empty: the same one.
 struct DepthRequest {
     DepthPath path = DepthPath::float32;
     DepthFormat format = DepthFormat::d32f;
+    std::optional<DepthPath> reference{};
     friend bool operator==(const DepthRequest&, const DepthRequest&) = default;
 };
 

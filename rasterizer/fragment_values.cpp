@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "rasterizer/color_weights.h"
+#include "rasterizer/depth_paths.h"
 #include "rasterizer/window.h"
 #include "rasterizer/window_z.h"
 
@@ -34,6 +35,26 @@ void to_codes(const float* __restrict z, int count, float least, float greatest,
     }
 }
 
+[[nodiscard]] bool is_quotient(DepthPath path) noexcept {
+    return path == DepthPath::perspective_rq || path == DepthPath::depth_replace;
+}
+
+// The paths that are a value before they are a code.
+[[nodiscard]] bool is_value(DepthPath path, const DepthHypothesis& hypothesis) noexcept {
+    return is_quotient(path) || path == DepthPath::float32_plane ||
+           (path == DepthPath::window_z && hypothesis.window_z == WindowZRule::float32);
+}
+
+// Lane `from` becomes lane `to`.
+void move_lane(std::size_t from, std::size_t to, FragmentBatch& batch, WeightLanes& weights) noexcept {
+    batch.pixel[to] = batch.pixel[from];
+    batch.x[to] = batch.x[from];
+    batch.y[to] = batch.y[from];
+    batch.shader_z[to] = batch.shader_z[from];
+    weights.b1[to] = weights.b1[from];
+    weights.b2[to] = weights.b2[from];
+}
+
 void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, int first, FragmentBatch& batch) noexcept {
     std::array<std::array<std::int32_t, 3>, color_channels> codes{};
     for (std::size_t c = 0; c < color_channels; ++c)
@@ -53,25 +74,28 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
       rules_{geometry.rules},
       depth_{depth},
       needs_{needs},
-      z_units_{z_units(geometry.state, geometry.rules)} {
+      z_units_{z_units(geometry.state, geometry.rules)},
+      code_units_{depth.format == DepthFormat::d32f ? 1.0 : max_code(depth.format)} {
+    needs_.code |= needs.reference;
     const float n = range_limit(geometry.state.depth_near), f = range_limit(geometry.state.depth_far);
     least_ = std::min(n, f);
     greatest_ = std::max(n, f);
     least_code_ = to_depth_code(least_, depth.format, rules_.depth_rounding);
     greatest_code_ = to_depth_code(greatest_, depth.format, rules_.depth_rounding);
+    rejects_ = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
     clips_fragments_ = rules_.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
     const bool is_float = depth.format == DepthFormat::d32f;
-    needs_float_z_ = needs.shader_z || (needs.code && (depth.path == DepthPath::float32 || is_float)) ||
-                     (needs.exact_code && is_float);
+    needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
+                     (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord;
-    is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code &&
+    is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || depth.path == DepthPath::float32);
-    assert((!needs.code || depth.path == DepthPath::window_z || depth.path == DepthPath::float32 ||
-            depth.path == DepthPath::exact) &&
-           "the other depth paths are refused before rasterization");
     assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0) ||
             z_units_ == max_d16f) &&
-           "window_z works in the buffer units of the format that is stored");
+           "window_z works in the buffer units of the format that is stored, which is no d32f");
+    assert((geometry.extras.has_rq || !is_quotient(depth.path)) &&
+           (geometry.extras.has_rq || !depth.reference || !is_quotient(*depth.reference)) &&
+           "perspective_rq and depth_replace take r and q of the vertices");
 }
 
 TriangleLanes FragmentValues::lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
@@ -131,13 +155,21 @@ void FragmentValues::drop_outside_depth_range(int first, FragmentBatch& batch, W
     auto kept = static_cast<std::size_t>(first);
     for (auto i = kept; i < static_cast<std::size_t>(batch.count); ++i) {
         if (!(batch.shader_z[i] >= least_ && batch.shader_z[i] <= greatest_)) continue;
-        batch.pixel[kept] = batch.pixel[i];
-        batch.x[kept] = batch.x[i];
-        batch.y[kept] = batch.y[i];
-        batch.shader_z[kept] = batch.shader_z[i];
-        weights.b1[kept] = weights.b1[i];
-        weights.b2[kept] = weights.b2[i];
-        ++kept;
+        move_lane(i, kept++, batch, weights);
+    }
+    batch.count = static_cast<int>(kept);
+}
+
+// `depth` is that of fragments `first` on.
+void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights,
+                                   double* depth) const noexcept {
+    const auto begin = static_cast<std::size_t>(first);
+    const double least = least_ * code_units_, greatest = greatest_ * code_units_;
+    std::size_t kept = begin;
+    for (std::size_t i = begin; i < static_cast<std::size_t>(batch.count); ++i) {
+        if (!is_in_depth_range(depth[i - begin], least, greatest)) continue;
+        depth[kept - begin] = depth[i - begin];
+        move_lane(i, kept++, batch, weights);
     }
     batch.count = static_cast<int>(kept);
 }
@@ -157,35 +189,104 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
     return fallbacks;
 }
 
-int FragmentValues::fill_codes(const SetupTriangle& t, const TriangleLanes& lanes, int first,
-                               FragmentBatch& batch) const {
-    const auto f = static_cast<std::size_t>(first);
-    std::uint32_t* const out = &batch.code[f];
-    switch (depth_.path) {
-        case DepthPath::float32:
-            to_codes(&batch.shader_z[f], lanes.count, least_, greatest_, depth_.format,
-                     rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0, out);
-            return 0;
-        case DepthPath::exact: return fill_exact_codes(t, lanes, &batch.shader_z[f], out);
-        case DepthPath::window_z: {
-            if (depth_.format == DepthFormat::d16f) {  // no rule of the chip's bits is known: the exact plane, cut
-                alignas(64) Lanes<float> z;
-                const int fallbacks = round_plane(RationalPlane{t.z, 1.0, 1.0}, lanes, z.data());
-                for (int i = 0; i < lanes.count; ++i)
-                    out[i] = std::clamp(to_d16f_code(z[static_cast<std::size_t>(i)]), least_code_, greatest_code_);
-                return fallbacks;
-            }
-            const WindowZ24 rule{t.z, lanes.edges->area()};
-            for (int i = 0; i < lanes.count; ++i)
-                out[i] = static_cast<std::uint32_t>(
-                    std::clamp(rule.at(lanes.edge_values(i)), double{1.0} * least_code_, double{1.0} * greatest_code_));
-            return 0;
-        }
+int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
+                               const float* shader_z, std::uint32_t* out) const {
+    if (depth_.format == DepthFormat::d16f) {  // no rule of the chip's bits is known: the exact plane rounded once, then cut
+        alignas(64) Lanes<float> z;
+        const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
+        for (int i = 0; i < lanes.count; ++i)
+            out[i] = std::clamp(to_d16f_code(z[static_cast<std::size_t>(i)]), least_code_, greatest_code_);
+        return fallbacks;
+    }
+    if (path == DepthPath::float32) {
+        to_codes(shader_z, lanes.count, least_, greatest_, depth_.format,
+                 rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0, out);
+        return 0;
+    }
+    const bool by_chip = path == DepthPath::window_z && rules_.hypothesis.window_z == WindowZRule::chip;
+    if (!by_chip) return fill_exact_codes(t, lanes, shader_z, out);
+    const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
+    for (int i = 0; i < lanes.count; ++i)
+        out[i] = static_cast<std::uint32_t>(
+            std::clamp(rule.at(lanes.edge_values(i)), double{1.0} * least_code_, double{1.0} * greatest_code_));
+    return 0;
+}
+
+std::uint32_t FragmentValues::code_of(double value) const noexcept {
+    const double least = least_ * code_units_, greatest = greatest_ * code_units_;
+    const double above = value > least ? value : least;  // also turns -0 and NaN into `least`
+    const double clamped = above < greatest ? above : greatest;
+    if (depth_.format == DepthFormat::d32f) return std::bit_cast<std::uint32_t>(static_cast<float>(clamped));
+    return static_cast<std::uint32_t>(clamped + (rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0));
+}
+
+int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
+                                      const TriangleLanes& lanes, const float* shader_z, double* out) const {
+    const DepthHypothesis& h = rules_.hypothesis;
+    const double to_codes_of_vertex_z = z_units_ == code_units_ ? 1.0 : code_units_;
+    int fallbacks = 0;
+    switch (path) {
         case DepthPath::perspective_rq:
         case DepthPath::depth_replace:
-        case DepthPath::float32_plane: break;  // refused: the constructor asserts
+            fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record), lanes, h, out);
+            break;
+        case DepthPath::float32_plane:
+            float32_plane_depth(t, rules_.subpixel_bits, h.plane_anchor, lanes, out);
+            break;
+        case DepthPath::float32:
+            for (int i = 0; i < lanes.count; ++i) out[i] = double{shader_z[i]} * code_units_;
+            return 0;
+        case DepthPath::window_z:
+            if (h.window_z == WindowZRule::chip) {
+                const WindowZ24 rule{t.z, lanes.edges->area(), h};
+                for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
+                return 0;
+            }
+            if (h.window_z == WindowZRule::float32) {
+                Lanes<float> z;
+                fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
+                std::copy_n(z.begin(), lanes.count, out);
+                return fallbacks;
+            }
+            [[fallthrough]];
+        case DepthPath::exact: {
+            const FilterPlane plane{RationalPlane{t.z}, lanes.is_exact};
+            for (int i = 0; i < lanes.count; ++i) out[i] = plane.at(lanes.weight1[i], lanes.weight2[i]);
+        }
     }
-    return 0;
+    for (int i = 0; i < lanes.count; ++i) out[i] *= to_codes_of_vertex_z;
+    return fallbacks;
+}
+
+int FragmentValues::fill_value_codes(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                     FragmentBatch& batch, WeightLanes& weights) const {
+    const auto f = static_cast<std::size_t>(first);
+    const TriangleEdges edges = triangle.edges();
+    Lanes<double> depth;
+    const int fallbacks = fill_depth_values(depth_.path, t, triangle, lanes(triangle, edges, first, batch, weights),
+                                            &batch.shader_z[f], depth.data());
+    if (rejects_) drop_rejected(first, batch, weights, depth.data());
+    for (auto i = f; needs_.code && i < static_cast<std::size_t>(batch.count); ++i)
+        batch.code[i] = code_of(depth[i - f]);
+    return fallbacks;
+}
+
+int FragmentValues::fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                   FragmentBatch& batch, const WeightLanes& weights) const {
+    const auto f = static_cast<std::size_t>(first);
+    const DepthPath path = depth_.reference.value_or(depth_.path);
+    const TriangleEdges edges = triangle.edges();
+    const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    int fallbacks = fill_depth_values(path, t, triangle, own, &batch.shader_z[f], &batch.reference_z[f]);
+    if (path == depth_.path) {
+        std::copy_n(&batch.code[f], own.count, &batch.reference_code[f]);
+    } else if (is_value(path, rules_.hypothesis)) {
+        for (auto i = f; i < static_cast<std::size_t>(batch.count); ++i)
+            batch.reference_code[i] = code_of(batch.reference_z[i]);
+    } else {
+        fallbacks += fill_codes(path, t, own, &batch.shader_z[f], &batch.reference_code[f]);
+    }
+    return fallbacks;
 }
 
 int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
@@ -249,7 +350,13 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
         drop_outside_depth_range(first, batch, weights);
         own.count = batch.count - first;
     }
-    if (needs_.code) fallbacks += fill_codes(t, own, first, batch);
+    if (is_value(depth_.path, rules_.hypothesis) && (needs_.code || rejects_)) {
+        fallbacks += fill_value_codes(t, triangle, first, batch, weights);
+        own.count = batch.count - first;
+    } else if (needs_.code) {
+        fallbacks += fill_codes(depth_.path, t, own, &batch.shader_z[f], &batch.code[f]);
+    }
+    if (needs_.reference) fallbacks += fill_reference(t, triangle, first, batch, weights);
     if (needs_.exact_code) fallbacks += fill_exact_codes(t, own, &batch.shader_z[f], &batch.exact_code[f]);
     return fallbacks;
 }

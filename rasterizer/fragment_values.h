@@ -4,8 +4,9 @@
 //          clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded
 //          once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the
 //          same bits are that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions,
-//          evaluated in binary64 and rounded once.
-// Source   decisions.md 1; hardware.md 2 and 3.
+//          evaluated in binary64 and rounded once. depth_replace drops a fragment whose depth is outside the depth range
+//          (clamps it with depth clamp), after the clip of window z. The reference is another depth of the same fragment.
+// Source   decisions.md 1; hardware.md 2, 3 and 5.
 // Tests    tests/rasterizer/fragment_values_test.cpp
 #pragma once
 #include <array>
@@ -53,10 +54,21 @@ class FragmentValues {
                       WeightLanes& weights) const noexcept;
     [[nodiscard]] bool may_leave_depth_range(const SetupTriangle& triangle) const noexcept;
     void drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept;
+    void drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights, double* depth) const noexcept;
     [[nodiscard]] int fill_exact_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, const float* shader_z,
                                        std::uint32_t* out) const noexcept;
-    [[nodiscard]] int fill_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, int first,
-                                 FragmentBatch& batch) const;
+    // `path` is one of those that go from the plane to the code.
+    [[nodiscard]] int fill_codes(DepthPath path, const SetupTriangle& triangle, const TriangleLanes& lanes,
+                                 const float* shader_z, std::uint32_t* out) const;
+    // Depth as a value, in codes of a fixed format or in [0,1]; not clamped.
+    [[nodiscard]] int fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
+                                        const TriangleLanes& lanes, const float* shader_z, double* out) const;
+    [[nodiscard]] std::uint32_t code_of(double value) const noexcept;
+    // The stored path, if it is one of depth_paths.h; drops what depth_replace rejects.
+    [[nodiscard]] int fill_value_codes(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                       FragmentBatch& batch, WeightLanes& weights) const;
+    [[nodiscard]] int fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                     FragmentBatch& batch, const WeightLanes& weights) const;
     [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;
@@ -66,9 +78,11 @@ class FragmentValues {
     DepthRequest depth_;
     FragmentNeeds needs_;
     double z_units_;          // vertex z of depth 1.0
+    double code_units_;       // value in codes (D32F: depth) of depth 1.0
     float least_, greatest_;  // the depth range, ordered
     std::uint32_t least_code_, greatest_code_;
     bool clips_fragments_;
+    bool rejects_;  // depth_replace
     bool needs_float_z_, needs_attributes_;
     bool is_plain_;  // depth is shader_z and the code of it: what the kernel does
 };

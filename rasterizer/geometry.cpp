@@ -74,6 +74,7 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
     }
     geometry.vertices.resize(end.vertex);
     geometry.corners.resize(end.vertex);
+    geometry.extras.values.resize(end.vertex * geometry.extras.stride);
     geometry.triangles.resize(end.triangle);
     geometry.all_triangles.resize(end.triangle);
     if (geometry.state.polygon_offset.enabled) geometry.offset_z.resize(end.triangle);
@@ -88,6 +89,7 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
         if (!chunk.offset_z.empty()) std::ranges::copy(chunk.offset_z, at(geometry.offset_z, place[c].triangle));
         std::ranges::copy(chunk.vertices, at(geometry.vertices, place[c].vertex));
         std::ranges::copy(chunk.corners, at(geometry.corners, place[c].vertex));
+        std::ranges::copy(chunk.extras, at(geometry.extras.values, place[c].vertex * geometry.extras.stride));
         const auto first = at(geometry.all_triangles, place[c].triangle);
         std::iota(first, first + std::ssize(chunk.triangles), static_cast<std::uint32_t>(place[c].triangle));
     });
@@ -116,7 +118,9 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
 
 Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads) {
     const FloatEnvironment ours;
-    TriangleSetup setup{state, rules, soup.vertices};
+    assert(soup.extras.values.size() == soup.extras.stride * soup.vertices.size() &&
+           soup.extras.stride <= max_extras && "extras are those of the soup's vertices");
+    TriangleSetup setup{state, rules, soup.vertices, soup.extras};
     for_chunks(soup.vertices.size(), threads,
                [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });
     const Listing listing{soup};
@@ -138,6 +142,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     geometry.rules = rules;
     geometry.vertices = std::move(soup.vertices);
     geometry.corners = std::move(setup.corners());
+    geometry.extras = std::move(soup.extras);
     concatenate(chunks, threads, geometry);
     return geometry;
 }

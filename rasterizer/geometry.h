@@ -21,10 +21,21 @@ struct ClipVertex {
     std::array<float, 2> texcoord{0, 0};
 };
 
+// Further values of vertices, interpolated by perspective like the colours: `stride` a vertex, none if it is 0.
+inline constexpr std::size_t max_extras = 18;
+struct VertexExtras {
+    std::size_t stride = 0;
+    bool has_rq = false;  // the first two are r and q, whose quotient is the depth of perspective_rq and depth_replace,
+                          // r in units of vertex z (rules.window_z)
+    std::vector<float> values;
+    [[nodiscard]] const float* of(std::size_t vertex) const noexcept { return &values[vertex * stride]; }
+};
+
 // A run of triangles with one material: three indices each, in submission order.
 struct TriangleRun {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;
+    std::uint32_t object = 0;  // whose triangles these are: the caller's number
     bool double_sided = true;
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
 };
@@ -34,6 +45,7 @@ struct TriangleSoup {
     std::vector<std::uint32_t> indices;
     std::vector<TriangleRun> runs;
     std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter)
+    VertexExtras extras;
 };
 
 // A vertex in the window, shared by all triangles that it is a corner of.
@@ -77,6 +89,7 @@ struct Geometry {
     RasterRules rules;
     std::vector<ClipVertex> vertices;             // the soup's, then those that clipping made
     std::vector<WindowCorner> corners;            // the same vertices in the window
+    VertexExtras extras;                          // of the same vertices
     std::vector<TriangleRecord> triangles;        // in submission order
     std::vector<std::array<double, 3>> offset_z;  // of every triangle; empty without polygon offset
     SetupCounters counters;

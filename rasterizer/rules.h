@@ -3,8 +3,11 @@
 // pipeline/profile.cpp.
 #pragma once
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "rasterizer/depth_code.h"
+#include "rasterizer/depth_hypothesis.h"
 
 namespace strata::rasterizer {
 
@@ -18,7 +21,8 @@ enum class ZClip : std::uint8_t {
     per_fragment
 };                                               // polygons are cut, or fragments outside n..f are dropped
 enum class WClip : std::uint8_t { clip, drop };  // a vertex with w <= 0: cut the polygon at w > 0, or drop it whole
-enum class WDivide : std::uint8_t { quotient, reciprocal };        // x / w, or x * (1 / w)
+// x / w, or x * (1 / w), or that with NV20's vertex arithmetic (nv20_arithmetic.h).
+enum class WDivide : std::uint8_t { quotient, reciprocal, nv20 };
 enum class ViewportArithmetic : std::uint8_t { separate, fused };  // scale, then offset: two roundings or one
 enum class PlaneOrigin : std::uint8_t {
     snapped,
@@ -33,8 +37,7 @@ enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
 // always.
 enum class OffsetUnit : std::uint8_t { format, float_exponent };
 
-// How a fragment's depth is computed (design.md, "Depth paths"). perspective_rq, depth_replace and float32_plane have
-// their room here and are refused by pipeline/check.h until the invariance laboratory brings them.
+// How a fragment's depth is computed (design.md, "Depth paths"): depth_paths.h, window_z.h, plane.h.
 enum class DepthPath : std::uint8_t { window_z, perspective_rq, depth_replace, float32, float32_plane, exact };
 
 struct RasterRules {
@@ -52,7 +55,17 @@ struct RasterRules {
     DepthRounding depth_rounding = DepthRounding::nearest;
     OffsetUnit offset_unit = OffsetUnit::format;
     ColorInterpolation color = ColorInterpolation::exact_plane;
+    DepthHypothesis hypothesis{};  // what is assumed of the depth paths
     friend bool operator==(const RasterRules&, const RasterRules&) = default;
 };
+
+// Rules that differ from given ones in one constant of the depth paths.
+struct NamedHypothesis {
+    std::string name;  // "interpolant_bits=20"
+    RasterRules rules;
+};
+
+// The given rules first ("as given"), then with every other value of each constant, depth_rounding among them.
+[[nodiscard]] std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules);
 
 }  // namespace strata::rasterizer

@@ -1,5 +1,6 @@
 #include "rasterizer/setup.h"
 
+#include <algorithm>
 #include <bit>
 #include <tuple>
 
@@ -32,19 +33,23 @@ template <std::size_t n>
 
 }  // namespace
 
-TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices)
+TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices,
+                             const VertexExtras& extras)
     : state_{state},
       rules_{rules},
       clipper_{state, rules},
       window_{state, rules},
       vertices_{vertices},
+      extras_{extras},
       corners_(vertices.size()),
       marks_(vertices.size()) {}
 
-VertexMarks TriangleSetup::project(const ClipVertex& v, WindowCorner& corner) const noexcept {
+VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept {
     const WindowVertex w = window_.project(v);
     if (!all_finite(std::array{w.x, w.y, w.z, w.inverse_w}) || !products_finite(v.texcoord, w.inverse_w))
         return marks_window;
+    for (std::size_t e = 0; e < extras_.stride; ++e)
+        if (!products_finite(std::array{extras[e]}, w.inverse_w)) return marks_window;
     corner = {window_.snapped(w), {w.x, w.y}, w.z, w.inverse_w};
     return (products_finite(v.front, w.inverse_w) ? 0u : marks_front) |
            (products_finite(v.back, w.inverse_w) ? 0u : marks_back);
@@ -54,7 +59,7 @@ void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept
     for (std::size_t i = begin; i < end; ++i) {
         const ClipVertex& v = vertices_[i];
         VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
-        if (marks == 0) marks = project(v, corners_[i]);
+        if (marks == 0) marks = project(v, extras_.stride == 0 ? nullptr : extras_.of(i), corners_[i]);
         marks_[i] = marks;
     }
 }
@@ -105,18 +110,27 @@ TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, con
     return Fate::kept;
 }
 
+ClipPolygon TriangleSetup::polygon(const SourceTriangle& triangle) const noexcept {
+    ClipPolygon polygon{{}, 3, extras_.stride, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        polygon.corner[i] = vertices_[triangle.vertex[i]];
+        if (extras_.stride > 0)
+            std::copy_n(extras_.of(triangle.vertex[i]), extras_.stride, polygon.extra[i].begin());
+    }
+    return polygon;
+}
+
 // A clipped triangle is counted once: as kept if any piece is, else by the fate of its first piece.
 TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, std::uint32_t planes,
                                                SetupChunk& out) const {
-    const auto& [a, b, c] = triangle.vertex;
-    ClipPolygon polygon{{vertices_[a], vertices_[b], vertices_[c]}, 3};
-    clipper_.clip(polygon, planes);
-    if (polygon.count < 3) return Fate::outside;
-    const auto count = static_cast<std::size_t>(polygon.count);
+    ClipPolygon cut = polygon(triangle);
+    clipper_.clip(cut, planes);
+    if (cut.count < 3) return Fate::outside;
+    const auto count = static_cast<std::size_t>(cut.count);
     const auto first = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
-    std::array<WindowCorner, std::tuple_size_v<decltype(polygon.corner)>> corner;
+    std::array<WindowCorner, std::tuple_size_v<decltype(cut.corner)>> corner;
     std::array<VertexMarks, corner.size()> marks;
-    for (std::size_t i = 0; i < count; ++i) marks[i] = project(polygon.corner[i], corner[i]);
+    for (std::size_t i = 0; i < count; ++i) marks[i] = project(cut.corner[i], cut.extra[i].data(), corner[i]);
     Fate fate = Fate::outside;
     bool any_kept = false;
     for (std::size_t i = 2; i < count; ++i) {
@@ -128,8 +142,10 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
         if (i == 2 || piece == Fate::kept) fate = piece;
     }
     if (any_kept) {
-        out.vertices.insert(out.vertices.end(), polygon.corner.begin(), polygon.corner.begin() + polygon.count);
-        out.corners.insert(out.corners.end(), corner.begin(), corner.begin() + polygon.count);
+        out.vertices.insert(out.vertices.end(), cut.corner.begin(), cut.corner.begin() + cut.count);
+        out.corners.insert(out.corners.end(), corner.begin(), corner.begin() + cut.count);
+        for (std::size_t i = 0; i < count; ++i)
+            out.extras.insert(out.extras.end(), cut.extra[i].data(), cut.extra[i].data() + extras_.stride);
     }
     return fate;
 }

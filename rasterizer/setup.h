@@ -40,12 +40,14 @@ struct SetupChunk {
     std::vector<std::array<double, 3>> offset_z;
     std::vector<ClipVertex> vertices;
     std::vector<WindowCorner> corners;
+    std::vector<float> extras;
     SetupCounters counters;
 };
 
 class TriangleSetup {
   public:
-    TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices);
+    TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices,
+                  const VertexExtras& extras);
 
     // First every vertex once ...
     void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
@@ -65,7 +67,8 @@ class TriangleSetup {
         std::array<const WindowCorner*, 3> corner;
         VertexMarks marks;
     };
-    [[nodiscard]] VertexMarks project(const ClipVertex& v, WindowCorner& corner) const noexcept;
+    [[nodiscard]] VertexMarks project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept;
+    [[nodiscard]] ClipPolygon polygon(const SourceTriangle& triangle) const noexcept;
     [[nodiscard]] Fate add_piece(const Piece& piece, const SourceTriangle& triangle, SetupChunk& out) const;
     // A small triangle without marks, its edges in the group.
     [[nodiscard]] Fate add_small(const SourceTriangle& triangle, const TriangleGroup& group, std::size_t k,
@@ -80,6 +83,7 @@ class TriangleSetup {
     Clipper clipper_;
     WindowTransform window_;
     std::span<const ClipVertex> vertices_;
+    const VertexExtras& extras_;
     std::vector<WindowCorner> corners_;
     std::vector<VertexMarks> marks_;
 };

@@ -1,9 +1,9 @@
 // rasterizer/window.h - from clip space to the window: divide by w, viewport, snapping.
 //
 // Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
-//          once (rules.viewport); all in binary32. y up turns the sign of the y scale. z goes to n..f, or to n..f times
-//          2^n - 1 with scale and offset pre-multiplied (buffer units; a float depth buffer has the unit 1). x, y are
-//          cut or rounded to 1/2^n.
+//          once (rules.viewport); all in binary32, for WDivide::nv20 each step by nv20_arithmetic.h. y up turns the sign
+//          of the y scale. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
+//          a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
 // Source   GL 2.1 2.11.1; decisions.md 1; hardware.md 1; nv2a-geometry.md 1 and 4.
 // Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the second
 //          rounding is the only one. Tests    tests/rasterizer/window_test.cpp
@@ -14,6 +14,7 @@
 
 #include "rasterizer/exact_sum.h"
 #include "rasterizer/geometry.h"
+#include "rasterizer/nv20_arithmetic.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
@@ -61,6 +62,7 @@ class WindowTransform {
     }
 
     [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v) const noexcept {
+        if (rules_.w_divide == WDivide::nv20) return project_nv20(v);
         const float inverse_w = 1.0f / v.w;
         if (is_done_) return {within_guard(v.x), within_guard(v.y), v.z, inverse_w};
         const auto divided = [&](float c) { return rules_.w_divide == WDivide::quotient ? c / v.w : c * inverse_w; };
@@ -79,6 +81,13 @@ class WindowTransform {
         if (rules_.viewport == ViewportArithmetic::fused) return fused_multiply_add(axis.scale, c, axis.offset);
         const float scaled = axis.scale * c;
         return scaled + axis.offset;
+    }
+    [[nodiscard]] constexpr WindowVertex project_nv20(const ClipVertex& v) const noexcept {
+        const float inverse_w = nv20::reciprocal(v.w);
+        const auto mapped = [&](const Axis& axis, float c) {
+            return nv20::sum(std::array{nv20::multiply(axis.scale, nv20::multiply(c, inverse_w)), axis.offset});
+        };
+        return {within_guard(mapped(x_, v.x)), within_guard(mapped(y_, v.y)), mapped(z_, v.z), inverse_w};
     }
     // Clipping left the vertex inside the guard band but for rounding. NaN stays: set-up counts it.
     [[nodiscard]] constexpr float within_guard(float c) const noexcept {

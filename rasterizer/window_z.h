@@ -17,6 +17,7 @@
 
 #include "rasterizer/coverage.h"
 #include "rasterizer/cut_weight.h"
+#include "rasterizer/depth_hypothesis.h"
 #include "rasterizer/exact_sum.h"
 
 namespace strata::rasterizer {
@@ -73,8 +74,9 @@ struct Dyadic {
 
 class WindowZ24 {
   public:
-    WindowZ24(const std::array<double, 3>& z, std::int64_t area) noexcept
-        : reciprocal_{static_cast<std::uint64_t>(area)} {
+    WindowZ24(const std::array<double, 3>& z, std::int64_t area, const DepthHypothesis& hypothesis = {}) noexcept
+        : reciprocal_{static_cast<std::uint64_t>(area), hypothesis.reciprocal_bits},
+          sum_bits_{hypothesis.sum_bits} {
         for (std::size_t i = 0; i < 3; ++i) z_[i] = static_cast<float>(z[i]);
         for (std::size_t i = 0; i < 3; ++i) {
             const Dyadic d = as_dyadic(z_[i]);
@@ -86,8 +88,12 @@ class WindowZ24 {
     }
     // The depth code at a fragment with edge values `e`, before the clamp to the buffer's range.
     [[nodiscard]] double at(const EdgeValues& e) const noexcept {
-        return is_narrow_ ? sum<std::uint64_t>(e) : sum<Wide>(e);
+        const TwoTerms s = sum(e);
+        const double whole = floor(s.high);
+        return whole == s.high && s.low < 0.0 ? whole - 1.0 : whole;
     }
+    // The sum that `at` floors, rounded to binary64.
+    [[nodiscard]] double value(const EdgeValues& e) const noexcept { return sum(e).high; }
 
   private:
     static constexpr int none = -10000;  // the exponent of 0
@@ -120,18 +126,20 @@ class WindowZ24 {
         }
     };
 
+    [[nodiscard]] TwoTerms sum(const EdgeValues& e) const noexcept {
+        return is_narrow_ ? sum_of<std::uint64_t>(e) : sum_of<Wide>(e);
+    }
+
     template <class Integer>
-    [[nodiscard]] double sum(const EdgeValues& e) const noexcept {
+    [[nodiscard]] TwoTerms sum_of(const EdgeValues& e) const noexcept {
         const std::size_t r = reference(e), j = r == 0 ? 1 : 0, k = r == 2 ? 1 : 2;
         const Term<Integer> pj{reciprocal_.weight(static_cast<std::uint64_t>(e[j])), difference_[r][j]};
         const Term<Integer> pk{reciprocal_.weight(static_cast<std::uint64_t>(e[k])), difference_[r][k]};
         const int largest = std::max({z_exponent_[r], pj.leading_exponent(), pk.leading_exponent()});
-        if (largest == none) return 0.0;
-        const int unit = largest - 28;
+        if (largest == none) return {};
+        const int unit = largest - (sum_bits_ - 1);
         const auto products = static_cast<double>(pj.cut(unit) + pk.cut(unit)) * power_of_two(unit);
-        const TwoTerms s = two_sum(double{z_[r]}, products);
-        const double whole = floor(s.high);
-        return whole == s.high && s.low < 0.0 ? whole - 1.0 : whole;
+        return two_sum(double{z_[r]}, products);
     }
 
     [[nodiscard]] static double floor(double v) noexcept {  // |v| < 2^62; a larger one is far outside every buffer
@@ -141,6 +149,7 @@ class WindowZ24 {
     }
 
     CutReciprocal reciprocal_;
+    int sum_bits_;
     std::array<float, 3> z_{};
     std::array<int, 3> z_exponent_{};
     std::array<std::array<Dyadic, 3>, 3> difference_{};  // [r][i] = z_i - z_r

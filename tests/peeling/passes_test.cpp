@@ -79,6 +79,8 @@ TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 laye
                                                             {{"geforce8_dx101", "dual_independent"}, half + 2},
                                                             {{"geforce8", "weighted_average"}, 1},
                                                             {{"geforce8", "weighted_sum"}, 1},
+                                                            {{"geforce8", "layer_peel"}, 2 * n + 1},
+                                                            {{"ideal", "k_buffer"}, 1},
                                                             {{"geforce8", "a_buffer"}, 1}};
         for (const auto& [machine, passes] : formulas)
             for (const TerminationRule rule : {TerminationRule::exact, TerminationRule::any}) {

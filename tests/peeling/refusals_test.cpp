@@ -40,13 +40,17 @@ const std::string no_programs =
 
 TEST_CASE("the table of algorithms and profiles is that of decisions.md 4") {
     const std::vector<std::string> geforce3{"unsorted", "painter", "depth_units", "a_buffer"};
-    const std::vector<std::string> geforce8{"unsorted", "painter",          "depth_units",  "front_to_back",
-                                            "dual",     "weighted_average", "weighted_sum", "a_buffer"};
+    const std::vector<std::string> geforce8{"unsorted",   "painter", "depth_units",      "front_to_back",  "dual",
+                                            "layer_peel", "hybrid",  "coherent_stencil", "coherent_blend", "weighted_average",
+                                            "batched",    "object_sorted", "stencil_routed_k_buffer", "weighted_sum", "a_buffer"};
+    const std::vector<std::string> ideal_alone{"k_buffer", "coherent_ideal"};
     for (const DeviceProfile& profile : builtin_profiles())
         for (const auto& algorithm : strata::peeling::algorithms()) {
             const auto& runs = profile.name == "geforce3" ? geforce3 : geforce8;
+            const auto is_in = [&](const std::vector<std::string>& list) { return std::ranges::find(list, algorithm.name) != list.end(); };
+            const bool lacks_samples = profile.name == "llvmpipe" && algorithm.name == "stencil_routed_k_buffer";
             const bool everything = profile.name != "geforce3" && profile.name != "geforce8";
-            const bool expected = everything || std::ranges::find(runs, algorithm.name) != runs.end();
+            const bool expected = (is_in(runs) || (everything && (profile.name == "ideal" || !is_in(ideal_alone)))) && !lacks_samples;
             INFO(algorithm.name << " on " << profile.name);
             CHECK(sentence({profile.name, algorithm.name}).empty() == expected);
         }
@@ -62,6 +66,11 @@ TEST_CASE("a refused algorithm names the first feature that is missing, its exte
             sentence({profile, "dual_independent"}) ==
             "profile " + profile +
                 " has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101, ideal or llvmpipe");
+    CHECK(sentence({"geforce3", "coherent_stencil"}) == no_programs);
+    CHECK(sentence({"geforce8", "coherent_ideal"}) ==
+          "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal");
+    CHECK(sentence({"llvmpipe", "stencil_routed_k_buffer"}) ==
+          "profile llvmpipe has no 8 samples a pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
 }
 
 TEST_CASE("depth formats that a device lacks are refused for every algorithm") {
@@ -110,7 +119,7 @@ TEST_CASE("a depth pass is refused for a colour format as any algorithm is: by i
     }
 }
 
-TEST_CASE("depth paths run where their machine exists, and those of a later issue are refused by name") {
+TEST_CASE("depth paths run where their machine exists, and are refused by name elsewhere") {
     using strata::rasterizer::DepthPath;
     const auto with_path = [](const Machine& machine, DepthPath path) {
         RenderOptions options = options_for(one_fragment());
@@ -125,12 +134,13 @@ TEST_CASE("depth paths run where their machine exists, and those of a later issu
         CHECK(with_path({profile, "depth_units"}, DepthPath::window_z) ==
               "profile " + profile +
                   " has no GeForce3's depth interpolator window_z; use --profile geforce3 with --depth d16 or d24");
-    CHECK(with_path({"geforce8", "dual"}, DepthPath::perspective_rq) ==
-          "profile geforce8 has no depth path perspective_rq yet; use window_z, float32 or exact");
-    CHECK(with_path({"geforce3", "depth_units"}, DepthPath::depth_replace) ==
-          "profile geforce3 has no depth path depth_replace yet (NV_texture_shader); use window_z, float32 or exact");
-    CHECK(with_path({"geforce8", "dual"}, DepthPath::float32_plane) ==
-          "profile geforce8 has no depth path float32_plane yet; use window_z, float32 or exact");
+    for (const char* profile : {"geforce3", "ideal"})
+        CHECK(with_path({profile, "depth_units"}, DepthPath::depth_replace).empty());
+    for (const char* profile : {"geforce8", "ideal"})
+        CHECK(with_path({profile, "depth_units"}, DepthPath::perspective_rq).empty());
+    CHECK(with_path({"geforce8", "depth_units"}, DepthPath::depth_replace) ==
+          "profile geforce8 has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
+    CHECK(with_path({"geforce3", "depth_units"}, DepthPath::float32_plane).empty());
 }
 
 TEST_CASE("a viewport beyond the device's limit is refused before anything of its size is made") {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "rendering.h"
+#include "short_sequences.h"
 #include "tests/support/composite_model.h"
 #include "tests/support/random_numbers.h"
 
@@ -13,22 +14,6 @@ using strata::peeling::RenderResult;
 namespace pipeline = strata::pipeline;
 
 constexpr Rgba background{0.25f, 0.5f, 0.8f, 1};
-
-// All 1 + 5 + 25 + ... + 5^6 = 19,531 sequences of up to 6 fragments on 5 depths, z = 0 among them; colours and alphas
-// are random.
-FragmentScene all_short_sequences(std::uint64_t seed) {
-    constexpr std::array<float, 5> depths{0.0f, 0.125f, 0.5f, 0.625f, 1.0f - 0x1p-10f};
-    FragmentScene scene{256, 128};
-    Random random{seed};
-    std::size_t pixel = 0;
-    for (int length = 0, count = 1; length <= 6; ++length, count *= 5)
-        for (int number = 0; number < count; ++number, ++pixel)
-            for (int place = 0, digits = number; place < length; ++place, digits /= 5)
-                scene.pixels[pixel].fragments.push_back(
-                    {depths[static_cast<std::size_t>(digits % 5)], random_color(random)});
-    REQUIRE(pixel == 19531);
-    return scene;
-}
 
 // `count` pixels of up to `longest` fragments; depths k / 64 with ties, k = 0 and k = 64 (invisible) among them. Every
 // other pixel has an opaque surface at one of these depths.
@@ -149,7 +134,7 @@ std::vector<Machine> machines() {
 }  // namespace
 
 TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what the listing's arithmetic gives") {
-    const FragmentScene scene = all_short_sequences(20240601);
+    const FragmentScene scene = all_short_sequences(20240601, short_depths);
     // geforce8_dx101 differs from geforce8 in what it can run: its dual_independent is the new part.
     for (const Machine& machine : machines())
         if (machine.profile != "geforce8_dx101" || machine.algorithm == "dual_independent")

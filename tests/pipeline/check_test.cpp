@@ -120,12 +120,22 @@ TEST_CASE("state of the era that no algorithm needs is refused by name on every 
           "profile ideal has no dithering; disable it: no algorithm here needs it");
 }
 
-TEST_CASE("depth paths of a later laboratory are refused, the others run everywhere") {
+TEST_CASE("only texture shaders replace a depth, only programs write r/q, and every device compares it") {
     using strata::rasterizer::DepthPath;
-    for (const DepthPath path : {DepthPath::window_z, DepthPath::float32, DepthPath::exact})
-        CHECK(checked("ideal", path).empty());
-    for (const DepthPath path : {DepthPath::perspective_rq, DepthPath::depth_replace, DepthPath::float32_plane})
-        CHECK_FALSE(checked("ideal", path).empty());
+    for (const char* profile : {"geforce3", "geforce8", "ideal"}) {
+        for (const DepthPath path : {DepthPath::float32, DepthPath::float32_plane, DepthPath::exact})
+            CHECK(checked(profile, path).empty());
+        CHECK_FALSE(check_reference(device(profile), DepthPath::perspective_rq));
+    }
+    CHECK(checked("geforce3", DepthPath::depth_replace).empty());
+    CHECK(checked("ideal", DepthPath::depth_replace).empty());
+    CHECK(checked("geforce8", DepthPath::depth_replace) ==
+          "profile geforce8 has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
+    CHECK(check_reference(device("geforce8"), DepthPath::depth_replace)->extension == "NV_texture_shader");
+    CHECK(checked("geforce8", DepthPath::perspective_rq).empty());
+    CHECK(checked("geforce3", DepthPath::perspective_rq) ==
+          "profile geforce3 has no fragment programs that write a depth (ARB_fragment_program); use depth path "
+          "depth_replace, which writes the same depth");
 }
 
 TEST_CASE("of several missing features the first is named, and the ideal device misses none") {

@@ -165,35 +165,6 @@ TEST_CASE("a mirrored instance turns its winding, and its front stays its front"
         }
 }
 
-TEST_CASE("painter's order is by the sum of clip z, far first, ties in submission order, whatever is not a number") {
-    Random random{503};
-    for (int round = 0; round < 50; ++round) {
-        strata::rasterizer::TriangleSoup soup;
-        for (std::uint32_t i = 0; i < 60; ++i) {
-            soup.vertices.push_back({.z = static_cast<float>(random_int(random, -3, 3))});
-            soup.indices.push_back(i);
-        }
-        const auto sum = [&](std::uint32_t t) {
-            return soup.vertices[3 * t].z + soup.vertices[3 * t + 1].z + soup.vertices[3 * t + 2].z;
-        };
-        const auto order = back_to_front_order(soup);
-        REQUIRE(order.size() == 20);
-        std::size_t wrong = 0;
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            std::size_t before = 0;  // those that must come earlier
-            for (std::uint32_t t = 0; t < 20; ++t)
-                before += sum(t) > sum(order[i]) || (sum(t) == sum(order[i]) && t < order[i]) ? 1 : 0;
-            wrong += before != i ? 1 : 0;
-        }
-        CHECK(wrong == 0);
-        soup.vertices[7].z = std::numeric_limits<float>::quiet_NaN();
-        soup.vertices[20].z = -std::numeric_limits<float>::infinity();
-        auto all = back_to_front_order(soup);
-        std::ranges::sort(all);
-        for (std::uint32_t t = 0; t < 20; ++t) CHECK(all[t] == t);
-    }
-}
-
 TEST_CASE("opaque and masked materials go to the opaque list, blended ones to the transparent") {
     const TriangleScene scene = random_triangles(504, 8);  // materials: blend, blend, mask, opaque
     const auto materials = [&](Selection selection) {
@@ -250,7 +221,7 @@ TEST_CASE("vertices, triangles and bins do not depend on the number of threads")
     raster.viewport = {0, 0, 64, 64};
     const auto prepared = [&](int threads) {
         return prepare(scene.list, scene.view, raster, *find_profile("geforce8"),
-                       {.sort_back_to_front = true, .threads = threads});
+                       {.threads = threads});
     };
     const PreparedDraw one = prepared(1);
     REQUIRE(one.geometry.triangles.size() > 5000);

@@ -64,6 +64,8 @@ using Random = std::mt19937_64;
 struct Fragment {
     int x = 0, y = 0;
     std::uint32_t primitive = 0, material = 0, code = 0, exact_code = 0;
+    std::uint32_t reference_code = 0;
+    double reference_z = 0;
     float shader_z = 0;
     std::array<float, 4> color{};
     std::array<float, 2> texcoord{};
@@ -92,6 +94,7 @@ inline void append_batch(const FragmentBatch& batch, const Rect& region, const F
         if (needs.code) f.code = batch.code[i];
         if (needs.exact_code) f.exact_code = batch.exact_code[i];
         if (needs.shader_z) f.shader_z = batch.shader_z[i];
+        if (needs.reference) f.reference_code = batch.reference_code[i], f.reference_z = batch.reference_z[i];
         for (std::size_t c = 0; c < 4 && needs.color; ++c) f.color[c] = batch.color[c][i];
         for (std::size_t c = 0; c < 2 && needs.texcoord; ++c) f.texcoord[c] = batch.texcoord[c][i];
         if (needs.facing) f.front_facing = batch.front_facing[i] != 0;

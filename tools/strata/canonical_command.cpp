@@ -29,6 +29,17 @@ std::string to_text(const pipeline::Termination& termination) {
     return "";  // unreachable: the enum is closed
 }
 
+std::string to_text(const peeling::Sort& sort) {
+    switch (sort.rule) {
+        case peeling::SortRule::none: return "none";
+        case peeling::SortRule::exact: return "exact";
+        case peeling::SortRule::reverse: return "reverse";
+        case peeling::SortRule::bucket: return fmt::format("bucket:{}", sort.buckets);
+        case peeling::SortRule::shuffle: return fmt::format("shuffle:{},{}", sort.fraction, sort.seed);
+    }
+    return "";  // unreachable: the enum is closed
+}
+
 void add_scene(Words& words, const RunOptions& options) {
     const scenes::SceneOptions& scene = options.scene_options;
     if (scene.scene) add(words, "--scene", fmt::format("{}", *scene.scene));
@@ -50,14 +61,37 @@ void add_view(Words& words, const RunOptions& options) {
     if (b != pipeline::Rgba{0, 0, 0, 1}) add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));
 }
 
+void add_comparison(Words& words, const peeling::RenderOptions& render) {
+    if (render.reference_path) add(words, "--reference-path", name_of(depth_paths(), *render.reference_path));
+    const pipeline::CompareEpsilon& epsilon = render.compare_epsilon;
+    if (epsilon.ulps != 0) add(words, "--compare-epsilon", fmt::format("{}ulp", epsilon.ulps));
+    if (epsilon.absolute != 0) add(words, "--compare-epsilon", fmt::format("{}", epsilon.absolute));
+    if (!render.quantize_reference) words.emplace_back("--no-quantize-reference");
+    if (render.vertex_paths.first) {
+        std::string paths = name_of(vertex_paths(), *render.vertex_paths.first);
+        if (render.vertex_paths.second) paths += "," + name_of(vertex_paths(), *render.vertex_paths.second);
+        add(words, "--vertex-path", paths);
+    }
+    const rasterizer::PolygonOffset& offset = render.raster.polygon_offset;
+    if (offset.enabled) add(words, "--polygon-offset", fmt::format("{},{}", offset.factor, offset.units));
+}
+
 void add_machine(Words& words, const peeling::RenderOptions& render) {
     if (render.depth) add(words, "--depth", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
+    add_comparison(words, render);
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));
     if (render.termination != pipeline::Termination{}) add(words, "--termination", to_text(render.termination));
     if (render.max_passes != 0) add(words, "--max-passes", fmt::format("{}", render.max_passes));
+}
+
+void add_order(Words& words, const peeling::RenderOptions& render) {
+    if (render.formulation != pipeline::Formulation::resolved)
+        add(words, "--formulation", name_of(formulations, render.formulation));
+    if (!render.sorted.empty()) add(words, "--sorted", fmt::format("{}", fmt::join(render.sorted, ",")));
+    if (render.sort.rule != peeling::SortRule::none) add(words, "--sort", to_text(render.sort));
 }
 
 }  // namespace
@@ -69,6 +103,7 @@ std::string canonical_command(const std::string& verb, const RunOptions& options
     add_scene(words, options);
     add_view(words, options);
     add_machine(words, options.render);
+    add_order(words, options.render);
     return fmt::format("{}", fmt::join(words, " "));
 }
 

@@ -29,12 +29,22 @@ inline const std::vector<Choice<pipeline::Format>> count_formats{{"r16f", pipeli
     return paths;
 }
 
+[[nodiscard]] inline std::vector<Choice<pipeline::VertexPath>> vertex_paths() {
+    std::vector<Choice<pipeline::VertexPath>> paths;
+    for (const std::string_view name : pipeline::vertex_path_names)
+        paths.push_back({std::string(name), static_cast<pipeline::VertexPath>(paths.size())});
+    return paths;
+}
+
 inline const std::vector<Choice<pipeline::ColorSpace>> color_spaces{{"encoded", pipeline::ColorSpace::encoded},
                                                                     {"linear", pipeline::ColorSpace::linear}};
 
 inline const std::vector<Choice<pipeline::Execution>> executions{{"literal", pipeline::Execution::literal},
                                                                  {"tiled", pipeline::Execution::tiled},
                                                                  {"replay", pipeline::Execution::replay}};
+
+inline const std::vector<Choice<pipeline::Formulation>> formulations{{"resolved", pipeline::Formulation::resolved},
+                                                                     {"published", pipeline::Formulation::published}};
 
 inline const std::vector<Choice<Simd>> simds{{"scalar", Simd::scalar},
                                              {"sse4", Simd::sse4},

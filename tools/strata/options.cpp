@@ -68,6 +68,26 @@ std::optional<pipeline::Termination> to_termination(std::string_view text) {
     return std::nullopt;
 }
 
+std::optional<peeling::Sort> to_sort(std::string_view text) {
+    using enum peeling::SortRule;
+    if (text == "none") return peeling::Sort{.rule = none};
+    if (text == "exact") return peeling::Sort{.rule = exact};
+    if (text == "reverse") return peeling::Sort{.rule = reverse};
+    if (text.starts_with("bucket:")) {
+        const auto buckets = to_int(text.substr(7));
+        if (buckets && *buckets >= 1) return peeling::Sort{.rule = bucket, .buckets = *buckets};
+    }
+    if (text.starts_with("shuffle:")) {
+        const auto parts = split(text.substr(8), ',');
+        if (parts.size() != 2) return std::nullopt;
+        const auto fraction = to_number<double>(parts[0]);
+        const auto seed = to_int<std::uint64_t>(parts[1]);
+        if (fraction && seed && *fraction >= 0 && *fraction <= 1)
+            return peeling::Sort{.rule = shuffle, .fraction = *fraction, .seed = *seed};
+    }
+    return std::nullopt;
+}
+
 // Bytes, or K, M and G of them.
 std::optional<std::uint64_t> to_bytes(std::string_view text) {
     constexpr std::string_view suffixes = "KMG";
@@ -77,6 +97,38 @@ std::optional<std::uint64_t> to_bytes(std::string_view text) {
     const auto count = to_int<std::uint64_t>(text);
     if (!count || *count > ~std::uint64_t{0} >> shift) return std::nullopt;
     return *count << shift;
+}
+
+// "1e-7" of the depth range, or "2ulp".
+std::optional<pipeline::CompareEpsilon> to_epsilon(std::string_view text) {
+    constexpr std::string_view unit = "ulp";
+    if (text.ends_with(unit)) {
+        const auto ulps = to_count(text.substr(0, text.size() - unit.size()));
+        return ulps && *ulps <= 1 << 24 ? std::optional(pipeline::CompareEpsilon{0, *ulps}) : std::nullopt;
+    }
+    const auto absolute = to_number<double>(text);
+    if (!absolute || *absolute < 0 || *absolute > 1) return std::nullopt;
+    return pipeline::CompareEpsilon{*absolute, 0};
+}
+
+std::optional<peeling::VertexPaths> to_vertex_paths(std::string_view text) {
+    const auto parts = split(text, ',');
+    const auto paths = vertex_paths();
+    const auto find = [&](const std::string& name) -> std::optional<pipeline::VertexPath> {
+        for (const auto& path : paths)
+            if (path.name == name) return path.value;
+        return std::nullopt;
+    };
+    peeling::VertexPaths chosen{find(parts[0]), find(parts.back())};
+    if (parts.size() > 2 || !chosen.first || !chosen.second) return std::nullopt;
+    if (parts.size() == 1) chosen.second.reset();
+    return chosen;
+}
+
+std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text) {
+    const auto values = to_numbers<float>(text, 2);
+    if (!values) return std::nullopt;
+    return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
 }
 
 std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
@@ -121,6 +173,25 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                "depth buffer (default d32f, or d24 where that is missing)");
     add_choice(app, options.depth_path, "--depth-path", depth_paths(),
                "how depth is computed (default: the profile's own)");
+    add_choice(app, options.reference_path, "--reference-path", depth_paths(),
+               "the depth that a peel compares with what it stored (default: the one that it stores)");
+    add_option(app, options.compare_epsilon,
+               {"--compare-epsilon", "E|Nulp", "added to a stored depth before a program compares it (default 0)",
+                "a part of the depth range from 0 to 1 such as 1e-7, or units in the last place such as 2ulp"},
+               to_epsilon);
+    app.add_flag_callback(
+        "--no-quantize-reference", [&options] { options.quantize_reference = false; },
+        "compare a depth that is not rounded like the stored one");
+    add_option(app, options.vertex_paths,
+               {"--vertex-path", "A[,B]",
+                "how positions are computed, in the first pass and in further ones (default separate): " +
+                    one_of(names_of(vertex_paths())),
+                "one or two of " + one_of(names_of(vertex_paths()))},
+               to_vertex_paths);
+    add_option(app, options.raster.polygon_offset,
+               {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
+                "two numbers such as 1,1"},
+               to_polygon_offset);
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
     add_choice(app, options.average_count, "--average-count", count_formats,
@@ -133,6 +204,19 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
         app, options.max_passes,
         {"--max-passes", "N", "geometry passes at most (default 0: as many as it takes)", "a whole number from 0"},
         to_count);
+}
+
+void add_order_options(CLI::App& app, peeling::RenderOptions& options) {
+    add_choice(app, options.formulation, "--formulation", formulations,
+               "the listings of Carr et al. repaired, or as printed, with what they lose (default resolved)");
+    app.add_option_function<std::string>(
+           "--sorted", [&options](const std::string& text) { options.sorted = split(text, ','); },
+           "meshes or materials that arrive front to back, for hybrid (default: those that the scene names)")
+        ->type_name("NAME[,NAME...]");
+    add_option(app, options.sort,
+               {"--sort", "bucket:N|exact|none|reverse|shuffle:F,SEED", "order of triangles, by centroid (default none: as listed)",
+                "bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to 1"},
+               to_sort);
 }
 
 std::vector<std::string> algorithm_names() {
@@ -163,6 +247,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
     add_algorithm_option(app, options);
     add_profile_option(app, options.profile);
     add_machine_options(app, options.render);
+    add_order_options(app, options.render);
     add_view_options(app, options);
 }
 

@@ -34,6 +34,20 @@ pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) 
     throw CLI::ValidationError("--camera", "expected " + cameras + ", found " + found_but_near(options.camera, names));
 }
 
+// --sorted names what the scene has.
+void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
+    std::vector<std::string> names;
+    const auto add = [&](const std::string& name) {
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (const auto& mesh : scene.list.meshes) add(mesh.name);
+    for (const auto& material : scene.list.materials) add(material.name);
+    for (const std::string& name : options.render.sorted)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw CLI::ValidationError("--sorted", "expected a mesh or a material of the scene (strata scene lists them), found " +
+                                                       found_but_near(name, names));
+}
+
 }  // namespace
 
 Session open_session(RunOptions& options) {
@@ -45,6 +59,7 @@ Session open_session(RunOptions& options) {
     for (const std::string& warning : session.scene.warnings)
         std::fprintf(stderr, "strata: warning: %s\n", warning.c_str());
     session.view = find_view(options, session.scene);
+    check_sorted(options, session.scene);
     options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
     return session;
 }

@@ -1,0 +1,106 @@
+#include "peeling/prepared_lists.h"
+
+#include <algorithm>
+
+#include "peeling/stopwatch.h"
+#include "pipeline/other_splits.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// Whether a path takes r and q of the vertices.
+bool is_quotient(std::optional<rasterizer::DepthPath> path) {
+    return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
+}
+
+}  // namespace
+
+PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
+    static_cast<void>(transparent(ListOrder::given));
+    const bool has_opaque = !s_.options.alpha && std::any_of(s_.list.materials.begin(), s_.list.materials.end(), [](const Material& m) {
+        return m.alpha_mode != AlphaMode::blend;
+    });
+    if (has_opaque) opaque_ = prepare(s_.list, s_.view, s_.raster, prepare_options(Selection::opaque));
+    prepare_second();
+}
+
+const PreparedDraw& PreparedLists::transparent(ListOrder order) {
+    auto& prepared = transparent_[static_cast<std::size_t>(order)];
+    if (!prepared) {
+        PrepareOptions ordered = prepare_options(transparent_selection());
+        ordered.order = ordering(order);
+        prepared = prepare(s_.list, s_.view, s_.raster, ordered);
+    }
+    return *prepared;
+}
+
+PrepareOptions PreparedLists::prepare_options(Selection selection) const {
+    return {.selection = selection,
+            .alpha_scale = s_.options.alpha.value_or(1.0f),
+            .depth_quotient = is_quotient(s_.depth.path) || is_quotient(s_.depth.reference),
+            .tile_size = s_.options.tile_size,
+            .threads = s_.options.threads};
+}
+
+Selection PreparedLists::transparent_selection() const {
+    return s_.options.alpha ? Selection::all : Selection::transparent;
+}
+
+PreparedDraw PreparedLists::prepare(const DrawList& list, const View& view, const rasterizer::RasterState& raster,
+                                    const PrepareOptions& options) {
+    const Stopwatch watch{seconds_};
+    PreparedDraw prepared = pipeline::prepare(list, view, raster, s_.profile, options);
+    const auto& [x, y] = s_.options.window_origin;
+    if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
+    return prepared;
+}
+
+void PreparedLists::prepare_second() {
+    const RenderOptions& o = s_.options;
+    View other = s_.view;
+    other.vertex_path = o.vertex_paths.second.value_or(s_.view.vertex_path);
+    rasterizer::RasterState clamped = s_.raster;
+    clamped.depth_clamp = o.second_depth_clamp.value_or(s_.raster.depth_clamp);
+    const bool differs = other.vertex_path != s_.view.vertex_path || o.second_list != nullptr || clamped != s_.raster;
+    if (!differs) return;
+    const DrawList& split = o.second_list != nullptr ? *o.second_list : s_.list;
+    second_ = prepare(split, other, clamped, prepare_options(transparent_selection()));
+}
+
+bool PreparedLists::arrives_sorted(const Instance& instance) const {
+    const auto names = [&](const std::string& name) {
+        return name == s_.list.meshes[instance.mesh].name || name == s_.list.materials[instance.material].name;
+    };
+    return instance.arrives_sorted || std::any_of(s_.options.sorted.begin(), s_.options.sorted.end(), names);
+}
+
+// The part of each run of a soup: ordered set 0, the rest 1; or one an object.
+PartSort PreparedLists::parts_of(const rasterizer::TriangleSoup& soup, ListOrder order) const {
+    PartSort parts;
+    const bool in_sets = order == ListOrder::sets;
+    parts.sorts.assign(in_sets ? 2 : soup.runs.size(), true);
+    if (in_sets) parts.sorts[0] = false;
+    for (std::size_t run = 0; run < soup.runs.size(); ++run)
+        parts.part_of_run.push_back(in_sets ? (arrives_sorted(s_.list.instances[soup.runs[run].object]) ? 0 : 1)
+                                            : static_cast<std::uint32_t>(run));
+    return parts;
+}
+
+Ordering PreparedLists::ordering(ListOrder order) const {
+    const Sort& sort = s_.options.sort;
+    switch (order) {
+        case ListOrder::given:
+            if (sort.rule == SortRule::none) return {};
+            return [&sort](const auto& soup) { return SubmissionOrder{submission_order(soup, sort), {}}; };
+        case ListOrder::back_to_front:
+            return [](const auto& soup) { return SubmissionOrder{submission_order(soup, {.rule = SortRule::reverse}), {}}; };
+        case ListOrder::sets:
+        case ListOrder::objects: break;
+    }
+    return [this, order, &sort](const auto& soup) { return submission_order(soup, sort, parts_of(soup, order)); };
+}
+
+}  // namespace strata::peeling

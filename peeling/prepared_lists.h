@@ -1,0 +1,49 @@
+// peeling/prepared_lists.h - the lists that the frames of one command draw, each transformed, set up and binned once.
+//
+// Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is what all passes
+//          but the first draw, where another vertex path, another split of the surfaces or another depth clamp was asked for.
+// Tests    tests/peeling/comparison_test.cpp, partial_order_test.cpp, sort_test.cpp
+#pragma once
+#include <array>
+#include <optional>
+
+#include "peeling/render.h"
+
+namespace strata::peeling {
+
+class PreparedLists {
+  public:
+    // What does not change from list to list.
+    struct Settings {
+        const pipeline::DrawList& list;
+        pipeline::View view;
+        pipeline::DeviceProfile profile;
+        RenderOptions options;
+        rasterizer::RasterState raster{};
+        rasterizer::DepthRequest depth{};
+    };
+    explicit PreparedLists(Settings settings);
+
+    [[nodiscard]] const pipeline::PreparedDraw& transparent(ListOrder order);
+    [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
+    [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
+    [[nodiscard]] double seconds() const noexcept { return seconds_; }
+
+  private:
+    [[nodiscard]] pipeline::PrepareOptions prepare_options(pipeline::Selection selection) const;
+    [[nodiscard]] pipeline::Selection transparent_selection() const;
+    [[nodiscard]] pipeline::PreparedDraw prepare(const pipeline::DrawList& list, const pipeline::View& view,
+                                                 const rasterizer::RasterState& raster,
+                                                 const pipeline::PrepareOptions& options);
+    void prepare_second();
+    [[nodiscard]] bool arrives_sorted(const pipeline::Instance& instance) const;
+    [[nodiscard]] PartSort parts_of(const rasterizer::TriangleSoup& soup, ListOrder order) const;
+    [[nodiscard]] pipeline::Ordering ordering(ListOrder order) const;
+
+    Settings s_;
+    std::array<std::optional<pipeline::PreparedDraw>, 4> transparent_{};  // by ListOrder
+    std::optional<pipeline::PreparedDraw> opaque_{}, second_{};
+    double seconds_ = 0;
+};
+
+}  // namespace strata::peeling

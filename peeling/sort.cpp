@@ -1,0 +1,108 @@
+#include "peeling/sort.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "rasterizer/numerics.h"
+
+namespace strata::peeling {
+
+namespace {
+
+using rasterizer::TriangleSoup;
+using Numbers = std::vector<std::uint32_t>;
+using Keys = std::vector<double>;  // by the triangle's number
+
+Keys centroid_keys(const TriangleSoup& soup) {
+    Keys keys;
+    keys.reserve(soup.indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < soup.indices.size(); i += 3) {
+        const auto z = [&](std::size_t corner) { return double{soup.vertices[soup.indices[i + corner]].z}; };
+        const double sum = (z(0) + z(1)) + z(2);
+        keys.push_back(sum == sum ? sum : 0);  // a NaN is dropped at set-up; here it must only not upset the order
+    }
+    return keys;
+}
+
+void sort_exactly(Numbers& numbers, const Keys& keys) {
+    std::stable_sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+}
+
+void sort_reversed(Numbers& numbers, const Keys& keys) {
+    std::stable_sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+}
+
+void sort_into_buckets(Numbers& numbers, const Keys& keys, int buckets) {
+    double least = HUGE_VAL, greatest = -HUGE_VAL;
+    for (const std::uint32_t n : numbers) {
+        if (!std::isfinite(keys[n])) continue;
+        least = std::min(least, keys[n]);
+        greatest = std::max(greatest, keys[n]);
+    }
+    const double last = buckets - 1;
+    const auto bucket = [&](std::uint32_t n) {
+        const double place = (keys[n] - least) / (greatest - least) * buckets;
+        return place > 0 ? std::min(std::floor(place), last) : 0.0;  // NaN where all keys are equal
+    };
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return bucket(a) < bucket(b); });
+}
+
+// SplitMix64 (Steele, Lea and Flood 2014).
+std::uint64_t next_random(std::uint64_t& state) {
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+// `fraction` of the entries, rounded, change places in one cycle through all of them.
+void disorder(Numbers& numbers, double fraction, std::uint64_t seed) {
+    const std::size_t moved = static_cast<std::size_t>(fraction * static_cast<double>(numbers.size()) + 0.5);
+    if (moved < 2) return;
+    Numbers places(numbers.size());
+    std::iota(places.begin(), places.end(), 0u);
+    for (std::size_t i = 0; i < moved; ++i) std::swap(places[i], places[i + next_random(seed) % (places.size() - i)]);
+    const std::uint32_t first = numbers[places[0]];
+    for (std::size_t i = 0; i + 1 < moved; ++i) numbers[places[i]] = numbers[places[i + 1]];
+    numbers[places[moved - 1]] = first;
+}
+
+void sort_numbers(Numbers& numbers, const Keys& keys, const Sort& sort) {
+    switch (sort.rule) {
+        case SortRule::none: return;
+        case SortRule::exact: return sort_exactly(numbers, keys);
+        case SortRule::bucket: return sort_into_buckets(numbers, keys, sort.buckets);
+        case SortRule::reverse: return sort_reversed(numbers, keys);
+        case SortRule::shuffle: sort_exactly(numbers, keys); return disorder(numbers, sort.fraction, sort.seed);
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> submission_order(const TriangleSoup& soup, const Sort& sort) {
+    Numbers numbers(soup.indices.size() / 3);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    sort_numbers(numbers, centroid_keys(soup), sort);
+    return numbers;
+}
+
+pipeline::SubmissionOrder submission_order(const TriangleSoup& soup, const Sort& sort, const PartSort& parts) {
+    const Keys keys = centroid_keys(soup);
+    std::vector<Numbers> members(parts.sorts.size());
+    for (std::size_t run = 0; run < soup.runs.size(); ++run) {
+        const std::uint32_t first = soup.runs[run].first_index / 3, count = soup.runs[run].index_count / 3;
+        for (std::uint32_t n = first; n < first + count; ++n) members[parts.part_of_run[run]].push_back(n);
+    }
+    pipeline::SubmissionOrder order;
+    for (std::size_t part = 0; part < members.size(); ++part) {
+        if (parts.sorts[part]) sort_numbers(members[part], keys, sort);
+        const auto begin = static_cast<std::uint32_t>(order.triangles.size());
+        order.triangles.insert(order.triangles.end(), members[part].begin(), members[part].end());
+        order.parts.push_back({begin, static_cast<std::uint32_t>(order.triangles.size())});
+    }
+    return order;
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,39 @@
+// peeling/sort.h - the order in which triangles are submitted: by the depth of their centroids, more or less well.
+//
+// Rule     Key: the sum of the three clip z, an increasing function of the centroid's eye depth for every projection whose
+//          third row is (0, 0, a, b); NaN counts as 0. exact: by key, near first, ties as listed. bucket: [least, greatest] key
+//          cut into N equal buckets, near first, within a bucket as listed. reverse: far first, ties as listed. shuffle: exact,
+//          then a fraction of the triangles, drawn by the seed, moves: each to the next one's place.
+// Source   Carr, Mech and Miller 2008, section 9 (bucket sort of centroids); algorithms.md 1 (painter).
+// Tests    tests/peeling/sort_test.cpp
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "pipeline/prepare.h"
+
+namespace strata::peeling {
+
+enum class SortRule : std::uint8_t { none, exact, bucket, reverse, shuffle };
+
+struct Sort {
+    SortRule rule = SortRule::none;
+    int buckets = 256;      // bucket: at least 1
+    double fraction = 0;    // shuffle: 0 to 1, of the triangles
+    std::uint64_t seed = 0; // shuffle
+    friend bool operator==(const Sort&, const Sort&) = default;
+};
+
+// Numbers of the soup's triangles in the order of their submission.
+[[nodiscard]] std::vector<std::uint32_t> submission_order(const rasterizer::TriangleSoup& soup, const Sort& sort);
+
+// The same within parts, which are submitted one after the other: `part_of_run` names the part of each run of the soup, and
+// parts count from 0. `sorts(part)` says whether a part is sorted or stays as listed.
+struct PartSort {
+    std::vector<std::uint32_t> part_of_run;
+    std::vector<bool> sorts;  // by part
+};
+[[nodiscard]] pipeline::SubmissionOrder submission_order(const rasterizer::TriangleSoup& soup, const Sort& sort,
+                                                         const PartSort& parts);
+
+}  // namespace strata::peeling

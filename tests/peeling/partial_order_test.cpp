@@ -1,0 +1,154 @@
+// Carr's algorithms and those that their paper compares itself with, over every short sequence of fragments and over deep ones of
+// all degrees of disorder: what they composite is the exact A-buffer's list in the order of their tie policy.
+#include "tests/support/partial_order_model.h"
+
+#include <catch2/catch.hpp>
+
+#include "rendering.h"
+#include "short_sequences.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::pipeline::DepthFormat;
+using strata::pipeline::Fault;
+
+constexpr Rgba background{0.25f, 0.5f, 0.8f, 1};
+
+// An ascending, a descending or a half-sorted list of `length` depths k / 512 with ties, then some neighbours or far entries
+// exchanged: from sorted to random.
+std::vector<float> disordered_depths(Random& random, int length) {
+    std::vector<float> depths;
+    for (int i = 0; i < length; ++i) depths.push_back(static_cast<float>(random_int(random, 0, 511)) / 512.0f);
+    const int kind = random_int(random, 0, 5);
+    if (kind == 5) return depths;
+    std::sort(depths.begin(), depths.end());
+    if (kind == 1) std::reverse(depths.begin(), depths.end());
+    if (kind == 2) std::rotate(depths.begin(), depths.begin() + length / 2, depths.end());
+    const int exchanges = kind < 3 ? random_int(random, 0, 2) : kind == 3 ? length / 16 : length / 4;
+    for (int i = 0; i < exchanges && length > 1; ++i)
+        std::swap(depths[static_cast<std::size_t>(random_int(random, 0, length - 1))],
+                  depths[static_cast<std::size_t>(random_int(random, 0, length - 1))]);
+    return depths;
+}
+
+// Mostly short pixels, some up to `longest`; every third has an opaque surface at one of the depths.
+FragmentScene disordered(std::uint64_t seed, int width, int height, int longest) {
+    FragmentScene scene{width, height};
+    Random random{seed};
+    for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
+        const int most = p % 16 == 0 ? longest : std::max(1, longest / random_int(random, 4, 40));
+        for (const float depth : disordered_depths(random, random_int(random, 1, most)))
+            scene.pixels[p].fragments.push_back({depth, random_color(random)});
+        if (p % 3 == 0)
+            scene.pixels[p].opaque = GivenFragment{static_cast<float>(random_int(random, 256, 511)) / 512.0f, random_color(random)};
+    }
+    return scene;
+}
+
+Rgba behind(const GivenPixel& pixel, const TargetModel& target) {
+    Rgba color = pixel.opaque && pixel.opaque->depth < 1.0f ? pixel.opaque->color : background;
+    for (float& c : color) c = target.stored(c);
+    return color;
+}
+
+Rgba expected(const std::string& algorithm, const TargetModel& target, const GivenPixel& pixel) {
+    const std::vector<GivenFragment> fragments = visible(pixel);
+    const Rgba bottom = behind(pixel, target);
+    if (algorithm == "batched") return front_to_back_model(target, groups_of(fragments), bottom);
+    if (algorithm == "stencil_routed_k_buffer") return routed_model(target, in_first_order(fragments), bottom);
+    if (algorithm == "k_buffer") return under_model(target, k_buffer_order(fragments), bottom);
+    return under_model(target, in_first_order(fragments), bottom);
+}
+
+RenderResult check(const FragmentScene& scene, const Machine& machine, RenderOptions options) {
+    INFO(machine.algorithm << " on " << machine.profile);
+    options.background = background;
+    const RenderResult result = render(scene, machine, options);
+    REQUIRE(result.outcome == strata::peeling::Outcome::done);
+    const TargetModel target{result.frame.color.format};
+    const Differences wrong = differences(result.frame.color, [&](std::size_t p) {
+        const Rgba color = expected(machine.algorithm, target, scene.pixels[p]);
+        return std::array{target.code(color[0]), target.code(color[1]), target.code(color[2]), target.code(1.0f)};
+    });
+    INFO(wrong.first);
+    CHECK(wrong.pixels == 0);
+    if (machine.algorithm != "k_buffer") CHECK(result.audit.order_errors == 0u);
+    CHECK(has_diagnostic(result, Fault::buffer_overflow) == (machine.algorithm == "k_buffer" && result.audit.order_errors != 0u));
+    return result;
+}
+
+const std::vector<Machine> machines{{"geforce8", "layer_peel"},     {"geforce8", "coherent_stencil"},
+                                    {"geforce8", "coherent_blend"}, {"ideal", "coherent_ideal"},
+                                    {"geforce8", "batched"},        {"geforce8", "stencil_routed_k_buffer"},
+                                    {"ideal", "k_buffer"},          {"ideal", "coherent_blend"}};
+
+}  // namespace
+
+TEST_CASE("all 19,531 sequences of up to six fragments on five depths are composited in the order of each tie policy") {
+    const FragmentScene scene = all_short_sequences(20241101, short_depths);
+    for (const Machine& machine : machines) {
+        const RenderResult result = check(scene, machine, options_for(scene));
+        CHECK(result.audit.layers_max == 5);
+    }
+}
+
+TEST_CASE("with a 24-bit depth buffer programs quantise, say so, and order by what the buffer holds") {
+    const FragmentScene scene = disordered(20241102, 16, 16, 40);
+    for (const Machine& machine : machines) {
+        RenderOptions options = options_for(scene);
+        options.depth = DepthFormat::d24;
+        CHECK(has_diagnostic(check(scene, machine, options), Fault::depth_quantized));
+    }
+}
+
+TEST_CASE("sequences of every degree of disorder, with ties and opaque surfaces, are composited in order") {
+    const FragmentScene scene = disordered(20241103, 32, 16, 120);
+    for (const Machine& machine : machines) check(scene, machine, options_for(scene));
+}
+
+TEST_CASE("10,240 sequences of 1 to 400 fragments, of every degree of disorder, are composited in order", "[exhaustive]") {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        const FragmentScene scene = disordered(20241110 + seed, 32, 32, 400);
+        RenderOptions options = options_for(scene);
+        options.tile_size = 8;
+        options.threads = 0;
+        for (const Machine& machine : machines)
+            if (machine.algorithm != "stencil_routed_k_buffer") check(scene, machine, options);
+    }
+}
+
+TEST_CASE("9 fragments on 8 samples: a second pass takes the ninth; after 31 passes what is left is lost, and said") {
+    for (const int count : {0, 1, 8, 9, 16, 17, 248, 249}) {
+        FragmentScene scene{4, 4};
+        Random random{20241104};
+        for (int i = 0; i < count; ++i)
+            scene.pixels[6].fragments.push_back({static_cast<float>(count - i) / 256.0f, random_color(random)});
+        const RenderResult result = render(scene, {"geforce8", "stencil_routed_k_buffer"});
+        INFO(count << " fragments");
+        CHECK(result.frame.passes.geometry == std::clamp((count + 7) / 8, 1, 31));
+        CHECK(diagnosed(result, Fault::buffer_overflow) == (count > 248 ? 1 : 0));
+        CHECK((result.audit.order_errors == 0u) == (count <= 248));
+        CHECK_FALSE(has_diagnostic(result, Fault::stencil_saturated));  // counting down to 0 is what the algorithm does
+    }
+}
+
+TEST_CASE("a k-buffer of 4 is right exactly where no fragment comes after more than 4 deeper ones, and says where it is not") {
+    const FragmentScene scene = disordered(20241105, 32, 16, 40);
+    std::uint64_t wrong = 0;
+    for (const GivenPixel& pixel : scene.pixels) {
+        const auto fragments = visible(pixel);
+        bool is_late = false;
+        for (std::size_t i = 0; i < fragments.size(); ++i)
+            is_late |= std::count_if(fragments.begin(), fragments.begin() + static_cast<std::ptrdiff_t>(i),
+                                     [&](const GivenFragment& f) { return f.depth > fragments[i].depth; }) > 4;
+        wrong += is_late ? 1 : 0;
+    }
+    const RenderResult result = render(scene, {"ideal", "k_buffer"});
+    CHECK(wrong > 20);
+    CHECK(diagnosed(result, Fault::buffer_overflow) == wrong);
+    CHECK(result.audit.misordered.pixels <= wrong);  // by key: a tie that changes places shows in colours alone
+    CHECK(result.audit.misordered.pixels > 0);
+}

@@ -1,0 +1,65 @@
+// tests/support/partial_order_model.h - what Carr's algorithms and their kin must show at one pixel. Written from algorithms.md 9
+// to 14 with the targets' arithmetic of composite_model.h: it shares nothing with the product.
+#pragma once
+#include "composite_model.h"
+
+namespace strata::testing {
+
+// UNDER of straight fragments, near to far, each blended as it is.
+[[nodiscard]] inline Rgba under_model(const TargetModel& target, const std::vector<Rgba>& near_to_far, const Rgba& background) {
+    Rgba front{0, 0, 0, 1};
+    for (const Rgba& s : near_to_far) {
+        for (std::size_t c = 0; c < 3; ++c) front[c] = target.under(front[c], front[3], s[c] * s[3]);
+        front[3] = target.faded(front[3], s[3]);
+    }
+    Rgba result{0, 0, 0, 1};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float through = front[3] * background[c];
+        result[c] = target.stored(front[c] + through);
+    }
+    return result;
+}
+
+// FIRST: by depth, the first arrival in front.
+[[nodiscard]] inline std::vector<Rgba> in_first_order(const std::vector<GivenFragment>& fragments) {
+    std::vector<Rgba> colors;
+    for (const auto& [depth, sources] : groups_of(fragments)) colors.insert(colors.end(), sources.begin(), sources.end());
+    return colors;
+}
+
+// algorithms.md 13: samples hold straight colours; the program that sorts them works in binary32.
+[[nodiscard]] inline Rgba routed_model(const TargetModel& target, const std::vector<Rgba>& near_to_far, const Rgba& background) {
+    Rgba sum{0, 0, 0, 1};
+    for (const Rgba& s : near_to_far) {
+        const float alpha = target.stored(s[3]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float premultiplied = alpha * target.stored(s[c]);
+            const float added = sum[3] * premultiplied;
+            sum[c] = sum[c] + added;
+        }
+        const float left = 1.0f - alpha;
+        sum[3] = sum[3] * left;
+    }
+    Rgba result{0, 0, 0, 1};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float through = sum[3] * background[c];
+        result[c] = target.stored(sum[c] + through);
+    }
+    return result;
+}
+
+// algorithms.md 14: the four nearest so far are held back.
+[[nodiscard]] inline std::vector<Rgba> k_buffer_order(const std::vector<GivenFragment>& fragments) {
+    std::vector<Rgba> out;
+    std::multimap<float, Rgba> held;  // equal keys stay in the order of their insertion
+    for (const GivenFragment& f : fragments) {
+        held.insert({f.depth, f.color});
+        if (held.size() <= 4) continue;
+        out.push_back(held.begin()->second);
+        held.erase(held.begin());
+    }
+    for (const auto& [depth, color] : held) out.push_back(color);
+    return out;
+}
+
+}  // namespace strata::testing
