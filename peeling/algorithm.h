@@ -31,8 +31,10 @@ struct Algorithm {
     bool makes_layers = false;
     bool premultiplied_layers = false;  // their colours are times alpha
     ListOrder order = ListOrder::given;
+    bool kills_alpha_zero = false;  // an alpha test keeps fragments that store alpha 0 from being layers
     bool is_oracle = false;    // not a device's algorithm: never refused
     bool whole_frame = false;  // its queries nest: runs literally, whatever --execution says
+    bool compares_own_codes = false;  // by the code that it stores, alone: refused where options choose another depth
     bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
     void (*run)(pipeline::Region&) = nullptr;
@@ -42,6 +44,8 @@ struct Algorithm {
     std::vector<pipeline::Feature> features{};  // what a profile must have
     int render_targets = 1;
     int samples = 1;
+    std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes, whatever the options say
+    std::optional<rasterizer::DepthPath> compares{};  // the one that it compares, unless the options say otherwise
 };
 
 // Everitt's and Bavoil's, then Carr's and what they compare themselves with, at last the oracle.

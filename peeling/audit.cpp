@@ -7,6 +7,7 @@
 
 #include "peeling/composite.h"
 #include "peeling/fragment_lists.h"
+#include "pipeline/alpha_test.h"
 #include "pipeline/half.h"
 #include "pipeline/unorm8.h"
 #include "rasterizer/float_environment.h"
@@ -95,6 +96,21 @@ class RegionAudit {
         const rasterizer::Rect rect = region_.rect();
         const int x = rect.x0 + static_cast<int>(pixel) % rect.width(), y = rect.y0 + static_cast<int>(pixel) / rect.width();
         const auto fragments = lists_.of(pixel);
+        if (algorithm_.kills_alpha_zero) return look_at(with_alpha(fragments), pixel, x, y);
+        look_at(fragments, pixel, x, y);
+    }
+
+    // What an alpha test GREATER 0 leaves.
+    [[nodiscard]] std::vector<KeyedFragment> with_alpha(std::span<const KeyedFragment> fragments) const {
+        const Frame& frame = region_.frame();
+        const bool eight_bit = is_eight_bit_alpha(frame.profile->alpha_test, info(frame.color_format).type);
+        std::vector<KeyedFragment> kept;
+        for (const KeyedFragment& f : fragments)
+            if (eight_bit ? to_unorm8(f.color[3]) > 0 : f.color[3] > 0.0f) kept.push_back(f);
+        return kept;
+    }
+
+    void look_at(std::span<const KeyedFragment> fragments, std::uint32_t pixel, int x, int y) {
         const auto keys = in_policy_order(fragments, TiePolicy::unique).size();
         const auto kept = has_order() ? in_policy_order(fragments, algorithm_.ties) : std::vector<KeyedFragment>{};
         const std::size_t lost = has_order() ? fragments.size() - kept.size() : 0;

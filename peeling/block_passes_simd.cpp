@@ -1,4 +1,4 @@
-// peeling/block_passes_simd.cpp - block_passes.h compiled once an instruction set.
+// peeling/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at a time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/block_passes_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -11,59 +11,195 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// take_row with gathers.
-HWY_INLINE void gather_row(const PeelBlock& block, const LaneWords& row, const LaneWords& has, LaneColor& out) {
-    const hn::CappedTag<std::int32_t, block_lanes> di;
-    const hn::Rebind<float, decltype(di)> df;
-    const hn::Rebind<std::uint16_t, decltype(di)> du;
-    HWY_ALIGN std::array<std::uint16_t, block_lanes> arrival;
-    for (std::size_t lane = 0; lane < block_lanes; ++lane)
-        arrival[lane] = static_cast<std::uint16_t>(block.order[(row[lane] & has[lane]) * block_lanes + lane] & has[lane]);
-    for (std::size_t lane = 0; lane < block_lanes; lane += hn::Lanes(di)) {
-        const auto first = hn::PromoteTo(di, hn::Load(du, arrival.data() + lane));
-        const auto slot = hn::Add(hn::ShiftLeft<4>(first), hn::Iota(di, static_cast<std::int32_t>(lane)));
-        const auto kept = hn::BitCast(df, hn::LoadU(di, reinterpret_cast<const std::int32_t*>(&has[lane])));
-        for (std::size_t c = 0; c < 4; ++c)
-            hn::StoreU(hn::And(hn::GatherIndex(df, block.color[c], slot), kept), df, &out[c][lane]);
-    }
-}
+using Words = hn::CappedTag<std::uint32_t, block_lanes>;
+using Signed = hn::RebindToSigned<Words>;
+using Floats = hn::RebindToFloat<Words>;
+constexpr std::size_t vector_lanes = hn::MaxLanes(Words{});
 
-// The loops of namespace scalar with it.
+using WordVec = hn::Vec<Words>;
+using WordMask = hn::Mask<Words>;
+using FloatVec = hn::Vec<Floats>;
+
+HWY_INLINE FloatVec float_of(WordVec code) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, code)); }
+
+// unorm8_value and to_unorm8.
+HWY_INLINE FloatVec value_of(WordVec code) {
+    const FloatVec k = float_of(code);
+    return hn::Add(hn::Mul(k, hn::Set(Floats{}, 0x1.01p-8f)), hn::Mul(k, hn::Set(Floats{}, 1.0f / 0xff0000p0f)));
+}
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE WordVec code_of(FloatVec x) { return hn::Set(Words{}, pipeline::to_unorm8(hn::GetLane(x))); }
+#else
+HWY_INLINE WordVec code_of(FloatVec x) {
+    const Floats d;
+    const hn::Half<Floats> half;
+    const hn::Rebind<double, hn::Half<Floats>> wide;
+    const auto positive = hn::IfThenElseZero(hn::Lt(hn::Zero(d), x), x);  // 0 for NaN
+    const auto clamped = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 1.0f)), positive, hn::Set(d, 1.0f));
+    const auto rounded = [&](auto part) HWY_ATTR {
+        const auto product = hn::Mul(hn::PromoteTo(wide, part), hn::Set(wide, 255.0));
+        return hn::DemoteTo(hn::Rebind<std::int32_t, hn::Half<Floats>>{}, hn::Add(product, hn::Set(wide, 0.5)));
+    };
+    return hn::BitCast(Words{}, hn::Combine(Signed{}, rounded(hn::UpperHalf(half, clamped)), rounded(hn::LowerHalf(half, clamped))));
+}
+#endif
+
+// Unorm8Arithmetic::combine with BlendEquation::add.
 template <pipeline::BlendRounding rounding>
-HWY_INLINE void both_ends_rounded(PeelBlock& block, std::size_t n) {
-    LaneWords row, has;
-    LaneColor color;
-    for (std::uint32_t pass = 0; 2 * pass < block.depth; ++pass) {
-        near_rows(block, pass, row, has, n);
-        gather_row(block, row, has, color);
-        blend_near(block, color, has, n);
-        far_rows(block, pass, row, has, n);
-        gather_row(block, row, has, color);
-        blend_far<rounding>(block, color, n);
-    }
+HWY_INLINE WordVec blended(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
+    const Signed di;
+    const auto sum = hn::ConvertTo(di, hn::Add(hn::Mul(s, s_factor), hn::Mul(d, d_factor)));
+    const auto biased = hn::Add(hn::Min(sum, hn::Set(di, 65025)), hn::Set(di, rounding == pipeline::BlendRounding::nearest ? 128 : 1));
+    return hn::BitCast(Words{}, hn::ShiftRight<8>(hn::Add(biased, hn::ShiftRight<8>(biased))));
 }
 
+// Some columns of a block, and their front and back while the passes run.
 template <pipeline::BlendRounding rounding>
-HWY_INLINE void front_rounded(PeelBlock& block, std::size_t n) {
-    LaneWords row, has;
-    LaneColor color;
-    for (std::uint32_t pass = 0; pass < block.depth; ++pass) {
-        front_rows(block, pass, row, has, n);
-        gather_row(block, row, has, color);
-        blend_front<rounding>(block, color, n);
+class Columns {
+  public:
+    HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane) : block_{block}, lane_{lane} {
+        visible_ = hn::LoadU(Words{}, &block.visible[lane]);
+        alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
+        is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.depth)));
+    }
+    HWY_INLINE void load(const BlockCodes& codes, WordVec (&to)[4]) const {
+        for (std::size_t c = 0; c < 4; ++c) to[c] = hn::LoadU(Words{}, &codes[c][lane_]);
+    }
+    HWY_INLINE void store(const WordVec (&from)[4], BlockCodes& codes) const {
+        for (std::size_t c = 0; c < 4; ++c) hn::StoreU(from[c], Words{}, &codes[c][lane_]);
+    }
+
+    HWY_INLINE void both_ends(BlockCodes& front_codes, BlockCodes& back_codes) const {
+        WordVec front[4], back[4];
+        load(front_codes, front);
+        load(back_codes, back);
+        for (std::uint32_t pass = 0; 2 * pass < block_.depth; ++pass) {
+            const WordMask has_near = hn::Lt(hn::Set(Words{}, 2 * pass), visible_);
+            blend_near(take(row(pass), has_near), has_near, front);
+            if (2 * pass + 1 == block_.depth) break;  // no column has a far one any more
+            const WordMask has_far = hn::Lt(hn::Set(Words{}, 2 * pass + 1), visible_);
+            const WordVec place = is_full_ ? row(block_.depth - 1 - pass) : far_places(pass, has_far);
+            blend_far(take(place, has_far), back);
+        }
+        store(front, front_codes);
+        store(back, back_codes);
+    }
+
+    HWY_INLINE void front_alone(BlockCodes& front_codes) const {
+        WordVec front[4];
+        load(front_codes, front);
+        for (std::uint32_t pass = 0; pass < block_.depth; ++pass)
+            blend_front(take(row(pass), hn::Lt(hn::Set(Words{}, pass), visible_)), front);
+        store(front, front_codes);
+    }
+
+  private:
+    struct Color {
+        FloatVec channel[4];
+    };
+
+    HWY_INLINE WordVec row(std::size_t k) const {
+        WordVec place, key;
+        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.rows + k * block_lanes + lane_), place, key);
+        return place;
+    }
+    HWY_INLINE WordVec far_places(std::uint32_t pass, WordMask has) const {
+        const Words d;
+        const WordVec row = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
+        const WordVec column = hn::Add(hn::Set(d, static_cast<std::uint32_t>(lane_)), hn::Iota(d, 0));
+        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(row), column));
+        return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.rows), hn::BitCast(Signed{}, word));
+    }
+
+    // take_row: with gathers, or where the places follow each other, without.
+    HWY_INLINE Color take(WordVec place, WordMask has) const {
+        const Words d;
+        const Floats df;
+        place = hn::IfThenElseZero(has, place);
+        const std::uint32_t first = hn::GetLane(place);
+        const bool is_run = hn::AllTrue(d, hn::Eq(place, hn::Add(hn::Set(d, first), hn::Iota(d, 0))));
+        Color color;
+        for (std::size_t c = 0; c < 4; ++c) {
+            color.channel[c] = is_run ? hn::LoadU(df, block_.color[c] + first)
+                                      : hn::GatherIndex(df, block_.color[c], hn::BitCast(Signed{}, place));
+            color.channel[c] = hn::IfThenElseZero(hn::RebindMask(df, has), color.channel[c]);
+        }
+        return color;
+    }
+
+    HWY_INLINE void blend_near(const Color& color, WordMask has, WordVec (&front)[4]) const {
+        const FloatVec one = hn::Set(Floats{}, 1.0f), alpha = color.channel[3];
+        const FloatVec let_through = hn::Sub(one, value_of(front[3]));
+        const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
+        const WordMask others = hn::Ne(alive_, own);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const FloatVec under = c == 3 ? hn::Sub(one, hn::Mul(let_through, hn::Sub(one, alpha)))
+                                          : hn::Add(value_of(front[c]), hn::Mul(let_through, hn::Mul(alpha, color.channel[c])));
+            front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(under)));
+        }
+    }
+
+    HWY_INLINE static void blend_far(const Color& color, WordVec (&back)[4]) {
+        const WordVec code = code_of(color.channel[3]);
+        const WordMask is_there = hn::Ne(code, hn::Zero(Words{}));
+        const FloatVec alpha = float_of(code), rest = hn::Sub(hn::Set(Floats{}, 255.0f), alpha);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const WordVec over = blended<rounding>(float_of(code_of(color.channel[c])), alpha, float_of(back[c]), rest);
+            back[c] = hn::IfThenElse(is_there, over, back[c]);
+        }
+    }
+
+    HWY_INLINE static void blend_front(const Color& color, WordVec (&front)[4]) {
+        const FloatVec all = hn::Set(Floats{}, 255.0f), let_through = float_of(front[3]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const WordVec source = code_of(hn::Mul(color.channel[c], color.channel[3]));
+            front[c] = blended<rounding>(float_of(source), let_through, float_of(front[c]), all);
+        }
+        const FloatVec alpha = float_of(code_of(color.channel[3]));
+        front[3] = blended<rounding>(alpha, hn::Zero(Floats{}), let_through, hn::Sub(all, alpha));
+    }
+
+    const ColumnBlock& block_;
+    std::size_t lane_;
+    WordVec visible_, alive_;
+    bool is_full_;
+};
+
+void both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
+    using enum pipeline::BlendRounding;
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+        if (rounding == nearest) Columns<nearest>{block, lane}.both_ends(front, back);
+        else Columns<truncate>{block, lane}.both_ends(front, back);
+}
+
+void front_alone(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
+    using enum pipeline::BlendRounding;
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+        if (rounding == nearest) Columns<nearest>{block, lane}.front_alone(front);
+        else Columns<truncate>{block, lane}.front_alone(front);
+}
+
+void codes(const std::uint32_t* words, BlockCodes& out) {
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
+        const WordVec word = hn::LoadU(Words{}, words + lane);
+        for (int c = 0; c < 4; ++c)
+            hn::StoreU(hn::And(hn::ShiftRightSame(word, 8 * c), hn::Set(Words{}, 0xffu)), Words{}, &out[static_cast<std::size_t>(c)][lane]);
     }
 }
 
-void both_ends(PeelBlock& block, pipeline::BlendRounding rounding, std::size_t n) {
-    using enum pipeline::BlendRounding;
-    if (rounding == nearest) both_ends_rounded<nearest>(block, n);
-    else both_ends_rounded<truncate>(block, n);
-}
-
-void front(PeelBlock& block, pipeline::BlendRounding rounding, std::size_t n) {
-    using enum pipeline::BlendRounding;
-    if (rounding == nearest) front_rounded<nearest>(block, n);
-    else front_rounded<truncate>(block, n);
+void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
+    const Words d;
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
+        const FloatVec alpha = value_of(hn::LoadU(d, &front[3][lane]));
+        const FloatVec let_through = meaning == FrontAlpha::covers ? hn::Sub(hn::Set(Floats{}, 1.0f), alpha) : alpha;
+        WordVec word = hn::Set(d, 0xff000000u);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const FloatVec behind = hn::Mul(let_through, value_of(hn::LoadU(d, &back[c][lane])));
+            const WordVec code = code_of(hn::Add(value_of(hn::LoadU(d, &front[c][lane])), behind));
+            word = hn::Or(word, hn::ShiftLeftSame(code, static_cast<int>(8 * c)));
+        }
+        hn::StoreU(word, d, words + lane);
+    }
 }
 
 }  // namespace strata::peeling::HWY_NAMESPACE
@@ -72,20 +208,34 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace strata::peeling {
 HWY_EXPORT(both_ends);
-HWY_EXPORT(front);
+HWY_EXPORT(front_alone);
+HWY_EXPORT(codes);
+HWY_EXPORT(last_quad);
 
-void peel_both_ends(PeelBlock& block, pipeline::BlendRounding rounding) {
+void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
-    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(both_ends)(block, rounding, block_lanes);
-    if (rounding == nearest) scalar::peel_both_ends<nearest>(block, block_lanes);
-    else scalar::peel_both_ends<truncate>(block, block_lanes);
+    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(both_ends)(block, front, back, rounding);
+    if (rounding == nearest) scalar::peel_both_ends<nearest>(block, front, back);
+    else scalar::peel_both_ends<truncate>(block, front, back);
 }
 
-void peel_front(PeelBlock& block, pipeline::BlendRounding rounding) {
+void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
-    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(front)(block, rounding, block_lanes);
-    if (rounding == nearest) scalar::peel_front<nearest>(block, block_lanes);
-    else scalar::peel_front<truncate>(block, block_lanes);
+    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(front_alone)(block, front, rounding);
+    if (rounding == nearest) scalar::peel_front<nearest>(block, front);
+    else scalar::peel_front<truncate>(block, front);
+}
+
+BlockCodes codes_of(const std::uint32_t* words) {
+    BlockCodes result;
+    if (simd_is_scalar()) scalar::codes_of(words, result);
+    else HWY_DYNAMIC_DISPATCH(codes)(words, result);
+    return result;
+}
+
+void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
+    if (simd_is_scalar()) return scalar::composite(front, back, meaning, words);
+    HWY_DYNAMIC_DISPATCH(last_quad)(front, back, meaning, words);
 }
 
 }  // namespace strata::peeling

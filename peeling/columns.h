@@ -1,16 +1,14 @@
-// peeling/columns.h - the visible fragments of a band of pixels, every pixel's in a column of its own, sorted near to far.
+// peeling/columns.h - the visible fragments of a region, every pixel's in a column of its own, sorted near to far.
 //
 // Rule     A fragment is visible if its key lies before the opaque surface's. Columns are sorted by (key, arrival): of equal keys
 //          the first in submission order stands first.
-// Layout   Sixteen neighbouring columns are a block; row k of a block holds the k-th fragment of each of its pixels, so that
-//          sorting and blending run over sixteen columns at once. Two walks over the triangles, one that counts and one that
-//          places: memory is known before it is taken.
+// Layout   Sixteen neighbouring columns are a block, so that sorting and blending run over sixteen columns at once. A block lives
+//          while it is visited; what it is made from stands in arrivals.h.
 // Tests    tests/peeling/columns_test.cpp
 #pragma once
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <span>
 
 #include "pipeline/region.h"
 
@@ -18,44 +16,41 @@ namespace strata::peeling {
 
 inline constexpr std::size_t block_lanes = 16;
 
+using LaneWords = std::array<std::uint32_t, block_lanes>;
+
 struct ColumnBlock {
-    std::size_t first = 0;    // slot of row 0, lane 0
-    std::uint32_t depth = 0;  // rows in use
-    bool has_ties = false;    // some column holds a depth twice
-};
+    std::size_t first = 0;      // its first pixel in the region
+    int count = 0;              // its pixels; the columns behind the region's last pixel are empty
+    std::uint32_t depth = 0;    // rows: of the highest column
+    LaneWords visible{};        // heights
+    LaneWords hidden{};         // fragments at the opaque surface or behind it
+    LaneWords at_surface{};     // of these, the ones exactly at it
+    LaneWords has_ties{};       // not 0: a depth stands twice in the column
+    const std::uint64_t* rows = nullptr;  // rows of sixteen: the key above, below it where the colour stands; ~0 above a column's end
+    std::array<const float*, 4> color{};
 
-// Slot first + k * block_lanes + lane of a block: the k-th arrival of its pixel in `color`, its k-th nearest fragment in `key` and
-// `order`.
-struct Columns {
-    rasterizer::Rect band;
-    std::span<ColumnBlock> blocks;
-    std::span<std::uint32_t> visible;     // by pixel of the band, padded to whole blocks
-    std::span<std::uint32_t> alive;       // the same, with those behind the opaque surface
-    std::span<std::uint32_t> at_surface;  // the same, of the latter those exactly at it
-    std::span<std::uint32_t> key;         // a slot; ~0 below a column's end
-    std::span<std::uint16_t> order;       // a slot: which arrival stands there
-    std::array<std::span<float>, 4> color;
-
-    [[nodiscard]] std::size_t pixels() const noexcept { return band.area(); }
-    [[nodiscard]] std::size_t slot(std::size_t pixel, std::size_t k) const noexcept {
-        return blocks[pixel / block_lanes].first + k * block_lanes + pixel % block_lanes;
+    [[nodiscard]] std::uint32_t key(std::size_t lane, std::size_t k) const noexcept {
+        return static_cast<std::uint32_t>(rows[k * block_lanes + lane] >> 32);
     }
-    // Where the k-th nearest fragment of a pixel has its colour.
-    [[nodiscard]] std::size_t sorted(std::size_t pixel, std::size_t k) const noexcept {
-        return slot(pixel, order[slot(pixel, k)]);
+    [[nodiscard]] std::uint32_t place(std::size_t lane, std::size_t k) const noexcept {
+        return static_cast<std::uint32_t>(rows[k * block_lanes + lane]);
+    }
+    [[nodiscard]] bool has_any_tie() const noexcept {
+        std::uint32_t any = 0;
+        for (const std::uint32_t tied : has_ties) any |= tied;
+        return any != 0;
     }
 };
 
 struct RegionFragments {
     std::uint64_t rasterized = 0, masked = 0;
+    std::uint32_t nearest = ~0u;  // the least visible key
+    bool has_denormals = false;   // some visible shader_z is one
 };
 
-// Splits the region into bands whose fragments fit into a cache and calls body(columns) with each, from top to bottom. Empty,
-// and nothing called, if they would not fit into the frame's fragment memory.
-[[nodiscard]] std::optional<RegionFragments> for_each_band(pipeline::Region& region,
-                                                           const std::function<void(const Columns&)>& body);
-
-// Sorts the first `depth` rows of sixteen columns, each on its own, ascending (Batcher's merge exchange: Knuth 5.2.2 M).
-void sort_columns(std::uint64_t* rows, std::size_t depth);
+// Calls visit(block) for every block with a fragment in it, from the region's first pixels to its last. Empty, and
+// nothing visited, if the fragments would not fit into the frame's fragment memory.
+[[nodiscard]] std::optional<RegionFragments> for_each_block(pipeline::Region& region,
+                                                            const std::function<void(const ColumnBlock&)>& visit);
 
 }  // namespace strata::peeling

@@ -3,8 +3,7 @@
 // Needs      STRATA_depth_units, an emulator extension: no device had sequential depth units.
 // Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order stays.
 // Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has none.
-#include <vector>
-
+#include "peeling/layer_quads.h"
 #include "peeling/programs.h"
 #include "peeling/runs.h"
 
@@ -34,30 +33,10 @@ Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool fir
     });
 }
 
-// Layers far to near with OVER, straight colours; a layer's depth says where it has a fragment.
-void composite(Region& region, const std::vector<Target>& layers, const std::vector<Target>& depths, Target result) {
-    for (std::size_t layer = layers.size(); layer-- > 0;) {
-        region.count_with(static_cast<int>(layer) + 1);
-        PassState state;
-        state.color[0] = result;
-        state.blend[0] = blend_mode::over;
-        state.blend[0].write_mask = 0x7;  // the final alpha stays 1
-        state.reads = {layers[layer], depths[layer], region.opaque_depth()};
-        static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            out.color[0] = own.color(0);
-            out.traced = true;
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? Side::back : Side::none;
-                out.key[i] = own.depth(1)[i];
-            }
-        }));
-    }
-}
-
 }  // namespace
 
 void depth_units(Region& region) {
-    std::vector<Target> layers, depths;
+    SavedLayers layers;
     Target peeled;
     while (!region.limit_reached()) {
         region.begin_iteration();
@@ -65,16 +44,16 @@ void depth_units(Region& region) {
         const Target nearest = region.make_depth();
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
-        const Drawn drawn = peel(region, peeled, nearest, layer, layers.empty());
-        layers.push_back(layer);
-        depths.push_back(nearest);
+        const Drawn drawn = peel(region, peeled, nearest, layer, layers.color.empty());
+        layers.color.push_back(layer);
+        layers.depth.push_back(nearest);
         peeled = nearest;
-        if (!region.any(drawn.passed, promise(region.frame(), Idle::when_zero))) break;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
         region.keep_layer(layer, nearest);
     }
     const Target result = region.make_color();
     region.copy(region.opaque_color(), result);
-    composite(region, layers, depths, result);
+    composite_quads(region, layers, result);
     region.publish(result);
 }
 

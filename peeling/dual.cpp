@@ -7,7 +7,6 @@
 //            back = what lies behind far, over the background.
 #include <utility>
 
-#include "peeling/front_and_back.h"
 #include "peeling/min_max.h"
 #include "peeling/runs.h"
 
@@ -74,9 +73,8 @@ void trace_peel(Region& region, const DualTargets& t) {
         });
 }
 
-}  // namespace
-
-void publish_front_and_back(Region& region, Target front, Target back) {
+// The front over the back, alpha 1; the front's alpha is 1 - transmittance (algorithms.md 5).
+void publish(Region& region, Target front, Target back) {
     const Target result = region.make_color();
     PassState state;
     state.color[0] = result;
@@ -84,11 +82,13 @@ void publish_front_and_back(Region& region, Target front, Target back) {
     static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = own.color(0)[c][i] + (1.0f - own.color(0)[3][i]) * own.color(1)[c][i];
+                out.color[0][c][i] = composited(own.color(0)[c][i], 1.0f - own.color(0)[3][i], own.color(1)[c][i]);
         for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
     }));
     region.publish(result);
 }
+
+}  // namespace
 
 void dual(Region& region) {
     const auto rg = Format::rg32f;
@@ -106,9 +106,9 @@ void dual(Region& region) {
         std::swap(t.min_max, t.next_min_max);
         std::swap(t.front, t.next_front);
         // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
-        if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, promise(region.frame(), Idle::steady)))) break;
+        if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::steady))) break;
     }
-    publish_front_and_back(region, t.front, t.back);
+    publish(region, t.front, t.back);
 }
 
 }  // namespace strata::peeling

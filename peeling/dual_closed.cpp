@@ -5,9 +5,9 @@
 // Ties       a depth is one group: MAX over its fragments' blends, and over the front that every other fragment passes through.
 // Invariant  before pass i, [near, far) are the fragments between the depths already peeled.
 #include <algorithm>
+#include <numeric>
 
 #include "peeling/closed_form.h"
-#include "peeling/front_and_back.h"
 #include "peeling/min_max.h"
 #include "pipeline/blend.h"
 #include "pipeline/convert.h"
@@ -23,18 +23,18 @@ struct DepthGroup {
     Lanes<std::uint32_t> begin, end;
 };
 
-// The course of up to sixteen neighbouring pixels, pass after pass.
+// The course of some pixels of a block, pass after pass.
 class GroupPeel {
   public:
-    GroupPeel(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region,
-              const BlockCodes& opaque)
-        : region_{region}, columns_{columns}, group_{group}, first_{first_in_region}, n_{static_cast<std::size_t>(group.count)} {
+    GroupPeel(Region& region, const ColumnBlock& block, const BlockPixels& pixels, const BlockCodes& opaque)
+        : region_{region}, block_{block}, lane_{pixels.lane}, n_{pixels.count} {
         for (std::size_t i = 0; i < n_; ++i) {
             near_[i] = 0;
-            far_[i] = columns.visible[group.first + i];
+            far_[i] = block.visible[lane_[i]];
         }
         for (auto& channel : front_) std::fill_n(channel.begin(), n_, 0u);
-        for (std::size_t c = 0; c < 4; ++c) std::copy_n(opaque[c].begin(), n_, back_[c].begin());
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) back_[c][i] = opaque[c][lane_[i]];
     }
 
     // False once every pixel is done.
@@ -45,16 +45,15 @@ class GroupPeel {
         return true;
     }
     void result(BlockCodes& front, BlockCodes& back) const {
-        for (std::size_t c = 0; c < 4; ++c) {
-            std::copy_n(front_[c].begin(), n_, front[c].begin());
-            std::copy_n(back_[c].begin(), n_, back[c].begin());
-        }
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) {
+                front[c][lane_[i]] = front_[c][i];
+                back[c][lane_[i]] = back_[c][i];
+            }
     }
 
   private:
-    [[nodiscard]] std::uint32_t key(std::size_t i, std::uint32_t k) const noexcept {
-        return columns_.key[columns_.slot(group_.first + i, k)];
-    }
+    [[nodiscard]] std::uint32_t key(std::size_t i, std::uint32_t k) const noexcept { return block_.key(lane_[i], k); }
 
     [[nodiscard]] bool next_groups() {
         bool any = false;
@@ -83,7 +82,7 @@ class GroupPeel {
 
     void trace(std::size_t i, std::uint32_t k, Side side) {
         if (!region_.frame().trace) return;
-        region_.trace({static_cast<std::uint32_t>(first_ + i), key(i, k), 0, side, false});
+        region_.trace({static_cast<std::uint32_t>(block_.first + lane_[i]), key(i, k), 0, side, false});
     }
 
     // The colours of the groups' `member`-th fragments; false if no group has so many.
@@ -92,8 +91,9 @@ class GroupPeel {
         for (std::size_t i = 0; i < n_; ++i) {
             near_place_.is_near[i] = group.begin[i] + member < group.end[i] ? ~0u : 0u;
             any |= near_place_.is_near[i] != 0;
-            const std::size_t slot = near_place_.is_near[i] != 0 ? columns_.sorted(group_.first + i, group.begin[i] + member) : 0;
-            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = near_place_.is_near[i] != 0 ? columns_.color[c][slot] : 0.0f;
+            const bool has = near_place_.is_near[i] != 0;
+            const std::size_t place = has ? block_.place(lane_[i], group.begin[i] + member) : 0;
+            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? block_.color[c][place] : 0.0f;
         }
         return any;
     }
@@ -101,17 +101,17 @@ class GroupPeel {
     // blended = MAX over what it holds and the codes of `values`, where the group has this member.
     void max_into(const ColorLanes& values, ColorCodes& blended) {
         for (std::size_t c = 0; c < 4; ++c) {
-            encode(ChannelType::unorm8, region_.profile().half_rounding, values[c], codes_, group_.count);
+            encode(ChannelType::unorm8, region_.profile().half_rounding, values[c], codes_, static_cast<int>(n_));
             for (std::size_t i = 0; i < n_; ++i) blended[c][i] = std::max(blended[c][i], codes_[i] & near_place_.is_near[i]);
         }
     }
 
     void blend_front() {
         for (std::size_t c = 0; c < 4; ++c) {
-            decode(ChannelType::unorm8, front_[c], front_values_[c], group_.count);
+            decode(ChannelType::unorm8, front_[c], front_values_[c], static_cast<int>(n_));
             for (std::size_t i = 0; i < n_; ++i) {
                 const std::uint32_t in_group = near_group_.end[i] - near_group_.begin[i];
-                const bool passes_through = columns_.alive[group_.first + i] > in_group;
+                const bool passes_through = block_.visible[lane_[i]] + block_.hidden[lane_[i]] > in_group;
                 front_[c][i] = passes_through ? front_[c][i] : 0u;
             }
         }
@@ -124,7 +124,7 @@ class GroupPeel {
     void blend_back() {
         for (auto& channel : dump_) std::fill_n(channel.begin(), n_, 0u);
         for (std::uint32_t member = 0; take(far_group_, member); ++member) max_into(color_, dump_);
-        for (std::size_t c = 0; c < 4; ++c) decode(ChannelType::unorm8, dump_[c], color_[c], group_.count);
+        for (std::size_t c = 0; c < 4; ++c) decode(ChannelType::unorm8, dump_[c], color_[c], static_cast<int>(n_));
         ColorCodes& over = blended_codes_;
         over = back_;
         static constexpr Blend colors_only = [] {
@@ -132,15 +132,15 @@ class GroupPeel {
             b.write_mask = 0x7;  // BACK has no alpha of its own
             return b;
         }();
-        blend(colors_only, ChannelType::unorm8, region_.profile(), 4, color_, over, group_.count);
+        blend(colors_only, ChannelType::unorm8, region_.profile(), 4, color_, over, static_cast<int>(n_));
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < n_; ++i) back_[c][i] = dump_[3][i] != 0 ? over[c][i] : back_[c][i];
     }
 
     Region& region_;
-    const Columns& columns_;
-    PixelGroup group_;
-    std::size_t first_, n_;
+    const ColumnBlock& block_;
+    std::array<std::size_t, block_lanes> lane_;
+    std::size_t n_;
     Lanes<std::uint32_t> near_, far_, codes_;
     PeelLanes near_place_{};  // is_near: the group has the member that `take` took
     DepthGroup near_group_, far_group_;
@@ -149,80 +149,67 @@ class GroupPeel {
 };
 
 // What MAX blending of (-z, z) onto (-1, -1) would not keep.
-bool has_foreign_depths(const Columns& columns, const DeviceProfile& profile) {
-    const std::uint32_t least = ordered_code(-1.0f), zero = ordered_code(0.0f);
-    const std::uint32_t first_normal = ordered_code(0x1p-126f), last_normal = ordered_code(-0x1p-126f);
+bool has_foreign_depths(const RegionFragments& fragments, const DeviceProfile& profile) {
     const bool flushes = profile.denormals == DenormalRule::flush;
-    for (const ColumnBlock& block : columns.blocks)
-        for (std::size_t s = block.first; s < block.first + block.depth * block_lanes; ++s) {
-            const std::uint32_t key = columns.key[s];
-            const bool denormal = key > last_normal && key < first_normal && key != zero;
-            if (key < least || (flushes && denormal)) return true;
-        }
-    return false;
+    return fragments.nearest < ordered_code(-1.0f) || (flushes && fragments.has_denormals);
 }
 
 // Depths of a sorted column.
-std::size_t distinct(const Columns& columns, std::size_t pixel) {
-    std::size_t count = 0;
-    for (std::uint32_t k = 0; k < columns.visible[pixel]; ++k)
-        count += k == 0 || columns.key[columns.slot(pixel, k)] != columns.key[columns.slot(pixel, k - 1)] ? 1 : 0;
+std::uint32_t distinct(const ColumnBlock& block, std::size_t lane) {
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < block.visible[lane]; ++k)
+        count += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
     return count;
 }
 
-struct Course {
-    CodePlanes front, back;
-    std::vector<std::uint64_t> pixels_by_depths;
-    bool declined = false;
+// Pass by pass, the front before the back.
+void trace_pixel(Region& region, const ColumnBlock& block, std::size_t lane) {
+    const std::uint32_t n = block.visible[lane];
+    const auto add = [&](std::uint32_t k, Side side) {
+        region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, side, false});
+    };
+    for (std::uint32_t pass = 0; 2 * pass < n; ++pass) {
+        add(pass, Side::front);
+        if (2 * pass + 1 < n) add(n - 1 - pass, Side::back);
+    }
+}
 
-    void run(Region& region, const Columns& columns) {
-        declined |= has_foreign_depths(columns, region.profile());
-        if (declined) return;
-        for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) {
-            const bool has_ties = columns.blocks[pixel / block_lanes].has_ties;
-            tally(pixels_by_depths, has_ties ? distinct(columns, pixel) : columns.visible[pixel]);
+struct Course {
+    Region& region;
+    const std::uint32_t* opaque;  // words of the region
+    std::uint32_t* result;
+    std::vector<std::uint64_t> pixels_by_depths{};  // rows of sixteen: how many pixels have so many, by lane
+
+    void run(const ColumnBlock& block) {
+        if (block.depth == 0) return;
+        count_depths(block);
+        const BlockCodes opaque_codes = codes_of(opaque + block.first);
+        BlockCodes front{}, back = opaque_codes;
+        peel_both_ends(block, front, back, region.profile().blend_rounding);
+        if (block.has_any_tie()) {
+            GroupPeel peel{region, block, pixels_of(block, true), opaque_codes};
+            while (peel.pass()) {}
+            peel.result(front, back);
         }
-        const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
-                                  static_cast<std::size_t>(region.rect().width());
-        for_each_block(columns, [&](std::size_t number, const PixelGroup& group) {
-            if (columns.blocks[number].depth == 0) return;
-            PeelBlock block = peel_block(columns, number);
-            const std::size_t first = above + group.first;
-            front.load(first, block.front);
-            back.load(first, block.back);
-            if (columns.blocks[number].has_ties) {
-                GroupPeel peel{region, columns, group, first, block.back};
-                while (peel.pass()) {}
-                peel.result(block.front, block.back);
-            } else {
-                peel_both_ends(block, region.profile().blend_rounding);
-                if (region.frame().trace) trace_block(region, columns, group, first);
-            }
-            front.store(first, group.count, block.front);
-            back.store(first, group.count, block.back);
-        });
+        composite_block(front, back, FrontAlpha::covers, result + block.first);
+        if (!region.frame().trace) return;
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
+            if (block.has_ties[lane] == 0) trace_pixel(region, block, lane);
     }
 
-    // Pass by pass, the front before the back.
-    static void trace_block(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(group.count); ++i) {
-            const std::uint32_t n = columns.visible[group.first + i];
-            const auto add = [&](std::uint32_t k, Side side) {
-                const std::uint32_t key = columns.key[columns.slot(group.first + i, k)];
-                region.trace({static_cast<std::uint32_t>(first + i), key, 0, side, false});
-            };
-            for (std::uint32_t pass = 0; 2 * pass < n; ++pass) {
-                add(pass, Side::front);
-                if (2 * pass + 1 < n) add(n - 1 - pass, Side::back);
-            }
-        }
+    // Lane by lane, so that no count waits for the one before it; row 0 is nobody's.
+    void count_depths(const ColumnBlock& block) {
+        if (pixels_by_depths.size() <= (block.depth + 1) * block_lanes) pixels_by_depths.resize((block.depth + 1) * block_lanes);
+        LaneWords depths = block.visible;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            if (block.has_ties[lane] != 0) depths[lane] = distinct(block, lane);
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) ++pixels_by_depths[depths[lane] * block_lanes + lane];
     }
 
     // Pixels that have something left after `passes` peels.
     [[nodiscard]] std::uint64_t left(std::size_t passes) const {
-        std::uint64_t pixels = 0;
-        for (std::size_t depths = 2 * passes + 1; depths < pixels_by_depths.size(); ++depths) pixels += pixels_by_depths[depths];
-        return pixels;
+        const std::size_t first = std::min((2 * passes + 1) * block_lanes, pixels_by_depths.size());
+        return std::accumulate(pixels_by_depths.begin() + static_cast<std::ptrdiff_t>(first), pixels_by_depths.end(), std::uint64_t{0});
     }
 };
 
@@ -247,26 +234,25 @@ bool dual_closed(Region& region) {
     const Frame& frame = region.frame();
     if (!peels_to_the_end(frame) || frame.color_format != Format::rgba8) return false;
     const std::size_t area = region.rect().area();
-    const Target front = region.make_color(), back = region.make_color();  // cleared to 0 by being made
-    Course course{{region, front}, {region, region.opaque_color()}, {}};
+    const Target result = region.make_color();
+    Course course{region, region.words(region.opaque_color()), region.words(result)};
+    for (std::size_t pixel = 0; pixel < area; ++pixel)  // where there is no fragment
+        course.result[pixel] = course.opaque[pixel] | 0xff000000u;
     const std::size_t traced = region.trace().size();
-    const auto fragments = for_each_band(region, [&](const Columns& columns) { course.run(region, columns); });
-    if (!fragments || course.declined) {
+    const auto fragments = for_each_block(region, [&](const ColumnBlock& block) { course.run(block); });
+    if (!fragments || has_foreign_depths(*fragments, region.profile())) {
         region.trace().resize(traced);
         return false;
     }
-    region.clear(front, {.color = {0, 0, 0, 0}});
-    region.copy(region.opaque_color(), back);
-    region.count({.bytes_written = 8 * area}, {});  // the min-max target's clear
+    region.count({.bytes_read = 4 * area, .bytes_written = (4 + 4 + 8) * area}, {.copies = 1});  // front, back, min-max
     region.count(of_initialize(*fragments), {.geometry = 1});
     for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
         region.begin_iteration();
         region.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
         if (!region.any(Region::counted(course.left(passes)), Idle::steady)) break;
     }
-    course.front.write_to(front);
-    course.back.write_to(back);
-    publish_front_and_back(region, front, back);
+    region.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
+    region.publish(result);
     return true;
 }
 

@@ -58,7 +58,7 @@ void dual_independent(Region& region) {
         region.begin_iteration();
         const Drawn drawn = peel(region, min_max, next_min_max, front, back);
         std::swap(min_max, next_min_max);
-        if (!region.any(drawn.passed, promise(region.frame(), Idle::steady))) break;
+        if (!region.any(drawn.passed, Idle::steady)) break;
     }
     publish_over_background(region, front, back);
 }

@@ -63,7 +63,7 @@ void front_to_back(Region& region) {
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, layer, nearest, peeled, first);
         composite_layer(region, layer, nearest, accumulated);
-        if (!region.any(drawn.passed, promise(region.frame(), Idle::when_zero))) break;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
         region.keep_layer(layer, nearest);
         std::swap(peeled, nearest);
     }

@@ -6,10 +6,9 @@
 //            the passes whose threshold lies in [depth of m, depth of f), where m is the farthest of the earlier arrivals that
 //            are not behind f: from no depth at all (pass 1) if there is none.
 #include <algorithm>
-#include <bit>
 
+#include "peeling/arrivals.h"
 #include "peeling/closed_form.h"
-#include "pipeline/arena.h"
 #include "pipeline/blend.h"
 #include "pipeline/convert.h"
 
@@ -31,126 +30,135 @@ struct PassTallies {
     }
 };
 
-// A set of places in a column.
-class PlaceSet {
-  public:
-    void clear(std::size_t places) { words_.assign(places / 64 + 1, 0); }
-    void add(std::size_t place) { words_[place / 64] |= std::uint64_t{1} << (place % 64); }
-    // How many places there are up to the last member before `place`; 0 if there is none.
-    [[nodiscard]] std::size_t before(std::size_t place) const {
-        std::size_t word = place / 64;
-        std::uint64_t bits = words_[word] & ((std::uint64_t{1} << (place % 64)) - 1);
-        while (bits == 0 && word > 0) bits = words_[--word];
-        return bits == 0 ? 0 : word * 64 + static_cast<std::size_t>(std::bit_width(bits));
-    }
-
-  private:
-    std::vector<std::uint64_t> words_;
-};
-
 class ColumnTallies {
   public:
     explicit ColumnTallies(PassTallies& tallies) : tallies_{tallies} {}
 
-    void add(const Columns& columns, std::size_t pixel) {
-        const std::uint32_t n = columns.visible[pixel];
-        if (columns.alive[pixel] == 0) return;
-        tallies_.make_room(n + 2);
-        rank_.resize(n);
-        place_.resize(n);
-        std::uint32_t depths = 0;
-        for (std::uint32_t k = 0; k < n; ++k) {
-            const std::size_t slot = columns.slot(pixel, k);
-            const bool is_new = k == 0 || columns.key[slot] != columns.key[slot - block_lanes];
-            if (is_new && k > 0) tallies_.discarded[depths + 1] += k;  // at or before depth `depths`
-            depths += is_new ? 1 : 0;
-            rank_[k] = depths;
-            place_[columns.order[slot]] = k;
+    void add(const ColumnBlock& block) {
+        tallies_.make_room(block.depth + 2);
+        if (columns_.size() <= block.depth) columns_.resize(block.depth + 1);
+        if (thresholds_.size() <= block.depth * block_lanes) thresholds_.resize((block.depth + 1) * block_lanes);
+        before_.resize(block.depth * block_lanes);
+        find_arrived_before(block, before_.data());
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
+            if (block.has_ties[lane] != 0) {
+                add_tied(block, lane);
+                continue;
+            }
+            const std::uint32_t n = block.visible[lane];
+            ++columns_[n];
+            tallies_.exhausted[n + 2] += block.at_surface[lane];
         }
-        if (n > 0) tallies_.discarded[depths + 1] += n;
-        tallies_.exhausted[depths + 2] += n + columns.at_surface[pixel];
-        add_passed(n);
+        add_untied(block);
+    }
+
+    // What untied columns of n fragments have in common, whatever their order of arrival.
+    void finish() {
+        for (std::size_t n = 0; n < columns_.size(); ++n) {
+            for (std::size_t k = 1; k <= n; ++k) {
+                tallies_.discarded[k + 1] += k * columns_[n];
+                tallies_.no_longer_passed[k + 1] += columns_[n];
+            }
+            tallies_.exhausted[n + 2] += n * columns_[n];
+        }
+        for (std::size_t i = 0; i < thresholds_.size(); ++i) tallies_.first_passed[i / block_lanes + 1] += thresholds_[i];
     }
 
   private:
-    void add_passed(std::uint32_t n) {
-        arrived_.clear(n);
-        for (const std::uint32_t place : place_) {
-            const std::size_t before = arrived_.before(place);
+    // Without branches, and lane by lane, so that no count waits for the one before it.
+    void add_untied(const ColumnBlock& block) {
+        LaneWords heights;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) heights[lane] = block.has_ties[lane] != 0 ? 0 : block.visible[lane];
+        for (std::uint32_t k = 0; k < block.depth; ++k)
+            for (std::size_t lane = 0; lane < block_lanes; ++lane)
+                thresholds_[before_[k * block_lanes + lane] * block_lanes + lane] += k < heights[lane] ? 1 : 0;
+    }
+
+    void add_tied(const ColumnBlock& block, std::size_t lane) {
+        const std::uint32_t n = block.visible[lane];
+        rank_.resize(n);
+        std::uint32_t depths = 0;
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const bool is_new = k == 0 || block.key(lane, k) != block.key(lane, k - 1);
+            if (is_new && k > 0) tallies_.discarded[depths + 1] += k;  // at or before depth `depths`
+            depths += is_new ? 1 : 0;
+            rank_[k] = depths;
+        }
+        tallies_.discarded[depths + 1] += n;
+        tallies_.exhausted[depths + 2] += n + block.at_surface[lane];
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const std::uint32_t before = before_[k * block_lanes + lane];
             const std::uint32_t threshold = before > 0 ? rank_[before - 1] : 0;
-            arrived_.add(place);
-            if (threshold == rank_[place]) continue;
+            if (threshold == rank_[k]) continue;
             ++tallies_.first_passed[threshold + 1];
-            ++tallies_.no_longer_passed[rank_[place] + 1];
+            ++tallies_.no_longer_passed[rank_[k] + 1];
         }
     }
 
     PassTallies& tallies_;
-    std::vector<std::uint32_t> rank_, place_;  // by place in the column; by arrival
-    PlaceSet arrived_;
+    std::vector<std::uint64_t> columns_;     // untied ones, by height
+    std::vector<std::uint64_t> thresholds_;  // of their fragments, rows of sixteen, by lane: how many begin to pass after so many depths
+    std::vector<std::uint32_t> before_;   // by place in the block
+    std::vector<std::uint32_t> rank_;     // by place in a column: its depth, from 1
 };
 
-// Composites the layers of up to sixteen neighbouring pixels as `peel` and `composite` do: stored, loaded, blended UNDER.
+void trace_layer(Region& region, const ColumnBlock& block, std::size_t lane, std::uint32_t k) {
+    if (!region.frame().trace) return;
+    region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, Side::front, false});
+}
+
+// Composites the layers of some pixels of a block as `peel` and `composite` do: stored, loaded, blended UNDER.
 class GroupComposite {
   public:
-    GroupComposite(Region& region, const Columns& columns, const PixelGroup& group, std::size_t first_in_region)
-        : region_{region}, columns_{columns}, group_{group}, first_{first_in_region}, n_{static_cast<std::size_t>(group.count)} {
+    GroupComposite(Region& region, const ColumnBlock& block, const BlockPixels& pixels)
+        : region_{region}, block_{block}, lane_{pixels.lane}, n_{pixels.count} {
         std::fill_n(next_.begin(), n_, 0u);
     }
 
     // The last layer is an empty one, as in the last pass.
-    void run(BlockCodes& block) {
+    void run(BlockCodes& codes) {
         const Format format = region_.frame().color_format;
+        const auto count = static_cast<int>(n_);
         ColorCodes accumulated;
-        for (std::size_t c = 0; c < 4; ++c) std::copy_n(block[c].begin(), n_, accumulated[c].begin());
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) accumulated[c][i] = codes[c][lane_[i]];
         for (bool any = true; any;) {
             any = take_layer();
             for (std::size_t c = 0; c < 4; ++c) {
-                encode(info(format).type, region_.profile().half_rounding, layer_[c], codes_, group_.count);
-                decode(info(format).type, codes_, layer_[c], group_.count);
+                encode(info(format).type, region_.profile().half_rounding, layer_[c], codes_, count);
+                decode(info(format).type, codes_, layer_[c], count);
             }
-            blend(blend_mode::under, info(format).type, region_.profile(), 4, layer_, accumulated, group_.count);
+            blend(blend_mode::under, info(format).type, region_.profile(), 4, layer_, accumulated, count);
         }
-        for (std::size_t c = 0; c < 4; ++c) std::copy_n(accumulated[c].begin(), n_, block[c].begin());
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) codes[c][lane_[i]] = accumulated[c][i];
     }
 
   private:
     [[nodiscard]] bool take_layer() {
         bool any = false;
         for (std::size_t i = 0; i < n_; ++i) {
-            const std::size_t pixel = group_.first + i;
-            const std::uint32_t k = next_[i], end = columns_.visible[pixel];
+            const std::size_t lane = lane_[i];
+            const std::uint32_t k = next_[i], end = block_.visible[lane];
             const bool has = k < end;
-            const std::size_t slot = has ? columns_.sorted(pixel, k) : 0;
-            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? columns_.color[c][slot] : 0.0f;
+            const std::size_t place = has ? block_.place(lane, k) : 0;
+            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? block_.color[c][place] : 0.0f;
             if (!has) continue;
             any = true;
-            const std::uint32_t key = columns_.key[columns_.slot(pixel, k)];
-            if (region_.frame().trace) region_.trace({static_cast<std::uint32_t>(first_ + i), key, 0, Side::front, false});
-            while (next_[i] < end && columns_.key[columns_.slot(pixel, next_[i])] == key) ++next_[i];
+            trace_layer(region_, block_, lane, k);
+            while (next_[i] < end && block_.key(lane, next_[i]) == block_.key(lane, k)) ++next_[i];
         }
         premultiply(color_, layer_, n_);
         return any;
     }
 
     Region& region_;
-    const Columns& columns_;
-    PixelGroup group_;
-    std::size_t first_, n_;
+    const ColumnBlock& block_;
+    std::array<std::size_t, block_lanes> lane_;
+    std::size_t n_;
     Lanes<std::uint32_t> next_, codes_;
     ColorLanes color_, layer_;
 };
-
-// The same where no column has equal depths.
-void peel_layers(Region& region, const Columns& columns, PeelBlock& block, const PixelGroup& group, std::size_t first) {
-    peel_front(block, region.profile().blend_rounding);
-    if (!region.frame().trace) return;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(group.count); ++i)
-        for (std::uint32_t k = 0; k < block.visible[i]; ++k) {
-            const std::uint32_t key = columns.key[columns.slot(group.first + i, k)];
-            region.trace({static_cast<std::uint32_t>(first + i), key, 0, Side::front, false});
-        }
-}
 
 // What the accumulated colour is cleared to, (0, 0, 0, 1), as codes.
 BlockCodes cleared(const Region& region) {
@@ -199,40 +207,111 @@ class PassCounters {
     std::uint64_t passed_ = 0, exhausted_ = 0;
 };
 
-}  // namespace
+// The blocks of an rgba8 frame, from fragments to the last quad.
+class Rgba8Blocks {
+  public:
+    explicit Rgba8Blocks(Region& region)
+        : region_{region}, target_{region.make_color()}, background_{region.words(region.opaque_color())},
+          result_{region.words(target_)}, before_{cleared(region)} {
+        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
+            result_[pixel] = background_[pixel] | 0xff000000u;
+    }
 
-bool front_to_back_closed(Region& region) {
-    if (!peels_to_the_end(region.frame())) return false;
-    PassTallies tallies;
-    ColumnTallies pixel_tallies{tallies};
-    const Target accumulated = region.make_color();
-    CodePlanes planes{region, accumulated};
-    const bool rgba8 = region.frame().color_format == Format::rgba8;
-    const BlockCodes before = cleared(region);
-    const auto fragments = for_each_band(region, [&](const Columns& columns) {
-        for (std::size_t pixel = 0; pixel < columns.pixels(); ++pixel) pixel_tallies.add(columns, pixel);
-        const std::size_t above = static_cast<std::size_t>(columns.band.y0 - region.rect().y0) *
-                                  static_cast<std::size_t>(region.rect().width());
-        for_each_block(columns, [&](std::size_t number, const PixelGroup& group) {
-            PeelBlock block = peel_block(columns, number);
-            const std::size_t first = above + group.first;
-            block.front = before;
-            if (rgba8 && !columns.blocks[number].has_ties) peel_layers(region, columns, block, group, first);
-            else GroupComposite{region, columns, group, first}.run(block.front);
-            planes.store(first, group.count, block.front);
-        });
-    });
-    if (!fragments) return false;
-    region.clear(accumulated, {.color = {0, 0, 0, 1}});
-    planes.write_to(accumulated);
-    PassCounters counters{region, *fragments, tallies};
+    void add(const ColumnBlock& block) {
+        BlockCodes front = before_;
+        peel_front(block, front, region_.profile().blend_rounding);
+        if (block.has_any_tie()) {
+            const BlockPixels tied = pixels_of(block, true);
+            for (std::size_t i = 0; i < tied.count; ++i)
+                for (std::size_t c = 0; c < 4; ++c) front[c][tied.lane[i]] = before_[c][tied.lane[i]];
+            GroupComposite{region_, block, tied}.run(front);
+        }
+        composite_block(front, codes_of(background_ + block.first), FrontAlpha::lets_through, result_ + block.first);
+        if (!region_.frame().trace) return;
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
+            for (std::uint32_t k = 0; k < block.visible[lane] && block.has_ties[lane] == 0; ++k)
+                trace_layer(region_, block, lane, k);
+    }
+
+    void publish() {
+        const std::uint64_t area = region_.rect().area();
+        region_.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
+        region_.publish(target_);
+    }
+
+  private:
+    Region& region_;
+    Target target_;
+    const std::uint32_t* background_;
+    std::uint32_t* result_;
+    BlockCodes before_;
+};
+
+// The same in every other format, by the passes' own functions.
+class OtherBlocks {
+  public:
+    explicit OtherBlocks(Region& region) : region_{region}, accumulated_{region.make_color()}, before_{cleared(region)} {
+        fill();
+    }
+
+    void add(const ColumnBlock& block) {
+        BlockCodes codes = before_;
+        GroupComposite{region_, block, pixels_of(block, false)}.run(codes);
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(codes[c].begin(), block.count, codes_[c].begin());
+        region_.store_pixels(accumulated_, static_cast<std::uint32_t>(block.first), block.count, codes_);
+    }
+
+    // Not a clear: nothing is counted before it is sure that this form applies.
+    void fill() {
+        const std::size_t pixels = region_.rect().area();
+        for (std::size_t c = 0; c < 4; ++c) codes_[c].fill(before_[c][0]);
+        for (std::size_t first = 0; first < pixels; first += batch_capacity)
+            region_.store_pixels(accumulated_, static_cast<std::uint32_t>(first),
+                                 static_cast<int>(std::min<std::size_t>(pixels - first, batch_capacity)), codes_);
+    }
+
+    void publish() { publish_over_background(region_, accumulated_, region_.opaque_color()); }
+
+  private:
+    Region& region_;
+    Target accumulated_;
+    BlockCodes before_;
+    ColorCodes codes_;
+};
+
+void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
+    PassCounters counters{region, fragments, tallies};
     for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
         region.begin_iteration();
         region.count(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
         if (!region.any(Region::counted(counters.passed()), Idle::when_zero)) break;
     }
-    publish_over_background(region, accumulated, region.opaque_color());
+}
+
+template <class Blocks>
+bool composite_layers(Region& region) {
+    PassTallies tallies;
+    ColumnTallies columns{tallies};
+    Blocks blocks{region};
+    const auto fragments = for_each_block(region, [&](const ColumnBlock& block) {
+        columns.add(block);
+        blocks.add(block);
+    });
+    if (!fragments) return false;
+    columns.finish();
+    const auto color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
+    region.count({.bytes_written = color * region.rect().area()}, {});  // the accumulated colour's clear
+    count_passes(region, *fragments, tallies);
+    blocks.publish();
     return true;
+}
+
+}  // namespace
+
+bool front_to_back_closed(Region& region) {
+    if (!peels_to_the_end(region.frame())) return false;
+    if (region.frame().color_format == Format::rgba8) return composite_layers<Rgba8Blocks>(region);
+    return composite_layers<OtherBlocks>(region);
 }
 
 }  // namespace strata::peeling

@@ -18,6 +18,10 @@ bool is_quotient(std::optional<rasterizer::DepthPath> path) {
 
 }  // namespace
 
+bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
+    return is_quotient(depth.path) || is_quotient(depth.reference);
+}
+
 PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
     static_cast<void>(transparent(ListOrder::given));
     const bool has_opaque = !s_.options.alpha && std::any_of(s_.list.materials.begin(), s_.list.materials.end(), [](const Material& m) {
@@ -38,11 +42,15 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
 }
 
 PrepareOptions PreparedLists::prepare_options(Selection selection) const {
-    return {.selection = selection,
-            .alpha_scale = s_.options.alpha.value_or(1.0f),
-            .depth_quotient = is_quotient(s_.depth.path) || is_quotient(s_.depth.reference),
-            .tile_size = s_.options.tile_size,
-            .threads = s_.options.threads};
+    PrepareOptions options{.selection = selection,
+                           .alpha_scale = s_.options.alpha.value_or(1.0f),
+                           .depth_quotient = takes_quotient(s_.depth),
+                           .tile_size = s_.options.tile_size,
+                           .threads = s_.options.threads};
+    if (s_.light == nullptr) return options;
+    options.units = shadow_units(*s_.list.light, s_.view.view, s_.light->state, s_.profile);
+    options.receives_shadow = true;
+    return options;
 }
 
 Selection PreparedLists::transparent_selection() const {
@@ -67,7 +75,9 @@ void PreparedLists::prepare_second() {
     const bool differs = other.vertex_path != s_.view.vertex_path || o.second_list != nullptr || clamped != s_.raster;
     if (!differs) return;
     const DrawList& split = o.second_list != nullptr ? *o.second_list : s_.list;
-    second_ = prepare(split, other, clamped, prepare_options(transparent_selection()));
+    PrepareOptions ordered = prepare_options(transparent_selection());
+    ordered.order = ordering(ListOrder::given);
+    second_ = prepare(split, other, clamped, ordered);
 }
 
 bool PreparedLists::arrives_sorted(const Instance& instance) const {

@@ -8,8 +8,12 @@
 #include <optional>
 
 #include "peeling/render.h"
+#include "peeling/shadow_light.h"
 
 namespace strata::peeling {
+
+// Whether a depth takes r and q of the vertices.
+[[nodiscard]] bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept;
 
 class PreparedLists {
   public:
@@ -21,6 +25,7 @@ class PreparedLists {
         RenderOptions options;
         rasterizer::RasterState raster{};
         rasterizer::DepthRequest depth{};
+        const LightMap* light = nullptr;  // outlives the lists
     };
     explicit PreparedLists(Settings settings);
 
@@ -28,6 +33,7 @@ class PreparedLists {
     [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
     [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
     [[nodiscard]] double seconds() const noexcept { return seconds_; }
+    [[nodiscard]] const Settings& settings() const noexcept { return s_; }
 
   private:
     [[nodiscard]] pipeline::PrepareOptions prepare_options(pipeline::Selection selection) const;

@@ -22,6 +22,9 @@ inline namespace strict {
     return static_cast<std::size_t>(batch.count);
 }
 
+// What is in front, over what it lets through of what is behind; premultiplied.
+[[nodiscard]] inline float composited(float front, float let_through, float behind) noexcept { return front + let_through * behind; }
+
 // out = (c a, a): what UNDER and additive blending expect.
 void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept;
 void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept;
@@ -37,10 +40,11 @@ inline void discard_peeled(const pipeline::DepthCompare& compare, const pipeline
     for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(compare.is_behind(in, i, peeled[i]));
 }
 
-// What a peel may promise about a region whose count is 0: where another depth is compared than stored, nothing, for
-// further passes may find fragments again.
-[[nodiscard]] inline pipeline::Idle promise(const pipeline::Frame& frame, pipeline::Idle idle) noexcept {
-    return frame.is_invariant() ? idle : pipeline::Idle::no;
+// What a one-layer peel may promise about a region whose count is 0. Such a pass leaves the opaque depth as what is peeled, and
+// a fragment that is stored before that but compared as behind it would have been found. Only a first pass that draws other
+// vertices and compares nothing may find nothing where the second finds such a fragment.
+[[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
+    return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::when_zero : pipeline::Idle::no;
 }
 
 namespace scalar {
@@ -73,7 +77,7 @@ inline void publish_over_background(pipeline::Region& region, pipeline::Target a
     static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = own.color(0)[c][i] + own.color(0)[3][i] * own.color(1)[c][i];
+                out.color[0][c][i] = composited(own.color(0)[c][i], own.color(0)[3][i], own.color(1)[c][i]);
         for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
     }));
     region.publish(result);

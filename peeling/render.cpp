@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "peeling/prepared_lists.h"
+#include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
 #include "pipeline/check_pass.h"
 #include "pipeline/effects.h"
@@ -51,23 +52,19 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     return check(profile, depth.path);
 }
 
+// A light's map in the depth that the device writes by itself; none if it cannot be had, for then nothing runs.
+std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfile& profile,
+                                         const rasterizer::RasterState& eye, int threads) {
+    const rasterizer::DepthRequest request{profile.raster.depth_path, eye.depth_format};
+    if (!list.light || check_depth(profile, request)) return nullptr;
+    return std::make_unique<const LightMap>(light_map(list, profile, eye, request, threads));
+}
+
 // A closed form where the algorithm offers one, its passes elsewhere.
 Body body_of(const Algorithm& algorithm) {
     return [&](Region& region) {
         if (algorithm.closed_form == nullptr || !algorithm.closed_form(region)) algorithm.run(region);
     };
-}
-
-void draw_depth(Region& region) {
-    const Target depth = region.make_depth();
-    region.copy(region.opaque_depth(), depth);
-    PassState state;
-    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
-    state.depth_target = depth;
-    state.needs = {.shader_z = false, .code = true, .color = false};
-    region.begin_iteration();
-    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
-    region.publish(depth);
 }
 
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
@@ -103,16 +100,38 @@ struct Renderer::State {
     RenderOptions options;
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
+    std::unique_ptr<const LightMap> light{};
     PreparedLists lists;
+    std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
     std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
         return algorithm.whole_frame ? Execution::literal : options.execution;
     }
 
+    // What an algorithm stores and compares.
+    [[nodiscard]] rasterizer::DepthRequest depth_of(const Algorithm& algorithm) const {
+        rasterizer::DepthRequest request = depth;
+        if (algorithm.stores) request.path = *algorithm.stores;
+        if (!request.reference) request.reference = algorithm.compares;
+        return request;
+    }
+
+    PreparedLists& lists_for(const Algorithm& algorithm) {
+        const rasterizer::DepthRequest request = depth_of(algorithm);
+        if (!takes_quotient(request) || takes_quotient(depth)) return lists;
+        if (!quotient_lists) {
+            PreparedLists::Settings settings = lists.settings();
+            settings.depth = request;
+            quotient_lists.emplace(std::move(settings));
+        }
+        return *quotient_lists;
+    }
+
     // To simulate every effect is to rasterize in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
-        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
+        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed &&
+                             options.once_more == Effect::none;
         if (!replays || !algorithm.replayed) return {};
         rasterizer::FragmentNeeds needs = *algorithm.replayed;
         needs.reference = compares_apart;
@@ -122,7 +141,8 @@ struct Renderer::State {
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
     // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
     [[nodiscard]] int pass_limit(const Frame& f) {
-        if (options.max_passes > 0 || f.is_invariant()) return options.max_passes;
+        const bool is_limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
+        if (is_limited || f.is_invariant()) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
@@ -140,12 +160,14 @@ struct Renderer::State {
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
-        f.opaque = lists.opaque();
-        f.transparent = &lists.transparent(algorithm.order);
-        f.second = lists.second();
+        PreparedLists& own = lists_for(algorithm);
+        f.opaque = own.opaque();
+        f.transparent = &own.transparent(algorithm.order);
+        f.second = own.second();
+        f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
-        f.depth = depth;
+        f.depth = depth_of(algorithm);
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
         f.color_format = color_format;
@@ -153,6 +175,7 @@ struct Renderer::State {
         f.termination = options.termination;
         f.formulation = options.formulation;
         f.effects = options.effects;
+        f.once_more = options.once_more;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
@@ -160,14 +183,14 @@ struct Renderer::State {
         f.trace = options.audit;
         f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
-        f.max_passes = pass_limit(f);
+        f.max_passes = algorithm.compares_own_codes ? options.max_passes : pass_limit(f);
         f.average_count = options.average_count;
         return f;
     }
 
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
-        if (auto lacking = check_depth(profile, depth)) return lacking;
+        if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
         if (auto lacking = check(profile, color_format)) return lacking;
         if (options.raster.depth_near > options.raster.depth_far)
             return Refusal{"peeling over a reversed depth range yet", "", "use a depth range with near below far"};
@@ -175,7 +198,17 @@ struct Renderer::State {
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
             return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "", "use depth_units or front_to_back"};
+        if (algorithm.compares_own_codes && !is_invariant())
+            return Refusal{"choice of the depth that " + algorithm.name + " compares", "",
+                           "use depth_units, front_to_back, dual or dual_independent"};
         return peeling::refusal(algorithm, profile);
+    }
+
+    // Every pass of a peel sees the same fragments and compares what it stores.
+    [[nodiscard]] bool is_invariant() const {
+        const bool quantizes = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+        return lists.second() == nullptr && quantizes && options.compare_epsilon == CompareEpsilon{} &&
+               depth.reference.value_or(depth.path) == depth.path;
     }
 
     void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
@@ -194,7 +227,8 @@ struct Renderer::State {
                         "STRATA_ordered_rmw: no device's programs read what they write, in order"});
         const bool compares_in_program =
             algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f;
-        if (compares_in_program && options.quantize_reference && profile.raster.hypothesis.quantize_reference)
+        const bool quantises = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+        if (compares_in_program && (quantises || algorithm.compares_own_codes))
             merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
     }
 };
@@ -211,12 +245,16 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     rasterizer::RasterState raster = options.raster;
     raster.viewport = {0, 0, options.width, options.height};
     raster.depth_format = depth.format;
+    auto light = light_of(list, profile, raster, options.threads);
     state_ = std::unique_ptr<State>(new State{
         .profile = profile,
         .options = options,
         .depth = depth,
         .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
-        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster, .depth = depth}}});
+        .light = nullptr,
+        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster,
+                                .depth = depth, .light = light.get()}}});
+    state_->light = std::move(light);
 }
 
 Renderer::~Renderer() = default;
@@ -229,7 +267,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
             result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
-            state_->note_endless(frame, result.frame);
+            if (!algorithm.compares_own_codes) state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
         }

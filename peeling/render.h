@@ -43,13 +43,15 @@ struct RenderOptions {
     int tile_size = 64;
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;
+    pipeline::Effect once_more = pipeline::Effect::none;  // pipeline/frame.h; never replayed
     pipeline::Format average_count = pipeline::Format::r16f;
     bool keep_layers = false;
     bool trust_idle = true;      // pipeline/frame.h
     bool audit = true;           // order_errors and the other comparisons with the a_buffer
     bool nearest_depth = true;   // make the Z image
     pipeline::PassLog* pass_log = nullptr;  // pipeline/frame.h
-    std::array<int, 2> window_origin{0, 0};  // the viewport's corner on its surface, in pixels; positions move with it exactly
+    // The viewport's corner on its surface, in pixels; positions move with it exactly.
+    std::array<int, 2> window_origin{0, 0};
     // Conventions; the viewport is set from width, height and window_origin.
     rasterizer::RasterState raster;
 };

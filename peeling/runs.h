@@ -6,6 +6,7 @@ namespace strata::peeling {
 
 void unsorted(pipeline::Region& region);  // painter as well: the order of the list is all that differs
 void depth_units(pipeline::Region& region);
+void shadow_map(pipeline::Region& region);  // with whichever depth the frame stores
 void front_to_back(pipeline::Region& region);
 void dual(pipeline::Region& region);
 void dual_independent(pipeline::Region& region);

@@ -23,7 +23,7 @@ Target accumulate(Region& region, Target sums, Target count) {
     state.blend = {blend_mode::sum, blend_mode::sum};
     state.needs.shader_z = state.needs.code = false;
     region.begin_iteration();
-    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+    static_cast<void>(region.draw_sums(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
         set(out.color[1], {1, 0, 0, 1}, lanes(in));
     }));

@@ -34,6 +34,10 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
         if (t.exists()) agrees(t);
     for (const Target t : state.color)
         if (t.exists()) agrees(t);
+    for (const Target t : state.textures) {
+        require(!t.exists() || is_depth(format(t)), "texture units sample depth targets");
+        require(!t.exists() || !is_written(state, t), "a texture is sampled and written at once (a feedback loop)");
+    }
     for (const Target t : state.reads)
         require(!t.exists() || state.ordered_rmw || !is_written(state, t),
                 "a target is read and written at once (a feedback loop) without ordered_rmw");

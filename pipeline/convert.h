@@ -32,9 +32,8 @@ void encode_half(const float* __restrict values, std::uint32_t* __restrict codes
 inline void decode(ChannelType type, const std::uint32_t* __restrict codes, float* __restrict values,
                    std::size_t count) noexcept {
     switch (type) {
-        case ChannelType::unorm8:  // the conversion to int is exact and has a vector form, that of unsigned has none
-            for (std::size_t i = 0; i < count; ++i)
-                values[i] = static_cast<float>(static_cast<std::int32_t>(codes[i])) / 255.0f;
+        case ChannelType::unorm8:
+            for (std::size_t i = 0; i < count; ++i) values[i] = unorm8_value(codes[i]);
             return;
         case ChannelType::half:
             for (std::size_t i = 0; i < count; ++i) values[i] = half_to_float(static_cast<std::uint16_t>(codes[i]));

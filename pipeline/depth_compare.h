@@ -55,7 +55,8 @@ struct DepthCompare {
         const float to = std::bit_cast<float>(std::bit_cast<std::uint32_t>(from) + steps);
         return a > b + (double{to} - double{from}) + epsilon.absolute;
     }
-    [[nodiscard]] bool is_behind(const rasterizer::FragmentBatch& in, std::size_t i, std::uint32_t stored) const noexcept {
+    [[nodiscard]] bool is_behind(const rasterizer::FragmentBatch& in, std::size_t i,
+                                 std::uint32_t stored) const noexcept {
         return is_behind(in.reference_code[i], in.reference_z[i], stored);
     }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rasterizer/float_environment.h"
+#include "rasterizer/parallel.h"
 #include "rasterizer/tile_rasterizer.h"
 
 namespace strata::pipeline {
@@ -26,6 +27,15 @@ std::uint32_t count_fragments(const PreparedDraw& list, std::size_t tile, std::v
 }
 
 }  // namespace
+
+void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs, int threads) {
+    const FloatEnvironment ours;
+    parallel_for(list.geometry.bin_start.size() - 1, threads, [&](std::size_t tile) {
+        auto nothing = [](const FragmentBatch&) {};
+        rasterizer::TileRasterizer rasterizer{tile_rect(list.geometry, tile)};
+        rasterizer.draw(list.geometry, list.geometry.bin(tile), depth, needs, rasterizer::BatchSink{nothing});
+    });
+}
 
 std::uint32_t deepest_pixel(const PreparedDraw& list) {
     const FloatEnvironment ours;

@@ -1,7 +1,9 @@
 // pipeline/effects.h - which effects a pass simulates: decided from its state and its materials before the first fragment.
 //
-// Rule     Needed is what the program declares, and what a stage that is switched on looks at. `all` simulates everything; the
-//          bits are the same. In a tile without opaque triangles the test against the opaque depth is not made, and no depth
+// Rule     Needed is what the program declares, and what a stage that is switched on looks at. What materials call for is decided by
+//          the tile's own triangles. `all` simulates everything: values that nobody looks at, and where a stage is off the stage
+//          with a state that changes nothing (alpha GEQUAL 0, stencil ALWAYS and KEEP, depth ALWAYS without a write, blending ONE
+//          and ZERO); the bits and counters are the same. In a tile without opaque triangles the test against the opaque depth is not made, and no depth
 //          interpolated for it, if every triangle's bound (rasterizer/depth_bound.h) lies before the cleared 1.
 // Source   design.md, idea 3.
 // Tests    tests/peeling/execution_test.cpp, tests/pipeline/effects_test.cpp
@@ -14,15 +16,27 @@
 
 namespace strata::pipeline {
 
-// The arrays of a fragment that a geometry pass over `list` must have computed.
-[[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const PreparedDraw& list, Effects effects,
+// The arrays of a fragment that a geometry pass over triangles of these materials must have computed.
+[[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const MaterialNeeds& materials, Effects effects,
                                                           DepthOutcome depth = DepthOutcome::open) {
     rasterizer::FragmentNeeds needs = state.needs;
-    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.reference};
+    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.reference,
+                                        static_cast<rasterizer::UnitMask>(needs.units | materials.shadow)};
     needs.code |= needs.reference || (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
     needs.facing |= state.stencil.enabled && state.stencil.two_sided;
-    needs.color |= list.needs_color;
-    needs.texcoord |= list.needs_texcoord && needs.color;
+    needs.color |= materials.color;
+    needs.texcoord |= materials.texcoord && needs.color;
+    if (needs.color) needs.units |= materials.shadow;
+    return needs;
+}
+
+// The same with one value more, if the effect is one.
+[[nodiscard]] inline rasterizer::FragmentNeeds with_value(rasterizer::FragmentNeeds needs, Effect effect) {
+    needs.color |= effect == Effect::color;
+    needs.texcoord |= effect == Effect::texcoord;
+    needs.shader_z |= effect == Effect::shader_z;
+    needs.code |= effect == Effect::code;
+    needs.facing |= effect == Effect::facing;
     return needs;
 }
 
@@ -53,6 +67,8 @@ struct TileCensus {
     std::vector<std::uint64_t> transparent_fragments, opaque_fragments;  // by material
     friend bool operator==(const TileCensus&, const TileCensus&) = default;
 };
+// Rasterizes every tile with these values and does nothing with them: for whoever holds a watch.
+void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs, int threads);
 // The fragments of the deepest pixel, before any test.
 [[nodiscard]] std::uint32_t deepest_pixel(const PreparedDraw& list);
 [[nodiscard]] TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque);

@@ -142,6 +142,19 @@ class FrameRun {
         return r.decisions[last].own == 0 && r.decisions[last].idle != Idle::no;
     }
 
+    // How many further answers are "yes": those of a region that has gone the frame's way up to decision d, and counted enough
+    // by itself. A hint that saves runs: every answer is settled in its own round.
+    [[nodiscard]] std::size_t certain_after(std::size_t d, bool answer) const {
+        std::size_t longest = 0;
+        for (const RegionRun& r : regions_) {
+            std::size_t next = d + 1;
+            if (r.decisions.size() <= next || r.decisions[d].answer != answer) continue;
+            while (next < r.decisions.size() && continues(frame_.termination, frame_.rect(), r.decisions[next].own)) ++next;
+            longest = std::max(longest, next - d - 1);
+        }
+        return longest;
+    }
+
     // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
     // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
     void settle() {
@@ -162,7 +175,9 @@ class FrameRun {
                 if (regions_[r].decisions.empty() || is_idle(regions_[r], d)) continue;
                 if (d >= regions_[r].decisions.size() || regions_[r].decisions[d].answer != answers[d]) again.push_back(r);
             }
-            run(again, answers);
+            std::vector<bool> script = answers;
+            if (!again.empty()) script.insert(script.end(), certain_after(d, answers[d]), true);
+            run(again, script);
             result_.work.reruns += again.size();
         }
     }
@@ -240,7 +255,14 @@ class FrameRun {
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
                 const std::function<void(double)>& progress) {
     const FloatEnvironment ours;
-    return FrameRun{frame, body, execution, threads, progress}.finish();
+    if (execution == Execution::literal) return FrameRun{frame, body, execution, threads, progress}.finish();
+    if (!frame.needs_frame) try {
+            return FrameRun{frame, body, execution, threads, progress}.finish();
+        } catch (const NeedsFrame&) {  // a lookup left its region: all of it again, as the definition has it
+        }
+    Frame whole = frame;
+    whole.replay = {};
+    return FrameRun{whole, body, Execution::literal, threads, progress}.finish();
 }
 
 }  // namespace strata::pipeline

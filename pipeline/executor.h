@@ -3,7 +3,8 @@
 // Rule     literal: one region, the frame; every pass rasterizes everything. It is the definition. tiled: one region a tile;
 //          a tile guesses the frame's answers from its own counts, and runs again only where the frame decided otherwise and
 //          the tile was not idle. replay: as tiled, and a tile rasterizes its transparent list once (region_replay.cpp). One
-//          blank tile runs for all of its size, if the frame says that they are alike. Counters are literal's.
+//          blank tile runs for all of its size, if the frame says that they are alike. Counters are literal's. A frame that
+//          needs it whole (Frame::needs_frame, or a lookup that leaves its region) runs literally whatever was asked for.
 // Source   design.md, idea 2; decisions.md 3 and 7.
 // Tests    tests/peeling/execution_test.cpp
 #pragma once

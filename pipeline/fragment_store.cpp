@@ -28,6 +28,9 @@ void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visi
         visit(batch.reference_code);
     }
     if (needs.facing) visit(batch.front_facing);
+    for (std::size_t u = 0; needs.units != 0 && u < rasterizer::texture_units; ++u)
+        for (std::size_t c = 0; c < 4; ++c)
+            if (rasterizer::names(needs.units, u, c)) visit(batch.unit[u][c]);
 }
 
 std::size_t FragmentStore::packed_bytes(std::size_t count) const noexcept {
@@ -76,8 +79,7 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
     };
     if (has_dead) pack(alive);
     for_each_array(needs_, batch, pack);
-    constexpr std::size_t word = sizeof(std::uint32_t);  // `pixels` looks at the arrays where they lie
-    used_bytes_ = (static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].get()) + word - 1) / word * word;
+    used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].get());
 }
 
 bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
@@ -85,13 +87,7 @@ bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
     return state_ == State::complete && has(needs_.shader_z, needs.shader_z) && has(needs_.code, needs.code) &&
            has(needs_.exact_code, needs.exact_code) && has(needs_.color, needs.color) &&
            has(needs_.texcoord, needs.texcoord) && has(needs_.facing, needs.facing) &&
-           has(needs_.reference, needs.reference);
-}
-
-std::span<const std::uint32_t> FragmentStore::pixels(std::size_t number) const noexcept {
-    const Packed& packed = batches_[number];
-    const std::size_t alive = packed.has_dead ? packed.count * sizeof(std::uint32_t) : 0;
-    return {reinterpret_cast<const std::uint32_t*>(packed.begin + alive), packed.count};
+           has(needs_.reference, needs.reference) && (needs.units & ~needs_.units) == 0;
 }
 
 void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::uint32_t>& alive) const {

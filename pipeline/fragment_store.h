@@ -29,8 +29,6 @@ class FragmentStore {
     // Whether the store is complete and holds every array that `needs` names.
     [[nodiscard]] bool serves(const rasterizer::FragmentNeeds& needs) const noexcept;
     [[nodiscard]] std::size_t batches() const noexcept { return batches_.size(); }
-    // The pixels of one batch, without the rest.
-    [[nodiscard]] std::span<const std::uint32_t> pixels(std::size_t number) const noexcept;
     void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive) const;
 
     [[nodiscard]] std::uint64_t bytes() const noexcept { return chunks_.size() * std::uint64_t{chunk_bytes}; }

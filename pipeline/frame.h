@@ -29,6 +29,9 @@ enum class Formulation : std::uint8_t { resolved, published };
 
 enum class Effects : std::uint8_t { needed, all };  // all: simulate every stage even where nothing calls for it; same bits
 
+// What a pass may simulate though nobody calls for it: values of its fragments, and stages with a state that changes nothing.
+enum class Effect : std::uint8_t { none, color, texcoord, shader_z, code, facing, loads, alpha_test, stencil_test, depth_test, blending };
+
 // What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
 struct Replay {
     std::uint64_t bytes = 0;          // a region; 0: every pass rasterizes
@@ -36,6 +39,7 @@ struct Replay {
 };
 
 struct PassLog;
+struct ShadowStage;
 
 struct Frame {
     const DeviceProfile* profile = nullptr;
@@ -53,8 +57,11 @@ struct Frame {
     Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
+    Effect once_more = Effect::none;  // simulated once more than its state asks for; same bits, and what it costs can be measured
     bool alike_where_blank = false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
+    bool needs_frame = false;  // its texture lookups go anywhere: literal, whatever execution is asked for
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
+    const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/shadow_stage.h)
     Replay replay;
     bool keep_layers = false;
     bool trace = false;
@@ -62,6 +69,10 @@ struct Frame {
     PassLog* pass_log = nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/effects.h)
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
+    // Whether to simulate an effect that changes nothing.
+    [[nodiscard]] bool idles(Effect effect, bool is_called_for) const noexcept {
+        return once_more == effect || (effects == Effects::all && !is_called_for);
+    }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return transparent->geometry.state.viewport; }
 
     // How depths that this frame compares are computed and stored.
@@ -73,8 +84,7 @@ struct Frame {
         const rasterizer::DepthRequest request = key_request();
         return {request.format, epsilon, request.reference.value_or(request.path) != request.path, quantize_reference};
     }
-    // Every pass sees the same fragments, and compares the depth that it stores: what closed forms and promises of idleness
-    // rest on.
+    // Every pass sees the same fragments, and compares the depth that it stores: what closed forms rest on.
     [[nodiscard]] bool is_invariant() const noexcept { return second == nullptr && depth_compare().is_plain(); }
 };
 

@@ -27,14 +27,17 @@ using Quad = std::array<std::uint32_t, 4>;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t from = first[i], to = first[(i + 1) % 3];
-            if (second[k] == to && second[(k + 1) % 3] == from) return Quad{to, first[(i + 2) % 3], from, second[(k + 2) % 3]};
+            if (second[k] == to && second[(k + 1) % 3] == from)
+                return Quad{to, first[(i + 2) % 3], from, second[(k + 2) % 3]};
         }
     return std::nullopt;
 }
 
 // Both pairs of triangles face alike, and d lies in the plane of a, b, c.
 [[nodiscard]] bool is_flat_and_convex(const Quad& quad, const Mesh& mesh) {
-    const auto side = [&](std::size_t i, std::size_t k) { return between(mesh.positions[quad[i]], mesh.positions[quad[k]]); };
+    const auto side = [&](std::size_t i, std::size_t k) {
+        return between(mesh.positions[quad[i]], mesh.positions[quad[k]]);
+    };
     const Vector normal = cross(side(0, 1), side(0, 2));
     double longest = 0.0;  // squared
     for (std::size_t i = 0; i < 4; ++i) longest = std::max(longest, dot(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
@@ -63,9 +66,7 @@ using Quad = std::array<std::uint32_t, 4>;
     return flipped;
 }
 
-void move(rasterizer::Rect& rect, int x, int y) {
-    rect = {rect.x0 + x, rect.y0 + y, rect.x1 + x, rect.y1 + y};
-}
+void move(rasterizer::Rect& rect, int x, int y) { rect = {rect.x0 + x, rect.y0 + y, rect.x1 + x, rect.y1 + y}; }
 
 }  // namespace
 

@@ -33,6 +33,8 @@ struct PassState {
     std::uint8_t sample_mask = 0xff;               // multisample rasterization off: a fragment covers every masked sample
     std::array<DepthUnit, max_depth_units> depth_units{};
     int depth_unit_count = 0;
+    std::array<Target, 4> textures{};              // depth targets that texture units sample, anywhere in the region
+    bool replaces_depth = false;                   // the program may leave another depth (Outputs::depth)
     rasterizer::FragmentNeeds needs;               // what the program looks at; the stages add what they need themselves
     std::span<const PrimitiveRange> primitives{};  // of a geometry pass: these alone, ascending and disjoint; empty: all
     bool saturates_by_design = false;              // a stencil count that stops at its limit is what the listing wants
@@ -69,8 +71,8 @@ struct Outputs {
     Lanes<std::uint32_t> key;
     bool traced = false;
 
-    // Of a full-screen pass: the codes that its depth test compares and writes instead of a quad's own. Used when
-    // `replaces_depth` is set.
+    // The codes that depth units and depth test compare and write instead of the batch's own (a quad has none). Used when
+    // `replaces_depth` is set; a geometry pass says so beforehand in PassState::replaces_depth.
     Lanes<std::uint32_t> depth;
     bool replaces_depth = false;
 

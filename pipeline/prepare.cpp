@@ -6,6 +6,7 @@
 
 #include "pipeline/depth_rows.h"
 #include "pipeline/matrix.h"
+#include "pipeline/shadow_stage.h"
 #include "pipeline/vertex_transform.h"
 #include "rasterizer/depth_bound.h"
 #include "rasterizer/float_environment.h"
@@ -117,16 +118,24 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .mirrored = determinant(instance.model) < 0});
 }
 
-// r and q of the soup's vertices, in its order.
-rasterizer::VertexExtras quotient_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
-                                         const rasterizer::RasterRules& rules, Selection selection) {
-    rasterizer::VertexExtras extras{.stride = 2, .has_rq = true, .values = {}};
+// What the options ask for beside the soup's vertices, in their order: r and q, texture units.
+rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                                       const rasterizer::RasterRules& rules, const PrepareOptions& options) {
+    rasterizer::VertexExtras extras;
+    extras.has_rq = options.depth_quotient;
+    extras.has_units = std::ranges::any_of(options.units, &CoordinateUnit::enabled);
+    extras.stride = (extras.has_rq ? 2u : 0u) + (extras.has_units ? 4 * rasterizer::texture_units : 0u);
     for (const Instance& instance : list.instances) {
-        if (!is_selected(list.materials[instance.material], selection)) continue;
+        if (extras.stride == 0 || !is_selected(list.materials[instance.material], options.selection)) continue;
+        const Mesh& mesh = list.meshes[instance.mesh];
         const VertexTransform rows = depth_rows(view, instance.model, state, rules);
-        for (const Vec3& position : list.meshes[instance.mesh].positions) {
-            const std::array<float, 4> v = rows(position);
-            extras.values.insert(extras.values.end(), {v[2], v[3]});
+        const VertexCoordinates coordinates{options.units, view, instance.model};
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const std::array<float, 4> rq = rows(mesh.positions[i]);
+            if (extras.has_rq) extras.values.insert(extras.values.end(), {rq[2], rq[3]});
+            if (!extras.has_units) continue;
+            for (const auto& unit : coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]))
+                extras.values.insert(extras.values.end(), unit.begin(), unit.end());
         }
     }
     return extras;
@@ -178,18 +187,29 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     soup.order = std::move(order.triangles);
     rasterizer::RasterRules rules = profile.raster;
     if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
-    if (options.depth_quotient) soup.extras = quotient_extras(list, view, state, rules, options.selection);
+    soup.extras = vertex_extras(list, view, state, rules, options);
     PreparedDraw prepared;
     prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
     bin_triangles(prepared.geometry, options.tile_size, options.threads);
+    if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
     for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));
     for (const Material& material : list.materials) {
         prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
         if (!is_selected(material, options.selection)) continue;
-        prepared.needs_texcoord |= material.texture >= 0;
-        prepared.needs_color |= material.alpha_mode == AlphaMode::mask;
+        prepared.needs.texcoord |= material.texture >= 0;
+        prepared.needs.color |= material.alpha_mode == AlphaMode::mask;
     }
     return prepared;
+}
+
+MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles) {
+    MaterialNeeds needs{.shadow = list.needs.shadow};
+    for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {
+        const MaterialStage& material = list.materials[list.geometry.triangles[triangles[i]].material];
+        needs.texcoord |= material.texture != nullptr;
+        needs.color |= material.mask.enabled;
+    }
+    return needs;
 }
 
 }  // namespace strata::pipeline

@@ -9,12 +9,14 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "pipeline/draw_list.h"
 #include "pipeline/primitive_range.h"
 #include "pipeline/profile.h"
 #include "pipeline/state.h"
+#include "pipeline/texgen.h"
 #include "rasterizer/geometry.h"
 
 namespace strata::pipeline {
@@ -24,6 +26,14 @@ struct MaterialStage {
     const Texture* texture = nullptr;  // into the draw list, which must outlive this
     AlphaTest mask;                    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha
     float alpha_scale = 1.0f;          // of what MASK keeps: after the test, so that it cuts at the material's own alpha
+};
+
+// What some materials call for in every pass.
+struct MaterialNeeds {
+    bool texcoord = false;  // one of them has a texture
+    bool color = false;     // one of them tests its alpha, so that even a depth-only pass must shade
+    rasterizer::UnitMask shadow = 0;  // what a shadow lookup of every fragment's colour looks at
+    friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
 };
 
 // Triangles that an algorithm draws together, and depths between which all their fragments lie, in units of shader_z.
@@ -37,9 +47,11 @@ struct PreparedDraw {
     rasterizer::Geometry geometry;
     std::vector<DrawPart> parts;  // in submission order, without gaps; empty unless the order made some
     std::vector<MaterialStage> materials;
-    bool needs_texcoord = false;  // some material has a texture
-    bool needs_color = false;     // some material tests its alpha, so that even a depth-only pass must shade
+    MaterialNeeds needs;  // of all of them
 };
+
+// What the materials of some of a list's triangles call for: of a tile, it may be less than the list's.
+[[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
 
 enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK
 
@@ -57,6 +69,8 @@ struct PrepareOptions {
     Ordering order{};  // none: as listed
     int tile_size = 32;
     int threads = 0;
+    CoordinateUnits units{};  // texture units that somebody looks at
+    bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h
 };
 
 // Inverts nothing it need not: mirrored instances keep their winding and flip their facing.

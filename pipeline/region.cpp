@@ -88,6 +88,54 @@ void Region::copy(Target from, Target to) {
     ++record().passes.copies;
 }
 
+void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy) {
+    const TargetStorage& source = at(from);
+    TargetStorage& texture = at(to);
+    assert(source.format() == texture.format() && source.samples() == 1 && texture.samples() == 1);
+    opaque_depth_is_cleared_ &= to != opaque_depth_;
+    const auto [x0, y0, x1, y1] = from_rect;
+    const rasterizer::Rect written =
+        rasterizer::intersection(rect_, rasterizer::intersection({x0 + dx, y0 + dy, x1 + dx, y1 + dy}, frame_.rect()));
+    if (intersection(rasterizer::Rect{written.x0 - dx, written.y0 - dy, written.x1 - dx, written.y1 - dy}, rect_).area() !=
+        written.area())
+        throw NeedsFrame{};
+    for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
+    const std::uint64_t moved = written.area() * static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel);
+    record().counters.bytes_read += moved;
+    record().counters.bytes_written += moved;
+    ++record().passes.copies;
+}
+
+// Row y of `written`; overlapping copies within one target are not asked for.
+void Region::copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
+                      TargetStorage& texture) {
+    const auto index = [&](int column, int row) {
+        return static_cast<std::uint32_t>((row - rect_.y0) * rect_.width() + column - rect_.x0);
+    };
+    Scratch& s = *scratch_;
+    for (int x = written.x0; x < written.x1; x += batch_capacity) {
+        const int count = std::min(written.x1 - x, batch_capacity);
+        Lanes<std::uint32_t>& pixel = s.screen.pixel;
+        std::iota(pixel.begin(), pixel.begin() + count, index(x - dx, y - dy));
+        source.gather(pixel, count, 0, s.codes);
+        std::iota(pixel.begin(), pixel.begin() + count, index(x, y));
+        std::fill_n(s.alive.begin(), count, ~0u);
+        texture.scatter(pixel, s.alive, count, 0, 0xfu, s.codes);
+    }
+}
+
+DepthTexels Region::depth_texels(Target depth) const {
+    const rasterizer::Rect& frame = frame_.rect();
+    DepthTexels texels;
+    texels.codes = storage(depth).depth(0);
+    texels.held = {rect_.x0 - frame.x0, rect_.y0 - frame.y0, rect_.x1 - frame.x0, rect_.y1 - frame.y0};
+    texels.width = frame.width();
+    texels.height = frame.height();
+    texels.format = depth_format(storage(depth).format());
+    texels.bottom_up = frame_.transparent->geometry.state.y_direction == rasterizer::YDirection::up;
+    return texels;
+}
+
 void Region::draw_opaque() {
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
@@ -108,7 +156,7 @@ Target Region::nearest_depth() {
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = nearest;
     state.needs = {.shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
-    static_cast<void>(draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    static_cast<void>(draw_depth(state));
     counts_ = true;
     return nearest;
 }
@@ -155,11 +203,6 @@ void Region::store_pixels(Target target, std::uint32_t first, int pixels, const 
     at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
 }
 
-void Region::load_pixels(Target target, std::uint32_t first, int pixels, ColorCodes& codes) const {
-    std::iota(scratch_->screen.pixel.begin(), scratch_->screen.pixel.begin() + pixels, first);
-    storage(target).gather(scratch_->screen.pixel, pixels, 0, codes);
-}
-
 Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
     const TargetStorage& from = storage(target);
     const FormatInfo format = info(from.format());
@@ -191,6 +234,12 @@ void Region::read_row(const TargetStorage& from, int y, std::uint32_t* out) cons
     const auto width = static_cast<std::size_t>(rect_.width()), first = static_cast<std::size_t>(y) * width;
     const auto channels = static_cast<std::size_t>(info(from.format()).channels);
     const auto samples = static_cast<std::size_t>(from.samples());
+    if (from.format() == Format::rgba8 && samples == 1) {
+        static_assert(std::endian::native == std::endian::little);
+        const auto* const bytes = reinterpret_cast<const unsigned char*>(from.depth(0) + first);
+        for (std::size_t i = 0; i < width * channels; ++i) out[i] = bytes[i];
+        return;
+    }
     for (std::size_t x = 0; x < width; x += batch_capacity) {
         const std::size_t count = std::min<std::size_t>(width - x, batch_capacity);
         for (std::size_t sample = 0; sample < samples; ++sample) {

@@ -7,13 +7,16 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "pipeline/counters.h"
+#include "pipeline/depth_texels.h"
 #include "pipeline/diagnostics.h"
 #include "pipeline/frame.h"
 #include "pipeline/pass.h"
+#include "rasterizer/rows.h"
 #include "rasterizer/tile_rasterizer.h"
 
 namespace strata::pipeline {
@@ -84,6 +87,12 @@ class Region {
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
+    // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one sample
+    // each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in memory. Throws
+    // NeedsFrame where a region would have to look beyond itself.
+    void copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy);
+    // A depth target as texture units see it; `t` runs up where the frame's y does.
+    [[nodiscard]] DepthTexels depth_texels(Target depth) const;
 
     // One geometry pass over the transparent list, or over the part of it that `state.primitives` names.
     template <FragmentProgram P>
@@ -98,6 +107,14 @@ class Region {
     template <FragmentProgram P>
     Drawn draw(const PassState& state, const PreparedDraw& list, P&& program) {
         return draw_list(state, list, program);
+    }
+    // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it can.
+    Drawn draw_depth(const PassState& state);
+    // One geometry pass that adds (c a, a) of every fragment to color[0], and 1 to color[1] if it is there. `program` says the
+    // same of a batch, and runs where the sums cannot go straight into the targets.
+    template <FragmentProgram P>
+    Drawn draw_sums(const PassState& state, P&& program) {
+        return sums_suit_rows(state) ? draw_sum_rows(state) : draw(state, program);
     }
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
@@ -130,18 +147,20 @@ class Region {
     [[nodiscard]] Target nearest_depth();
 
     // For closed forms (peeling/closed_form.h): a way to the same bits that is not the machine's, in the machine's own books.
-    // The list's fragments in `band`, whole rows of this region, after MASK; `pixel` counts from the band's first. Not a pass.
     // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
     void count_coverage(std::span<std::uint32_t> coverage);
-    // Captures the region's fragments, if they fit into `bytes`: then `look` and `count_coverage` recall them.
-    [[nodiscard]] bool remember(const rasterizer::FragmentNeeds& needs, std::uint64_t bytes);
-    template <FragmentProgram P>
-    void look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
+    // program(batch, outputs) for the list's fragments in `band`, whole rows of this region, after MASK; `pixel` counts from the
+    // band's first. Not a pass. Once the program answers false it sees no more, and so does the caller.
+    template <class P>
+    [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
+    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
+    [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
     [[nodiscard]] Arena& arena() noexcept;  // free again when the region is gone
     void count(const Counters& counters, const PassCount& passes);  // what a pass would have counted
     [[nodiscard]] static Count counted(std::uint64_t own) noexcept { return Count{own}; }
     void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
-    void load_pixels(Target target, std::uint32_t first, int pixels, ColorCodes& codes) const;
+    // An rgba8 target's codes: a word a pixel, red lowest, and spare_words behind the last.
+    [[nodiscard]] Word* words(Target target) { return at(target).depth_plane(0).words; }
     void trace(const TraceEntry& entry) { trace_.push_back(entry); }
 
     // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
@@ -178,36 +197,47 @@ class Region {
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                    rasterizer::BatchSink sink);
-    void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink);
+    void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
+                        const bool& goes_on);
     void replay(rasterizer::BatchSink sink);
-    [[nodiscard]] bool holds(rasterizer::FragmentNeeds needs) noexcept;
     [[nodiscard]] FragmentStore& store() noexcept;
+    [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list) const;
+    [[nodiscard]] bool sums_suit_rows(const PassState& state) const;
+    Drawn draw_sum_rows(const PassState& state);
+    void count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn);
     [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
     void shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);
     [[nodiscard]] Outputs& start_batch(const FragmentBatch& batch);
     void shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out);  // material stage: texture, MASK
     void load(const PassState& state, const FragmentBatch& batch);
+    void load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
+    [[nodiscard]] const MaterialNeeds& needs_of_tile(const PreparedDraw& list);
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
     void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
     std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                          Lanes<std::uint32_t>& alive);  // answers how many pass
     std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
     void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out);
+    void idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
+    void idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color, const TargetStorage& target, int sample);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);
     void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                       const Lanes<std::uint32_t>& alive, std::uint64_t passed);
     void draw_opaque();
+    void copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
+                  TargetStorage& texture);
     void read_row(const TargetStorage& from, int y, std::uint32_t* out) const;
     bool stop_iterating();
     void join_tail();
 
+    [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && storage(t).samples() == 1; }
     [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] const Loads& loads() const noexcept;
     [[nodiscard]] FragmentBatch& screen_batch() noexcept;
     bool next_screen_batch(FragmentBatch& batch, std::size_t& next) const;
-    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
     [[nodiscard]] IterationRecord& record() noexcept { return counts_ ? records_[counted_record_] : uncounted_; }
 
     const Frame& frame_;
@@ -221,6 +251,8 @@ class Region {
     std::vector<TargetStorage> storages_;
     Target opaque_depth_, opaque_color_, published_;
 
+    std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, once asked for
+    std::optional<TargetStorage> idle_stencil_;
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
     bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
     enum class Source : std::uint8_t { rasterizer, captured, store };  // captured: rasterized, and kept for later passes
@@ -228,6 +260,7 @@ class Region {
     PassKind kind_ = PassKind::geometry;
     int pass_samples_ = 1;
     bool samples_textures_ = false;  // somebody looks at the colours of this pass
+    bool takes_shadow_ = false;      // and they are shadowed
     std::uint64_t tallied_ = 0;
     bool counts_ = true;          // false during the emulator's own work (opaque priming, capture)
     IterationRecord uncounted_;   // where that work is counted instead

@@ -35,17 +35,19 @@ Drawn Region::full_screen(const PassState& state, P&& program) {
     return drawn;
 }
 
-template <FragmentProgram P>
-void Region::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
+template <class P>
+bool Region::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
     counts_ = false;
+    bool goes_on = true;
     auto sink = [&](FragmentBatch& batch) {
+        if (!goes_on) return;
         Outputs& out = start_batch(batch);
-        shade_or_recall(*frame_.transparent, batch, out);
-        program(static_cast<const FragmentBatch&>(batch), loads(), out);
+        shade(*frame_.transparent, batch, out);
+        goes_on = program(static_cast<const FragmentBatch&>(batch), static_cast<const Outputs&>(out));
     };
-    if (band == rect_ && holds(needs)) replay(rasterizer::BatchSink{sink});
-    else rasterize_band(needs, band, rasterizer::BatchSink{sink});
+    rasterize_band(needs, band, rasterizer::BatchSink{sink}, goes_on);
     counts_ = true;
+    return goes_on;
 }
 
 template <FragmentProgram P>

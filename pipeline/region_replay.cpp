@@ -14,9 +14,17 @@ using rasterizer::FragmentNeeds;
 
 FragmentStore& Region::store() noexcept { return scratch_->store; }
 
+const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
+    if (extent_ == Extent::frame || list.needs == MaterialNeeds{}) return list.needs;
+    auto& needs = &list == frame_.transparent ? transparent_needs_ : opaque_needs_;
+    if (!needs) needs = needs_of(list, list.geometry.bin(tile_));
+    return *needs;
+}
+
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink sink) {
-    samples_textures_ = needs.color && list.needs_texcoord;
+    samples_textures_ = needs.color && needs_of_tile(list).texcoord;
+    takes_shadow_ = needs.color && list.needs.shadow != 0;
     const auto& geometry = list.geometry;
     const auto triangles =
         extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
@@ -33,11 +41,6 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
 
 void Region::count_coverage(std::span<std::uint32_t> coverage) {
     constexpr FragmentNeeds nothing{false, false, false, false, false, false};
-    if (holds(nothing)) {
-        for (std::size_t number = 0; number < store().batches(); ++number)
-            for (const std::uint32_t pixel : store().pixels(number)) ++coverage[pixel];
-        return;
-    }
     auto add = [&](FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
     };
@@ -45,28 +48,21 @@ void Region::count_coverage(std::span<std::uint32_t> coverage) {
     rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
 }
 
-bool Region::remember(const FragmentNeeds& needs, std::uint64_t bytes) {
-    counts_ = false;
-    source_ = Source::captured;
-    store().start(needs, bytes);
-    auto keep = [&](FragmentBatch& batch) { shade_or_recall(*frame_.transparent, batch, start_batch(batch)); };
-    rasterize_band(needs, rect_, rasterizer::BatchSink{keep});
-    store().finish();
-    source_ = Source::rasterizer;
-    counts_ = true;
-    if (!holds(needs)) store().forget();  // there is more than this, but it may be less than replay is allowed
-    return holds(needs);
-}
-
-bool Region::holds(FragmentNeeds needs) noexcept { return store().serves(needs); }
-
-void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink) {
+// Twice as many triangles each time: whoever has had enough soon is asked soon, and few batches end early for it.
+void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink, const bool& goes_on) {
     const PreparedDraw& list = *frame_.transparent;
-    needs.color |= list.needs_color;  // MASK decides which fragments there are
-    needs.texcoord |= list.needs_texcoord && needs.color;
+    needs.color |= needs_of_tile(list).color;  // MASK decides which fragments there are
+    needs.texcoord |= needs_of_tile(list).texcoord && needs.color;
     samples_textures_ = needs.texcoord;
+    takes_shadow_ = needs.color && list.needs.shadow != 0;
+    if (takes_shadow_) needs.units |= list.needs.shadow;
     rasterizer::TileRasterizer rows{band};
-    rows.draw(list.geometry, list.geometry.bin(tile_), frame_.key_request(), needs, sink);
+    auto triangles = list.geometry.bin(tile_);
+    for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
+        part = std::min(part, triangles.size());
+        rows.draw(list.geometry, triangles.first(part), frame_.key_request(), needs, sink);
+        triangles = triangles.subspan(part);
+    }
 }
 
 void Region::replay(rasterizer::BatchSink sink) {
@@ -82,7 +78,7 @@ void Region::replay(rasterizer::BatchSink sink) {
 DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& list) const {
     using rasterizer::DepthPath;
     const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
-                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0;
+                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0 && !state.replaces_depth;
     const rasterizer::DepthRequest depth = frame_.key_request();
     const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
     if (!is_plain || !has_bound || state.needs.code || !opaque_depth_is_cleared_ || extent_ == Extent::frame ||
@@ -97,19 +93,22 @@ DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& l
 // every time.
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     depth_ = depth_outcome(state, list);
-    FragmentNeeds needs = pass_needs(state, list, frame_.effects, depth_);
+    const MaterialNeeds& materials = needs_of_tile(list);
+    FragmentNeeds needs = with_value(pass_needs(state, materials, frame_.effects, depth_), frame_.once_more);
     if (frame_.pass_log != nullptr)
-        frame_.pass_log->passes.push_back({state, needs, pass_needs(state, list, Effects::needed),
-                                           needs.color && list.needs_texcoord, &list == frame_.opaque, iterations_});
+        frame_.pass_log->passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
+                                           needs.color && materials.texcoord, &list == frame_.opaque, iterations_});
     const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent && state.primitives.empty();
     FragmentNeeds kept = needs;
-    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture
+    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow
+    kept.units = state.needs.units;
     if (may_replay && store().serves(kept)) {
         replay(sink);
     } else if (may_replay && store().may_start()) {
         source_ = Source::captured;
         needs = needs | frame_.replay.needs;
-        needs.texcoord |= list.needs_texcoord && needs.color;
+        needs.texcoord |= materials.texcoord && needs.color;
+        if (needs.color) needs.units |= materials.shadow;
         store().start(kept | frame_.replay.needs, frame_.replay.bytes);
         rasterize(list, needs, {}, sink);
         store().finish();

@@ -16,7 +16,7 @@ struct alignas(64) Region::Scratch {
     FragmentBatch recalled;
     Lanes<std::uint32_t> recalled_alive;
     ColorLanes texel;
-    ColorCodes codes;
+    ColorCodes codes, idle_codes;
     Lanes<std::uint32_t> alive;         // of one sample
     Lanes<std::uint32_t> depth_stored;  // of a pixel that is stored alone
     Lanes<std::uint32_t> depth_pass;

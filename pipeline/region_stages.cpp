@@ -12,6 +12,7 @@
 #include "pipeline/narrow.h"
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
+#include "pipeline/shadow_stage.h"
 #include "pipeline/stencil.h"
 #include "pipeline/texture_sample.h"
 
@@ -41,6 +42,7 @@ void narrow(Format format, ColorCodes& codes, int count) noexcept {
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
             codes[static_cast<std::size_t>(c)][i] = narrowed(format, c, codes[static_cast<std::size_t>(c)][i]);
 }
+Blend idle(const Blend& blending) { return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask}; }
 
 std::uint64_t pixel_bytes(const TargetStorage& s) { return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel); }
 
@@ -111,6 +113,7 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
                 batch.color[c][i] *= scratch_->texel[c][i];
     }
+    if (takes_shadow_) cast_shadow(*frame_.shadow, profile(), batch, scratch_->texel);
     if (!material.mask.enabled) return;
     const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
     alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
@@ -119,22 +122,27 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
 }
 
 void Region::load(const PassState& state, const FragmentBatch& batch) {
+    for (const Target t : state.textures)
+        if (t.exists()) record().counters.bytes_read += pixel_bytes(at(t)) * static_cast<std::uint64_t>(batch.count);
     for (std::size_t r = 0; r < state.reads.size(); ++r) {
         if (!state.reads[r].exists()) continue;
         TargetStorage& from = at(state.reads[r]);
         record().counters.bytes_read += pixel_bytes(from) * static_cast<std::uint64_t>(batch.count);
-        if (is_depth(from.format())) {
-            gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &scratch_->loads.depth_[r]);
-            continue;
-        }
-        const FormatInfo format = info(from.format());
-        from.gather(batch.pixel, batch.count, 0, scratch_->codes);
-        for (std::size_t c = 0; c < 4; ++c) {
-            if (c < static_cast<std::size_t>(format.channels))
-                decode(format.type, scratch_->codes[c], scratch_->loads.color_[r][c], batch.count);
-            else
-                std::fill_n(scratch_->loads.color_[r][c].begin(), batch.count, c == 3 ? 1.0f : 0.0f);
-        }
+        load_target(from, r, batch);
+        if (frame_.once_more == Effect::loads) load_target(from, r, batch);
+    }
+}
+
+void Region::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
+    if (is_depth(from.format()))
+        return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &scratch_->loads.depth_[read]);
+    const FormatInfo format = info(from.format());
+    from.gather(batch.pixel, batch.count, 0, scratch_->codes);
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (c < static_cast<std::size_t>(format.channels))
+            decode(format.type, scratch_->codes[c], scratch_->loads.color_[read][c], batch.count);
+        else
+            std::fill_n(scratch_->loads.color_[read][c].begin(), batch.count, c == 3 ? 1.0f : 0.0f);
     }
 }
 
@@ -146,6 +154,7 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
                    batch.count);
         record().counters.alpha_killed += before - alive_count(out, batch.count);
     }
+    if (frame_.idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
     for (int sample = 0; sample < pass_samples_; ++sample)
         if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
     drawn.tallied = Count{tallied_};
@@ -155,6 +164,7 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
     Lanes<std::uint32_t>& alive = scratch_->alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
     if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
+    idle_tests(state, batch, alive);
     const bool is_tested = state.depth.enabled || state.stencil.enabled;
     const std::uint64_t passed =
         is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
@@ -255,14 +265,18 @@ void Region::write_colors(const PassState& state, const FragmentBatch& batch, co
         TargetStorage& target = at(state.color[k]);
         const FormatInfo format = info(target.format());
         if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
+        const bool idles = frame_.idles(Effect::blending, blending.enabled);
+        const bool keeps_source = idles && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do
+        if (idles && !keeps_source) idle_blend(blending, batch, out.color[k], target, sample);
         const bool adds_halves = frame_.effects == Effects::needed && format.type == ChannelType::half &&
                                  profile().half_rounding == HalfRounding::nearest_even && blending == blend_mode::sum;
         if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],
                                       profile().denormals == DenormalRule::flush))
             continue;
-        if (blending.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
+        const Blend used = keeps_source ? idle(blending) : blending;
+        if (used.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
             target.gather(batch.pixel, batch.count, sample, scratch_->codes);
-        blend(blending, format.type, profile(), format.channels, out.color[k], scratch_->codes, batch.count);
+        blend(used, format.type, profile(), format.channels, out.color[k], scratch_->codes, batch.count);
         if (is_narrow(target.format())) narrow(target.format(), scratch_->codes, batch.count);
         target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, scratch_->codes);
     }

@@ -1,5 +1,6 @@
 #include "pipeline/shadow_compare.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "pipeline/compare.h"
@@ -11,23 +12,21 @@ namespace {
 using rasterizer::Lanes;
 
 struct Lookup {
-    const Image& depth;
+    const DepthTexels& depth;
     TexelLanes s, t;
 
-    [[nodiscard]] std::uint32_t texel(std::int32_t column, std::int32_t row) const noexcept {
-        return depth.codes[depth.index(column, row)];
-    }
+    [[nodiscard]] std::uint32_t texel(std::int32_t column, std::int32_t row) const { return depth.at(column, row); }
 };
 
 // passed(r, texel) is the comparison; answers go to `result`.
 void compare_nearest(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
-                     std::size_t count, auto passed) noexcept {
+                     std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i)
         result[i] = passed(r[i], at.texel(at.s.first[i], at.t.first[i])) ? 1.0f : fail;
 }
 
 void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
-                    std::size_t count, auto passed) noexcept {
+                    std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i) {
         const auto tap = [&](std::int32_t column, std::int32_t row) {
             return passed(r[i], at.texel(column, row)) ? 1.0f : fail;
@@ -38,13 +37,24 @@ void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail,
     }
 }
 
-// R as the texture's format would store it; binary32 bits, unclamped, for D32F.
-void quantize(DepthFormat format, DepthRounding rounding, const Lanes<float>& r, Lanes<std::uint32_t>& codes,
-              std::size_t count) noexcept {
-    if (format == DepthFormat::d32f) {
+// What R is multiplied with to be in codes.
+[[nodiscard]] double units_of(const DepthTexels& depth, const rasterizer::RasterRules& rules) noexcept {
+    return rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : depth.max();
+}
+
+// R as the texels' format would store it; binary32 bits, unclamped, for D32F. A product of [0,1] with 2^n - 1 is exact in
+// binary64.
+void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, const Lanes<float>& r,
+              Lanes<std::uint32_t>& codes, std::size_t count) noexcept {
+    if (depth.format == DepthFormat::d32f && !depth.is_eight_bit) {
         for (std::size_t i = 0; i < count; ++i) codes[i] = std::bit_cast<std::uint32_t>(r[i]);
-    } else {
-        for (std::size_t i = 0; i < count; ++i) codes[i] = rasterizer::to_depth_code(r[i], format, rounding);
+        return;
+    }
+    const double max = depth.max(), half = rules.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
+    const double units = units_of(depth, rules);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double scaled = r[i] > 0.0f ? double{r[i]} * units : 0.0;  // 0 for NaN
+        codes[i] = static_cast<std::uint32_t>(scaled < max ? scaled + half : max);
     }
 }
 
@@ -59,15 +69,15 @@ void route(DepthTextureMode mode, const Lanes<float>& result, std::array<Lanes<f
 
 }  // namespace
 
-void shadow_compare(const Image& depth, const ShadowCompare& state, const DeviceProfile& profile,
-                    const ShadowCoordinates& at, std::array<Lanes<float>, 4>& rgba, int count) noexcept {
+void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const DeviceProfile& profile,
+                    const ShadowCoordinates& at, std::array<Lanes<float>, 4>& rgba, int count) {
     const TexelAxis s_axis{state.target, state.wrap_s, depth.width}, t_axis{state.target, state.wrap_t, depth.height};
-    const DepthFormat format = depth_format(depth.format);
+    const bool is_float = depth.format == DepthFormat::d32f && !depth.is_eight_bit;
     const auto n = static_cast<std::size_t>(count);
     Lookup lookup{depth, {}, {}};
     Lanes<std::uint32_t> r;
     Lanes<float> result;
-    quantize(format, profile.raster.depth_rounding, at.r, r, n);
+    quantize(depth, profile.raster, at.r, r, n);
     const auto compare = [&](auto passed) {
         if (state.filter == TextureFilter::nearest) {
             nearest_texels(s_axis, point_snap(profile.texture_filter), at.s, lookup.s, count);
@@ -79,9 +89,18 @@ void shadow_compare(const Image& depth, const ShadowCompare& state, const Device
             compare_linear(lookup, r, state.fail_value, result, n, passed);
         }
     };
+    const bool quantizes = profile.raster.hypothesis.quantize_reference;
+    const double units = units_of(depth, profile.raster);
     with_compare(state.func, [&](auto chosen) {
         constexpr CompareFunc func = chosen();
-        if (format == DepthFormat::d32f) {
+        if (!is_float && !quantizes) {
+            for (std::size_t i = 0; i < n; ++i) r[i] = std::bit_cast<std::uint32_t>(at.r[i]);
+            const double max = depth.max();
+            compare([units, max](std::uint32_t a, std::uint32_t b) {
+                const double scaled = double{std::bit_cast<float>(a)} * units;
+                return passes<func>(scaled > 0.0 ? std::min(scaled, max) : 0.0, static_cast<double>(b));
+            });
+        } else if (is_float) {
             compare([](std::uint32_t a, std::uint32_t b) {
                 return passes<func>(std::bit_cast<float>(a), std::bit_cast<float>(b));
             });

@@ -1,9 +1,10 @@
 // pipeline/shadow_compare.h - depth textures compared with a coordinate: ARB_shadow, SGIX_shadow, ARB_shadow_ambient.
 //
 // Rule     A texel passes if R FUNC D: LEQUAL is R <= D, as ARB_shadow says and all hardware does, though
-//          SGIX_shadow's text has it the other way round. D16, D24: R is clamped to [0,1] and quantised exactly like
-//          a depth write, then integers compare. D32F: floats as they are, no clamp; NaN passes `notequal` and
-//          `always` alone. Linear: each of four texels gives 1 or the fail value, then the bilinear sum of
+//          SGIX_shadow's text has it the other way round. D16, D24 and 8-bit texels: R is clamped to the depth range
+//          and quantised exactly like a depth write (under the hypothesis that it is not: compared as it is); R is in [0,1], or in buffer units
+//          (0..2^n - 1) on devices whose vertex depth is. D32F: floats as they are, no clamp; NaN passes `notequal`
+//          and `always` alone. Linear: each of four texels gives 1 or the fail value, then the bilinear sum of
 //          texel_address.h with 8-bit fractions.
 // Source   hardware.md 4; measured on NV2A (R cut like a depth write, 192 of 192 pictures). The linear filter is an
 //          assumption.
@@ -12,7 +13,7 @@
 #include <array>
 #include <cstdint>
 
-#include "pipeline/image.h"
+#include "pipeline/depth_texels.h"
 #include "pipeline/profile.h"
 #include "pipeline/state.h"
 #include "pipeline/texture.h"
@@ -39,8 +40,12 @@ struct ShadowCoordinates {
     const rasterizer::Lanes<float>&s, &t, &r;
 };
 
-// The depth image has one sample. The profile rounds R like a depth write and snaps nearest lookups.
-void shadow_compare(const Image& depth, const ShadowCompare& state, const DeviceProfile& profile,
-                    const ShadowCoordinates& at, std::array<rasterizer::Lanes<float>, 4>& rgba, int count) noexcept;
+// A depth image has one sample. The profile rounds R like a depth write and snaps nearest lookups. Throws NeedsFrame.
+void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const DeviceProfile& profile,
+                    const ShadowCoordinates& at, std::array<rasterizer::Lanes<float>, 4>& rgba, int count);
+inline void shadow_compare(const Image& depth, const ShadowCompare& state, const DeviceProfile& profile,
+                           const ShadowCoordinates& at, std::array<rasterizer::Lanes<float>, 4>& rgba, int count) {
+    shadow_compare(DepthTexels{depth}, state, profile, at, rgba, count);
+}
 
 }  // namespace strata::pipeline

@@ -63,7 +63,7 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     list.geometry = set_up(std::move(soup), raster, profile.raster, 1);
     bin_triangles(list.geometry, 128);
     list.materials.emplace_back().texture = state.texture;
-    list.needs_texcoord = state.texture != nullptr;
+    list.needs.texcoord = state.texture != nullptr;
     return list;
 }
 

@@ -56,6 +56,11 @@ class TargetStorage {
         return add_halves(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, alive.data(), source.data(), flushes);
     }
 
+    [[nodiscard]] Texels texels(int sample) const noexcept {
+        Texels result = layout_;
+        result.first = {const_cast<std::uint32_t*>(words_.data()) + static_cast<std::size_t>(sample) * words_per_sample(), pixels_};
+        return result;
+    }
     [[nodiscard]] Plane depth_plane(int sample) noexcept { return texels(sample).plane(0); }
     [[nodiscard]] Plane stencil_plane(int sample) noexcept { return texels(sample).plane(stencil_word()); }
     [[nodiscard]] const std::uint32_t* depth(int sample) const noexcept { return texels(sample).plane(0).words; }
@@ -72,11 +77,6 @@ class TargetStorage {
     [[nodiscard]] std::size_t stencil_word() const noexcept { return format_ == Format::d24s8 ? 1 : 0; }
     [[nodiscard]] std::size_t words_per_sample() const noexcept {
         return (layout_.words() + stencil_word()) * (pixels_ + spare_words);
-    }
-    [[nodiscard]] Texels texels(int sample) const noexcept {
-        Texels result = layout_;
-        result.first = {const_cast<std::uint32_t*>(words_.data()) + static_cast<std::size_t>(sample) * words_per_sample(), pixels_};
-        return result;
     }
     void fill_word(std::uint32_t value, std::size_t word, unsigned sample_mask);
 

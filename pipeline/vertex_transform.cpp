@@ -11,7 +11,9 @@ namespace {
 
 using Row = std::array<float, 4>;
 
-[[nodiscard]] Row row_of(const std::array<float, 16>& m, std::size_t r) { return {m[r], m[4 + r], m[8 + r], m[12 + r]}; }
+[[nodiscard]] Row row_of(const std::array<float, 16>& m, std::size_t r) {
+    return {m[r], m[4 + r], m[8 + r], m[12 + r]};
+}
 
 [[nodiscard]] float fused(const Row& m, const Vec3& p) {
     const float first = m[0] * p[0];
@@ -51,11 +53,7 @@ std::array<float, 16> to_binary32(const Matrix& m) {
 }
 
 VertexTransform::VertexTransform(VertexPath path, const Matrix& whole, const Matrix& outer, const Matrix& inner)
-    : path_{path},
-      whole_{to_binary32(whole)},
-      outer_{to_binary32(outer)},
-      inner_{to_binary32(inner)},
-      exact_{whole} {}
+    : path_{path}, whole_{to_binary32(whole)}, outer_{to_binary32(outer)}, inner_{to_binary32(inner)}, exact_{whole} {}
 
 std::array<float, 4> VertexTransform::by_path(const Vec3& p) const {
     std::array<float, 4> out{};

@@ -1,7 +1,7 @@
 // rasterizer/cut_weight.h - the weights of NV2A's interpolator: edge value times reciprocal of the area, both cut.
 //
-// Rule     r = 1 / A cut to 28 significant bits (an experiment may take 24 to 30); b = e * r, product exact, cut to 24 significant bits. e and A in any
-//          unit that is a power of two (here square subpixels).
+// Rule     r = 1 / A cut to 28 significant bits (an experiment may take 24 to 30); b = e * r, product exact, cut to 24
+//          significant bits. e and A in any unit that is a power of two (here square subpixels).
 // Source   nv2a-depth.md section 1, steps 1, 2 and 4; the last bits of r are open there (section 4).
 // Numbers  e <= A < 2^58. r = R 2^-(n + L), L = floor(log2 A), R <= 2^n, n <= 30; e R fits 64 bits below 2^34, above
 //          it 24 bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 9 stay.

@@ -32,8 +32,10 @@ std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules) {
     vary(all, "depth_rounding=nearest", [](RasterRules& r) { r.depth_rounding = DepthRounding::nearest; });
     vary(all, "quantize_reference=true", [](RasterRules& r) { r.hypothesis.quantize_reference = true; });
     vary(all, "quantize_reference=false", [](RasterRules& r) { r.hypothesis.quantize_reference = false; });
-    vary(all, "plane_anchor=first_vertex", [](RasterRules& r) { r.hypothesis.plane_anchor = PlaneAnchor::first_vertex; });
-    vary(all, "plane_anchor=window_corner", [](RasterRules& r) { r.hypothesis.plane_anchor = PlaneAnchor::window_corner; });
+    vary(all, "plane_anchor=first_vertex",
+         [](RasterRules& r) { r.hypothesis.plane_anchor = PlaneAnchor::first_vertex; });
+    vary(all, "plane_anchor=window_corner",
+         [](RasterRules& r) { r.hypothesis.plane_anchor = PlaneAnchor::window_corner; });
     return all;
 }
 

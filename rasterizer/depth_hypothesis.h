@@ -1,7 +1,7 @@
-// rasterizer/depth_hypothesis.h - what is not known for certain about the depth paths, as values that an experiment varies.
+// rasterizer/depth_hypothesis.h - what is not known for certain about the depth paths, as values to vary.
 //
-// Rule     A default is what captures of silicon prove where they do ([M]), else our assumption ([A]). Everything that is
-//          computed from depths rests on one hypothesis, which is part of RasterRules; depth_hypotheses (rules.h)
+// Rule     A default is what captures of silicon prove where they do ([M]), else our assumption ([A]). Everything that
+//          is computed from depths rests on one hypothesis, which is part of RasterRules; depth_hypotheses (rules.h)
 //          names the others.
 // Source   hardware.md, "Silicon first", 4 and 5; nv2a-depth.md 1 and 4.
 // Tests    tests/rasterizer/depth_paths_test.cpp
@@ -28,16 +28,16 @@ enum class PlaneAnchor : std::uint8_t { first_vertex, window_corner };
 inline constexpr int full_double = 53;
 
 struct DepthHypothesis {
-    // Significant bits of r/w, q/w and 1/w at a fragment: 16 to 24, or full_double (then both divides are binary64 too).
-    // [A] 24: hardware.md 5.
+    // Significant bits of r/w, q/w and 1/w at a fragment: 16 to 24, or full_double (then the divides are binary64
+    // too). [A] 24: hardware.md 5.
     int interpolant_bits = 24;
     DivideRule divide = DivideRule::exact;
     WindowZRule window_z = WindowZRule::chip;
     // Of the chip's rule: significant bits of the reciprocal of the area, 24 to 30 ([M] 28 on three areas of four,
     // nv2a-depth.md 4), and the width of the aligned add, 24 to 29 ([M] 29: the last 5 are guard bits).
     int reciprocal_bits = 28, sum_bits = 29;
-    // The compared depth becomes a code by the rule of a depth write [M] (nv2a-geometry.md 3.2); false: it is compared as
-    // it is, and finds itself again (hardware.md 4).
+    // The compared depth becomes a code by the rule of a depth write [M] (nv2a-geometry.md 3.2); false: it is compared
+    // as it is, and finds itself again (hardware.md 4).
     bool quantize_reference = true;
     PlaneAnchor plane_anchor = PlaneAnchor::first_vertex;
     friend bool operator==(const DepthHypothesis&, const DepthHypothesis&) = default;

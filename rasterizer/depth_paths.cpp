@@ -1,6 +1,7 @@
 #include "rasterizer/depth_paths.h"
 
 #include "rasterizer/window.h"
+#include "rasterizer/window_z.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -28,8 +29,8 @@ int rounded_plane(const RationalPlane& plane, const TriangleLanes& lanes, int bi
 }
 
 // The same coordinate with nothing rounded to less than binary64; the vertex products are exact.
-void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w, const TriangleLanes& lanes,
-                        double* out) noexcept {
+void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w,
+                        const TriangleLanes& lanes, double* out) noexcept {
     if (is_constant(u)) return static_cast<void>(std::fill_n(out, lanes.count, double{u[0]}));
     RationalPlane dividend, divisor;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -111,6 +112,28 @@ void float32_plane_depth(const SetupTriangle& t, int subpixel_bits, PlaneAnchor 
         const float px = static_cast<float>(lanes.x[i]) + 0.5f, py = static_cast<float>(lanes.y[i]) + 0.5f;
         out[i] = double{(z0 + dx * (px - x0)) + dy * (py - y0)};
     }
+}
+
+void plane_depth(const SetupTriangle& t, const TriangleLanes& lanes, double* out) noexcept {
+    const FilterPlane plane{RationalPlane{t.z}, lanes.is_exact};
+    for (int i = 0; i < lanes.count; ++i) out[i] = plane.at(lanes.weight1[i], lanes.weight2[i]);
+}
+
+int window_z_depth(const SetupTriangle& t, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
+                   double* out) noexcept {
+    if (hypothesis.window_z == WindowZRule::float32) {
+        Lanes<float> z;
+        const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
+        std::copy_n(z.begin(), lanes.count, out);
+        return fallbacks;
+    }
+    if (hypothesis.window_z == WindowZRule::exact) {
+        plane_depth(t, lanes, out);
+        return 0;
+    }
+    const WindowZ24 rule{t.z, lanes.edges->area(), hypothesis};
+    for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
+    return 0;
 }
 
 void add_rq(TriangleSoup& soup, const RasterState& state, const RasterRules& rules) {

@@ -1,10 +1,10 @@
 // rasterizer/depth_quotient.h - the arithmetic of R = r/q, which a shadow comparison compares and depth replace stores.
 //
-// Rule     Comparison (4): R = ((r/w) / (1/w)) / ((q/w) / (1/w)). Each of the three planes is rounded to the interpolants'
-//          bits, each of the three divides is a rounded operation by DivideRule. Depth replace stores, and a comparison
-//          compares, what these functions give: so the two paths agree in every bit.
+// Rule     Comparison (4): R = ((r/w) / (1/w)) / ((q/w) / (1/w)). Each of the three planes is rounded to the
+//          interpolants' bits, each of the three divides is a rounded operation by DivideRule. Depth replace stores, and
+//          a comparison compares, what these functions give: so the two paths agree in every bit.
 // Source   Everitt 2001, (4); decisions.md 1; hardware.md 4 and 5.
-// Numbers  1/d cut: the product of two binary32 is exact in binary64, so it tells on which side of 1/d its rounding lies.
+// Numbers  1/d cut: the product of two binary32 is exact in binary64, so it tells on which side of 1/d rounding led.
 // Tests    tests/rasterizer/depth_paths_test.cpp
 #pragma once
 #include <bit>

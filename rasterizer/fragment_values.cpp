@@ -87,7 +87,7 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     const bool is_float = depth.format == DepthFormat::d32f;
     needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
                      (needs.exact_code && is_float) || needs.reference;
-    needs_attributes_ = needs.color || needs.texcoord;
+    needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
     is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || depth.path == DepthPath::float32);
     assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0) ||
@@ -120,6 +120,11 @@ void FragmentValues::fill_weights(const DrawnTriangle& triangle, int first, cons
     }
 }
 
+DepthConversion FragmentValues::to_code() const noexcept {
+    return {depth_.format != DepthFormat::d32f, least_, greatest_, static_cast<double>(max_code(depth_.format)),
+            rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0};
+}
+
 bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                 WeightLanes& weights) const noexcept {
     const auto f = static_cast<std::size_t>(first);
@@ -130,12 +135,7 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
     }
     const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
     if (plane.is_constant()) return false;
-    const bool is_fixed = depth_.format != DepthFormat::d32f;
-    const DepthLanes out{is_fixed,
-                         least_,
-                         greatest_,
-                         static_cast<double>(max_code(depth_.format)),
-                         rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0,
+    const DepthLanes out{to_code(),
                          needs_.shader_z ? &batch.shader_z[f] : nullptr,
                          needs_.code ? &batch.code[f] : nullptr,
                          needs_attributes_ ? &weights.b1[f] : nullptr,
@@ -223,38 +223,20 @@ std::uint32_t FragmentValues::code_of(double value) const noexcept {
 int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                       const TriangleLanes& lanes, const float* shader_z, double* out) const {
     const DepthHypothesis& h = rules_.hypothesis;
-    const double to_codes_of_vertex_z = z_units_ == code_units_ ? 1.0 : code_units_;
     int fallbacks = 0;
     switch (path) {
         case DepthPath::perspective_rq:
         case DepthPath::depth_replace:
             fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record), lanes, h, out);
             break;
-        case DepthPath::float32_plane:
-            float32_plane_depth(t, rules_.subpixel_bits, h.plane_anchor, lanes, out);
-            break;
+        case DepthPath::float32_plane: float32_plane_depth(t, rules_.subpixel_bits, h.plane_anchor, lanes, out); break;
         case DepthPath::float32:
             for (int i = 0; i < lanes.count; ++i) out[i] = double{shader_z[i]} * code_units_;
             return 0;
-        case DepthPath::window_z:
-            if (h.window_z == WindowZRule::chip) {
-                const WindowZ24 rule{t.z, lanes.edges->area(), h};
-                for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
-                return 0;
-            }
-            if (h.window_z == WindowZRule::float32) {
-                Lanes<float> z;
-                fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
-                std::copy_n(z.begin(), lanes.count, out);
-                return fallbacks;
-            }
-            [[fallthrough]];
-        case DepthPath::exact: {
-            const FilterPlane plane{RationalPlane{t.z}, lanes.is_exact};
-            for (int i = 0; i < lanes.count; ++i) out[i] = plane.at(lanes.weight1[i], lanes.weight2[i]);
-        }
+        case DepthPath::window_z: fallbacks = window_z_depth(t, lanes, h, out); break;
+        case DepthPath::exact: plane_depth(t, lanes, out); break;
     }
-    for (int i = 0; i < lanes.count; ++i) out[i] *= to_codes_of_vertex_z;
+    for (int i = 0; z_units_ != code_units_ && i < lanes.count; ++i) out[i] = out[i] * code_units_ / z_units_;
     return fallbacks;
 }
 
@@ -366,6 +348,7 @@ int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch
     if (!fill_depth(triangle, first, batch, weights))
         fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
     if (needs_attributes_) fallbacks += fill_attributes(triangle, first, batch, weights);
+    if (needs_.units != 0) fallbacks += fill_units(triangle, first, batch, weights);
     if (needs_.facing)
         std::fill_n(&batch.front_facing[static_cast<std::size_t>(first)], batch.count - first,
                     std::uint8_t{triangle.record.front_facing});

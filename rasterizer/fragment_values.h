@@ -4,8 +4,9 @@
 //          clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded
 //          once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the
 //          same bits are that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions,
-//          evaluated in binary64 and rounded once. depth_replace drops a fragment whose depth is outside the depth range
-//          (clamps it with depth clamp), after the clip of window z. The reference is another depth of the same fragment.
+//          evaluated in binary64 and rounded once. depth_replace drops a fragment whose depth is outside the depth
+//          range (with depth clamp: clamps it), after the clip of window z. The reference is another depth of the same
+//          fragment.
 // Source   decisions.md 1; hardware.md 2, 3 and 5.
 // Tests    tests/rasterizer/fragment_values_test.cpp
 #pragma once
@@ -42,6 +43,9 @@ class FragmentValues {
     // exact fallbacks.
     [[nodiscard]] int fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const;
 
+    // What DepthPath::float32 makes of shader_z.
+    [[nodiscard]] DepthConversion to_code() const noexcept;
+
   private:
     [[nodiscard]] TriangleLanes lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
                                       const FragmentBatch& batch, const WeightLanes& weights) const noexcept;
@@ -72,6 +76,9 @@ class FragmentValues {
     [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;
+
+    [[nodiscard]] int fill_units(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                 const WeightLanes& weights) const;  // unit_values.cpp
 
     const LaneKernels& kernels_;
     RasterRules rules_;

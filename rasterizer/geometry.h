@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rasterizer/edge.h"
+#include "rasterizer/fragment_batch.h"
 #include "rasterizer/raster_state.h"
 
 namespace strata::rasterizer {
@@ -27,8 +28,12 @@ struct VertexExtras {
     std::size_t stride = 0;
     bool has_rq = false;  // the first two are r and q, whose quotient is the depth of perspective_rq and depth_replace,
                           // r in units of vertex z (rules.window_z)
+    bool has_units = false;  // the last sixteen are s, t, r, q of the texture units, one after the other
     std::vector<float> values;
     [[nodiscard]] const float* of(std::size_t vertex) const noexcept { return &values[vertex * stride]; }
+    [[nodiscard]] const float* units_of(std::size_t vertex) const noexcept {
+        return &values[vertex * stride + stride - 4 * texture_units];
+    }
 };
 
 // A run of triangles with one material: three indices each, in submission order.

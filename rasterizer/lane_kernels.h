@@ -11,16 +11,10 @@
 #include "rasterizer/pixel_claims.h"
 #include "rasterizer/pixel_weights.h"
 #include "rasterizer/plane.h"
-#include "rasterizer/small_triangles.h"
+#include "rasterizer/triangle_walk.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
-
-inline constexpr int max_span_rows = 128;  // found at a time
-
-struct RowSpan {
-    int x0, x1;  // pixels [x0, x1) of a row of the surface
-};
 
 // Rows of one triangle on their way into a batch, from where it was interrupted.
 struct RowRun {
@@ -31,14 +25,19 @@ struct RowRun {
     std::uint32_t primitive;
 };
 
-// What `depth` makes of a plane of depth: its binary32 value, and the code of that.
-struct DepthLanes {
+// How a binary32 depth becomes its code.
+struct DepthConversion {
     bool is_fixed;          // a fixed-point format; else binary32
     float least, greatest;  // the depth range
     double max, half;       // fixed-point: the code of 1.0, and what the conversion adds
-    float* shader_z;        // null: not wanted
-    std::uint32_t* code;    // null: not wanted
-    double* b1;             // null: no one looks at the weights
+};
+
+// What `depth` makes of a plane of depth: its binary32 value, and the code of that.
+struct DepthLanes {
+    DepthConversion to_code;
+    float* shader_z;      // null: not wanted
+    std::uint32_t* code;  // null: not wanted
+    double* b1;           // null: no one looks at the weights
     double* b2;
 };
 

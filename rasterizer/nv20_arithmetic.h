@@ -1,12 +1,12 @@
 // rasterizer/nv20_arithmetic.h - binary32 as the vertex engine of NV20 (GeForce3) computes it.
 //
-// Rule     Denormals read and written are +0. Product: cut toward zero; 0 times anything is +0. Sum of up to four: every
-//          addend is cut toward zero to a multiple of 2^(e - 28), e the largest exponent among them (two places above
-//          it for carries, 7 below a result's last bit), added once, the sum cut toward zero. Reciprocal: seed
+// Rule     Denormals read and written are +0. Product: cut toward zero; 0 times anything is +0. Sum of up to four:
+//          every addend is cut toward zero to a multiple of 2^(e - 28), e the largest exponent among them (two places
+//          above it for carries, 7 below a result's last bit), added once, the sum cut toward zero. Reciprocal: seed
 //          s = round(8192 / (64.5 + i)), i the 6 leading fraction bits, then two Newton steps on integers, each cut; a
 //          power of two is exact.
-// Source   hardware.md 1: NV_vertex_program 2.14.1.11 [D], envytools' model checked against hardware [M]. Results beyond
-//          the largest number become that number [A].
+// Source   hardware.md 1: NV_vertex_program 2.14.1.11 [D], envytools' model checked against hardware [M]. Results
+//          beyond the largest number become that number [A].
 // Numbers  The mantissa m has 24 bits: s m < 2^31, ((2^37 - s' m) s') < 2^51. The second step ends within 2^-22 of 1/d.
 // Tests    tests/rasterizer/nv20_arithmetic_test.cpp
 #pragma once
@@ -84,7 +84,8 @@ template <std::size_t n>
         --exponent;
     }
     if (exponent <= 0) return 0.0f;
-    return std::bit_cast<float>(sign | static_cast<std::uint32_t>(exponent) << 23 | static_cast<std::uint32_t>(mantissa));
+    return std::bit_cast<float>(sign | static_cast<std::uint32_t>(exponent) << 23 |
+                                static_cast<std::uint32_t>(mantissa));
 }
 
 }  // namespace nv20

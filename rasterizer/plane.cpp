@@ -60,12 +60,15 @@ std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::i
     return static_cast<std::uint32_t>(code);
 }
 
+float constant_float(const RationalPlane& plane, std::int64_t area) noexcept {
+    if (plane.numerator == plane.denominator) return static_cast<float>(plane.v[0]);
+    return exact_float(plane, {area, 0, 0}, area);
+}
+
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* __restrict out) noexcept {
     const int count = lanes.count;
     if (plane.is_constant()) {
-        const float value = plane.numerator == plane.denominator
-                                ? static_cast<float>(plane.v[0])
-                                : exact_float(plane, {lanes.edges->area(), 0, 0}, lanes.edges->area());
+        const float value = constant_float(plane, lanes.edges->area());
         for (int i = 0; i < padded(count); ++i) out[i] = value;
         return 0;
     }

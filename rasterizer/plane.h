@@ -44,6 +44,8 @@ struct CodeRounding {
 [[nodiscard]] float exact_float(const RationalPlane& plane, const EdgeValues& e, std::int64_t area) noexcept;
 [[nodiscard]] std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::int64_t area,
                                        CodeRounding rounding) noexcept;
+// The value of a constant plane, rounded once.
+[[nodiscard]] float constant_float(const RationalPlane& plane, std::int64_t area) noexcept;
 
 // Loops over lanes run to whole blocks, so that they have no remainder; what stands in the lanes beyond the count is
 // never looked at. A batch is flushed early enough that there is room for them (lane_kernels.h).

@@ -114,8 +114,7 @@ ClipPolygon TriangleSetup::polygon(const SourceTriangle& triangle) const noexcep
     ClipPolygon polygon{{}, 3, extras_.stride, {}};
     for (std::size_t i = 0; i < 3; ++i) {
         polygon.corner[i] = vertices_[triangle.vertex[i]];
-        if (extras_.stride > 0)
-            std::copy_n(extras_.of(triangle.vertex[i]), extras_.stride, polygon.extra[i].begin());
+        if (extras_.stride > 0) std::copy_n(extras_.of(triangle.vertex[i]), extras_.stride, polygon.extra[i].begin());
     }
     return polygon;
 }

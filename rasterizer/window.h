@@ -1,7 +1,7 @@
 // rasterizer/window.h - from clip space to the window: divide by w, viewport, snapping.
 //
 // Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
-//          once (rules.viewport); all in binary32, for WDivide::nv20 each step by nv20_arithmetic.h. y up turns the sign
+//          once (rules.viewport); all in binary32, for WDivide::nv20 by nv20_arithmetic.h. y up turns the sign
 //          of the y scale. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
 //          a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
 // Source   GL 2.1 2.11.1; decisions.md 1; hardware.md 1; nv2a-geometry.md 1 and 4.

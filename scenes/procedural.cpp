@@ -8,6 +8,7 @@
 #include "scenes/nearest_name.h"
 #include "scenes/parameters.h"
 #include "scenes/random_soup.h"
+#include "scenes/shadow_demo.h"
 #include "scenes/teapot.h"
 #include "scenes/volume_beam.h"
 
@@ -34,11 +35,16 @@ Scene random_soup(const std::string& spec, const SceneOptions& options) {
     return make_random_soup(options, parameters.integer("seed", 0, UINT64_MAX, 1), triangles);
 }
 
+Scene shadow_demo(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{}};
+    return make_shadow_demo(options);
+}
+
 struct Maker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
 };
-constexpr Maker makers[] = {{"teapot", teapot}, {"volume-beam", volume_beam}, {"random", random_soup}};
+constexpr Maker makers[] = {{"teapot", teapot}, {"volume-beam", volume_beam}, {"random", random_soup}, {"shadow-demo", shadow_demo}};
 
 Keys names() {
     Keys result;
@@ -64,6 +70,7 @@ const std::vector<ProceduralScene>& procedural_scenes() {
          "end"},
         {"random", "seed=S,triangles=N",
          "triangle soup with exact ties for tests (0 to 10000000, default 1000; seed default 1)"},
+        {"shadow-demo", "", "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
     };
     return scenes;
 }

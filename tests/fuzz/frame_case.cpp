@@ -36,6 +36,23 @@ void choose_formats(ByteSource& bytes, const DeviceProfile& profile, peeling::Re
     }
 }
 
+// Another depth compared than stored, or by vertices that went another way.
+void choose_comparison(ByteSource& bytes, const DeviceProfile& profile, peeling::RenderOptions& o) {
+    constexpr std::array stored{DepthPath::float32_plane, DepthPath::exact, DepthPath::perspective_rq,
+                                DepthPath::depth_replace};
+    constexpr std::array compared{DepthPath::perspective_rq, DepthPath::float32, DepthPath::float32_plane,
+                                  DepthPath::exact};
+    if (bytes.one_in(8)) {
+        const DepthPath path = bytes.pick(stored);
+        if (!check(profile, path)) o.depth_path = path;
+    }
+    if (bytes.one_in(6)) o.reference_path = bytes.pick(compared);
+    if (bytes.one_in(10)) o.compare_epsilon = {bytes.one_in(2) ? 0.01 * double{bytes.fraction()} : 0.0, bytes.below(5)};
+    if (bytes.one_in(20)) o.quantize_reference = false;
+    if (bytes.one_in(8)) o.vertex_paths.first = static_cast<VertexPath>(bytes.below(6));
+    if (bytes.one_in(10)) o.vertex_paths.second = static_cast<VertexPath>(bytes.below(6));
+}
+
 Termination termination(ByteSource& bytes) {
     switch (bytes.below(8)) {
         case 4: return {.rule = TerminationRule::paper};
@@ -75,6 +92,16 @@ rasterizer::RasterState raster_state(ByteSource& bytes, const DeviceProfile& pro
     return state;
 }
 
+void choose_order(ByteSource& bytes, peeling::RenderOptions& o) {
+    using peeling::SortRule;
+    if (bytes.one_in(3)) o.formulation = Formulation::published;
+    if (!bytes.one_in(3)) return;
+    o.sort.rule = bytes.pick(std::array{SortRule::exact, SortRule::bucket, SortRule::reverse, SortRule::shuffle});
+    o.sort.buckets = 1 + bytes.below(8);
+    o.sort.fraction = bytes.fraction();
+    o.sort.seed = static_cast<std::uint64_t>(bytes.below(16));
+}
+
 peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, const peeling::Algorithm* algorithm) {
     peeling::RenderOptions o;
     const int largest = bytes.one_in(10) ? 48 : 20;
@@ -82,6 +109,7 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     o.height = 1 + bytes.below(largest);
     o.threads = 1;
     choose_formats(bytes, profile, o);
+    choose_comparison(bytes, profile, o);
     if (bytes.one_in(6)) o.alpha = bytes.fraction();
     if (bytes.one_in(2))
         for (float& channel : o.background) channel = bytes.fraction();
@@ -91,6 +119,7 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     o.audit = !bytes.one_in(3);
     o.nearest_depth = !bytes.one_in(4);
     o.raster = raster_state(bytes, profile, o.width, o.height);
+    choose_order(bytes, o);
     return o;
 }
 

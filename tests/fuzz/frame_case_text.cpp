@@ -23,8 +23,15 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
         << ", average_count " << number(o.average_count);
     if (o.depth) out << ", depth " << number(*o.depth);
     if (o.depth_path) out << ", depth_path " << number(*o.depth_path);
+    if (o.reference_path) out << ", reference_path " << number(*o.reference_path);
+    out << ", epsilon " << o.compare_epsilon.absolute << " + " << o.compare_epsilon.ulps << " ulp, quantize_reference "
+        << o.quantize_reference;
+    if (o.vertex_paths.first) out << ", first vertex_path " << number(*o.vertex_paths.first);
+    if (o.vertex_paths.second) out << ", second vertex_path " << number(*o.vertex_paths.second);
     if (o.color_format) out << ", color_format " << number(*o.color_format);
     if (o.alpha) out << ", alpha " << *o.alpha;
+    out << ", formulation " << number(o.formulation) << ", sort " << number(o.sort.rule) << ' ' << o.sort.buckets << ' '
+        << o.sort.fraction << ' ' << o.sort.seed;
     out << ", keep_layers " << o.keep_layers << ", audit " << o.audit << ", nearest_depth " << o.nearest_depth;
     print_numbers(out, ", background", o.background);
     const rasterizer::RasterState& r = o.raster;

@@ -146,7 +146,8 @@ DrawList list_of(ByteSource& bytes, const View& view, int width, int height) {
     for (int i = 0; i < instances; ++i)
         list.instances.push_back({.mesh = static_cast<std::uint32_t>(i < meshes ? i : bytes.below(meshes)),
                                   .material = static_cast<std::uint32_t>(bytes.below(materials)),
-                                  .model = model(bytes)});
+                                  .model = model(bytes),
+                                  .arrives_sorted = bytes.one_in(3)});
     for (int i = 0; i < meshes; ++i) {
         Mesh mesh;
         add_vertices(bytes, mesh, view.projection == perspective, width, height);

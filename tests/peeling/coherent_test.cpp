@@ -70,7 +70,8 @@ int iterations(const Machine& machine, const FragmentScene& scene, TerminationRu
     return result.frame.iterations;
 }
 
-const Machine stencil{"geforce8", "coherent_stencil"}, blend{"geforce8", "coherent_blend"}, ideal{"ideal", "coherent_ideal"};
+const Machine stencil{"geforce8", "coherent_stencil"}, blend{"geforce8", "coherent_blend"},
+    ideal{"ideal", "coherent_ideal"};
 
 }  // namespace
 
@@ -82,7 +83,7 @@ TEST_CASE("Figure 2: every stencil and depth value of the passes, the inverted c
         passes.region.clear(peel.reached, {.depth = 10.0f / 128});
         peel.from_the_start = false;
         static_cast<void>(first->find_nearest(peel));
-        CHECK(passes.depth(peel.nearest) == 20);  // D(s3)
+        CHECK(passes.depth(peel.nearest) == 20);                     // D(s3)
         if (first == &stencil_passes) CHECK(passes.stencil() == 3);  // s1, s2, s3
         first->find_previous(peel);
         CHECK(passes.depth(peel.previous) == 80);  // D(s2)
@@ -166,7 +167,9 @@ TEST_CASE("reversed layers take one iteration for every two, as the paper's wors
     }
 }
 
-TEST_CASE("E19, regression: 300 reversed layers saturate A's stencil and take 174 iterations, B's 151, an empty one included") {
+TEST_CASE(
+    "E19, regression: 300 reversed layers saturate A's stencil and take 174 iterations, B's 151, an empty one "
+    "included") {
     const FragmentScene scene = stack(300, false);
     CHECK(iterations(stencil, scene, TerminationRule::paper) == 174);
     CHECK(iterations(blend, scene, TerminationRule::paper) == 151);
@@ -201,7 +204,8 @@ TEST_CASE("random permutations take about 0.45 n iterations") {
             std::vector<int> depths(static_cast<std::size_t>(n));
             std::iota(depths.begin(), depths.end(), 1);
             for (std::size_t i = depths.size(); i > 1; --i)
-                std::swap(depths[i - 1], depths[static_cast<std::size_t>(random_int(random, 0, static_cast<int>(i) - 1))]);
+                std::swap(depths[i - 1],
+                          depths[static_cast<std::size_t>(random_int(random, 0, static_cast<int>(i) - 1))]);
             sum += iterations(blend, one_pixel(depths));
         }
         CHECK(sum / 20 / n == Approx(0.45).margin(0.05));

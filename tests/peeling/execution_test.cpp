@@ -92,6 +92,7 @@ RenderOptions small_frame() {
 const std::vector<Machine> machines{{"geforce3", "unsorted"},
                                     {"geforce3", "painter"},
                                     {"geforce3", "depth_units"},
+                                    {"geforce3", "shadow_map_depth_replace"},
                                     {"geforce8", "front_to_back"},
                                     {"geforce8", "dual"},
                                     {"geforce8_dx101", "dual_independent"},
@@ -165,7 +166,7 @@ TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface,
 
 TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts") {
     const TriangleScene scene = random_triangles(75, 24, 0.4f);
-    for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}}) {
+    for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}, {"geforce3", "shadow_map"}}) {
         RenderOptions options = small_frame();
         options.keep_layers = true;
         const int layers = render(scene.list, scene.view, machine, options).audit.layers_max;

@@ -1,11 +1,10 @@
 // Carr's algorithms and those that their paper compares itself with, over every short sequence of fragments and over deep ones of
 // all degrees of disorder: what they composite is the exact A-buffer's list in the order of their tie policy.
-#include "tests/support/partial_order_model.h"
-
 #include <catch2/catch.hpp>
 
 #include "rendering.h"
 #include "short_sequences.h"
+#include "tests/support/partial_order_model.h"
 
 namespace {
 
@@ -43,7 +42,8 @@ FragmentScene disordered(std::uint64_t seed, int width, int height, int longest)
         for (const float depth : disordered_depths(random, random_int(random, 1, most)))
             scene.pixels[p].fragments.push_back({depth, random_color(random)});
         if (p % 3 == 0)
-            scene.pixels[p].opaque = GivenFragment{static_cast<float>(random_int(random, 256, 511)) / 512.0f, random_color(random)};
+            scene.pixels[p].opaque =
+                GivenFragment{static_cast<float>(random_int(random, 256, 511)) / 512.0f, random_color(random)};
     }
     return scene;
 }
@@ -76,7 +76,8 @@ RenderResult check(const FragmentScene& scene, const Machine& machine, RenderOpt
     INFO(wrong.first);
     CHECK(wrong.pixels == 0);
     if (machine.algorithm != "k_buffer") CHECK(result.audit.order_errors == 0u);
-    CHECK(has_diagnostic(result, Fault::buffer_overflow) == (machine.algorithm == "k_buffer" && result.audit.order_errors != 0u));
+    CHECK(has_diagnostic(result, Fault::buffer_overflow) ==
+          (machine.algorithm == "k_buffer" && result.audit.order_errors != 0u));
     return result;
 }
 
@@ -85,7 +86,69 @@ const std::vector<Machine> machines{{"geforce8", "layer_peel"},     {"geforce8",
                                     {"geforce8", "batched"},        {"geforce8", "stencil_routed_k_buffer"},
                                     {"ideal", "k_buffer"},          {"ideal", "coherent_blend"}};
 
+// `count` instances with a mesh each: object i has a fragment at some pixels, at depths around its own.
+strata::pipeline::DrawList objects(Random& random, int count, float spread, FragmentScene& all) {
+    strata::pipeline::DrawList list;
+    list.materials = draw_list(all).materials;
+    std::vector<int> order(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) order[static_cast<std::size_t>(i)] = i;
+    for (std::size_t i = order.size(); i > 1; --i)
+        std::swap(order[i - 1], order[static_cast<std::size_t>(random_int(random, 0, static_cast<int>(i) - 1))]);
+    for (const int i : order) {
+        strata::pipeline::Mesh mesh;
+        for (std::size_t p = 0; p < all.pixels.size(); ++p)
+            for (int f = random_int(random, 0, 2); f > 0; --f) {
+                const float around = spread * static_cast<float>(random_int(random, -32, 32)) / 32.0f;
+                const float depth =
+                    std::clamp((static_cast<float>(i) + 0.5f + around) / static_cast<float>(count), 0.0f, 1.0f);
+                all.pixels[p].fragments.push_back({std::round(depth * 0x1p12f) * 0x1p-12f, random_color(random)});
+                add_fragment(mesh, all, p, all.pixels[p].fragments.back());
+            }
+        list.instances.push_back({.mesh = static_cast<std::uint32_t>(list.meshes.size()), .material = 0});
+        list.meshes.push_back(std::move(mesh));
+    }
+    return list;
+}
+
 }  // namespace
+
+TEST_CASE("batches of objects whose depths overlap, boundaries included, show what one peel of all of them shows") {
+    Random random{20241106};
+    for (const float spread : {0.0f, 0.5f, 3.0f}) {
+        FragmentScene all{16, 16};
+        const auto list = objects(random, 11, spread, all);
+        RenderOptions options = options_for(all);
+        const RenderResult batched = render(list, {}, {"geforce8", "batched"}, options);
+        const RenderResult whole = render(list, {}, {"geforce8", "front_to_back"}, options);
+        INFO("spread " << spread);
+        CHECK(batched.frame.color == whole.frame.color);
+        CHECK(batched.audit.order_errors == 0u);
+        CHECK(batched.audit.lost_by_ties == whole.audit.lost_by_ties);
+        CHECK(batched.frame.iterations == batched.frame.passes.geometry);
+        CHECK(batched.frame.counters.fragments_rasterized < 2 * whole.frame.counters.fragments_rasterized);
+    }
+}
+
+TEST_CASE("objects that do not overlap are ordered by occlusion queries, in n (n + 2) - 2 passes at most") {
+    Random random{20241107};
+    FragmentScene all{16, 16};
+    const auto list = objects(random, 6, 0.0f, all);  // each object at one depth
+    const RenderResult result = render(list, {}, {"geforce8", "object_sorted"}, options_for(all));
+    CHECK(result.audit.order_errors == 0u);
+    CHECK(result.frame.iterations == 6);
+    CHECK(result.frame.passes.geometry >= 3 * 6 - 2);
+    CHECK(result.frame.passes.geometry <= 6 * 8 - 2);
+    CHECK_FALSE(has_diagnostic(result, Fault::out_of_order));
+}
+
+TEST_CASE("objects that overlap come out wrong, and object_sorted says so") {
+    Random random{20241108};
+    FragmentScene all{16, 16};
+    const auto list = objects(random, 6, 3.0f, all);
+    const RenderResult result = render(list, {}, {"geforce8", "object_sorted"}, options_for(all));
+    CHECK(result.audit.order_errors > 0u);
+    CHECK(diagnosed(result, Fault::out_of_order) == result.audit.misordered.pixels);
+}
 
 TEST_CASE("all 19,531 sequences of up to six fragments on five depths are composited in the order of each tie policy") {
     const FragmentScene scene = all_short_sequences(20241101, short_depths);
@@ -109,7 +172,8 @@ TEST_CASE("sequences of every degree of disorder, with ties and opaque surfaces,
     for (const Machine& machine : machines) check(scene, machine, options_for(scene));
 }
 
-TEST_CASE("10,240 sequences of 1 to 400 fragments, of every degree of disorder, are composited in order", "[exhaustive]") {
+TEST_CASE("10,240 sequences of 1 to 400 fragments, of every degree of disorder, are composited in order",
+          "[exhaustive]") {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         const FragmentScene scene = disordered(20241110 + seed, 32, 32, 400);
         RenderOptions options = options_for(scene);
@@ -135,7 +199,9 @@ TEST_CASE("9 fragments on 8 samples: a second pass takes the ninth; after 31 pas
     }
 }
 
-TEST_CASE("a k-buffer of 4 is right exactly where no fragment comes after more than 4 deeper ones, and says where it is not") {
+TEST_CASE(
+    "a k-buffer of 4 is right exactly where no fragment comes after more than 4 deeper ones, and says where it is "
+    "not") {
     const FragmentScene scene = disordered(20241105, 32, 16, 40);
     std::uint64_t wrong = 0;
     for (const GivenPixel& pixel : scene.pixels) {

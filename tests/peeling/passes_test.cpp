@@ -74,6 +74,7 @@ TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 laye
         const std::vector<std::pair<Machine, int>> formulas{{{"geforce3", "unsorted"}, 1},
                                                             {{"geforce3", "painter"}, 1},
                                                             {{"geforce3", "depth_units"}, n + 1},
+                                                            {{"geforce3", "shadow_map_depth_replace"}, n + 1},
                                                             {{"geforce8", "front_to_back"}, n + 1},
                                                             {{"geforce8", "dual"}, 1 + std::max(1, half)},
                                                             {{"geforce8_dx101", "dual_independent"}, half + 2},

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "peeling/average.h"
+#include "peeling/depth_float.h"
 #include "peeling/min_max.h"
 #include "rasterizer/simd.h"
 #include "tests/support/random_numbers.h"
@@ -147,4 +148,31 @@ TEST_CASE("a visible fragment between the peeled depths is near, far or between,
         }
     }
     CHECK(wrong == 0);
+}
+
+TEST_CASE("every stored depth comes back from a float colour, and greater codes have greater values") {
+    using strata::rasterizer::DepthFormat;
+    const auto wrong = [](DepthFormat format, std::uint32_t step) {
+        std::size_t count = 0;
+        float before = -1.0f;
+        for (std::uint32_t code = 0; code <= strata::rasterizer::max_code(format); code += step) {
+            const float value = depth_as_float(code, format);
+            count += depth_as_code(value, format) != code || !(value > before) ? 1 : 0;
+            before = value;
+        }
+        return count;
+    };
+    CHECK(wrong(DepthFormat::d16, 1) == 0);
+    CHECK(wrong(DepthFormat::d24, 1) == 0);
+    CHECK(wrong(DepthFormat::d32f, 4099) == 0);
+    CHECK(depth_as_float(0xffffffu, DepthFormat::d24) == 1.0f);
+}
+
+TEST_CASE("E8: a pixel whose fragments all have alpha 0, and one without any, keep the background under the average") {
+    ColorLanes sums{}, background{}, out{};
+    Lanes<float> n{};
+    n[0] = 3;  // three fragments, no alpha; lane 1 has none
+    for (std::size_t c = 0; c < 4; ++c) background[c][0] = background[c][1] = 0.25f;
+    resolve_average(sums, n, background, out, 2);
+    for (std::size_t c = 0; c < 3; ++c) CHECK((out[c][0] == 0.25f && out[c][1] == 0.25f));
 }

@@ -75,8 +75,8 @@ std::vector<Rgba> hybrid_order(const GivenPixel& unordered, const GivenPixel& or
     return in_first_order(visible(both));
 }
 
-const Machine layer_peel{"geforce8", "layer_peel"}, hybrid{"geforce8", "hybrid"}, stencil{"geforce8", "coherent_stencil"},
-    blend{"geforce8", "coherent_blend"}, ideal{"ideal", "coherent_ideal"};
+const Machine layer_peel{"geforce8", "layer_peel"}, hybrid{"geforce8", "hybrid"},
+    stencil{"geforce8", "coherent_stencil"}, blend{"geforce8", "coherent_blend"}, ideal{"ideal", "coherent_ideal"};
 
 }  // namespace
 
@@ -100,7 +100,8 @@ TEST_CASE("hybrid composites an ordered and an unordered set, depths shared or n
     const TargetModel target{Format::rgba32f};
     for (std::size_t p = 0; p < ordered.pixels.size(); ++p) {
         const Rgba expected = under_model(target, hybrid_order(unordered.pixels[p], ordered.pixels[p]), background);
-        for (std::size_t c = 0; c < 3; ++c) wrong += result.frame.color.codes[4 * p + c] != target.code(expected[c]) ? 1 : 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            wrong += result.frame.color.codes[4 * p + c] != target.code(expected[c]) ? 1 : 0;
     }
     CHECK(wrong == 0);
 }
@@ -134,7 +135,8 @@ TEST_CASE("E16: the printed factors lose layers of 2,540 of the 19,531 short seq
     CHECK(published(scene, stencil).audit.order_errors == 0u);
 }
 
-TEST_CASE("E22, regression: A as printed composites what lies at the opaque surface in every iteration, and is stopped") {
+TEST_CASE(
+    "E22, regression: A as printed composites what lies at the opaque surface in every iteration, and is stopped") {
     FragmentScene scene{8, 8};
     Random random{5};
     scene.pixels[3].fragments = fragments_at({3, 6}, eighths, random);
@@ -150,7 +152,8 @@ TEST_CASE("E22, regression: A as printed composites what lies at the opaque surf
     }
 }
 
-TEST_CASE("E23: fragments exactly on the near plane are lost as printed; Algorithm 2 alone composites them by equality") {
+TEST_CASE(
+    "E23: fragments exactly on the near plane are lost as printed; Algorithm 2 alone composites them by equality") {
     FragmentScene scene{8, 8};
     Random random{6};
     scene.pixels[0].fragments = fragments_at({2, 0}, eighths, random);
@@ -174,7 +177,8 @@ TEST_CASE("E24, regression: Algorithm 1 as printed, U = 3, 3, 1 and S = 3, 4, 5,
     CHECK(diagnosed(result, Fault::as_published) == 1);
 }
 
-TEST_CASE("E24, regression: Algorithm 1 as printed repeats what lies at the opaque surface while another pixel is peeled") {
+TEST_CASE(
+    "E24, regression: Algorithm 1 as printed repeats what lies at the opaque surface while another pixel is peeled") {
     FragmentScene scene{16, 8};  // the other pixel in another tile
     Random random{8};
     auto& first = scene.pixels[0].fragments = fragments_at({6, 0, 6}, eighths, random);
@@ -203,7 +207,8 @@ TEST_CASE("E25, regression: Algorithm 2 as printed composites a finished pixel's
     }
 }
 
-TEST_CASE("as printed, a listing differs from the exact order at the pixels that its diagnostics count, and nowhere else") {
+TEST_CASE(
+    "as printed, a listing differs from the exact order at the pixels that its diagnostics count, and nowhere else") {
     const FragmentScene scene = all_short_sequences(20241133, short_depths);
     for (const Machine& machine : {layer_peel, stencil, blend, ideal}) {
         const RenderResult result = published(scene, machine);

@@ -39,11 +39,11 @@ const std::string no_programs =
 }  // namespace
 
 TEST_CASE("the table of algorithms and profiles is that of decisions.md 4") {
-    const std::vector<std::string> geforce3{"unsorted", "painter", "depth_units", "a_buffer"};
-    const std::vector<std::string> geforce8{"unsorted",   "painter", "depth_units",      "front_to_back",  "dual",
+    const std::vector<std::string> geforce3{"unsorted", "painter", "depth_units", "shadow_map", "shadow_map_depth_replace", "a_buffer"};
+    const std::vector<std::string> geforce8{"unsorted",   "painter", "depth_units",      "front_to_back",  "dual", "shadow_map",
                                             "layer_peel", "hybrid",  "coherent_stencil", "coherent_blend", "weighted_average",
                                             "batched",    "object_sorted", "stencil_routed_k_buffer", "weighted_sum", "a_buffer"};
-    const std::vector<std::string> ideal_alone{"k_buffer", "coherent_ideal"};
+    const std::vector<std::string> ideal_alone{"k_buffer", "coherent_ideal", "shadow_map_depth_replace"};
     for (const DeviceProfile& profile : builtin_profiles())
         for (const auto& algorithm : strata::peeling::algorithms()) {
             const auto& runs = profile.name == "geforce3" ? geforce3 : geforce8;
@@ -71,6 +71,12 @@ TEST_CASE("a refused algorithm names the first feature that is missing, its exte
           "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal");
     CHECK(sentence({"llvmpipe", "stencil_routed_k_buffer"}) ==
           "profile llvmpipe has no 8 samples a pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
+}
+
+TEST_CASE("the fix of shadow-map peeling is refused by its extension where there are no texture shaders") {
+    for (const std::string profile : {"geforce8", "geforce8_dx101", "llvmpipe"})
+        CHECK(sentence({profile, "shadow_map_depth_replace"}) ==
+              "profile " + profile + " has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
 }
 
 TEST_CASE("depth formats that a device lacks are refused for every algorithm") {

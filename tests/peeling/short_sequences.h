@@ -18,7 +18,8 @@ inline constexpr std::array<float, 5> short_depths{0.0f, 0.125f, 0.5f, 0.625f, 1
     for (int length = 0, count = 1; length <= 6; ++length, count *= 5)
         for (int number = 0; number < count; ++number, ++pixel)
             for (int place = 0, digits = number; place < length; ++place, digits /= 5)
-                scene.pixels[pixel].fragments.push_back({depths[static_cast<std::size_t>(digits % 5)], random_color(random)});
+                scene.pixels[pixel].fragments.push_back(
+                    {depths[static_cast<std::size_t>(digits % 5)], random_color(random)});
     return scene;
 }
 

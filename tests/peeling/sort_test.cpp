@@ -65,7 +65,8 @@ TEST_CASE("exact order is by the sum of clip z, near first, reverse far first, t
         CHECK(misplaced(submission_order(soup, {.rule = SortRule::reverse}), by_sum(false)) == 0);
         soup.vertices[7].z = std::numeric_limits<float>::quiet_NaN();
         soup.vertices[20].z = -std::numeric_limits<float>::infinity();
-        for (const SortRule rule : {SortRule::none, SortRule::exact, SortRule::reverse, SortRule::bucket, SortRule::shuffle})
+        for (const SortRule rule :
+             {SortRule::none, SortRule::exact, SortRule::reverse, SortRule::bucket, SortRule::shuffle})
             CHECK(is_permutation_of(submission_order(soup, {.rule = rule, .buckets = 5, .fraction = 0.5}), 20));
     }
 }
@@ -113,7 +114,8 @@ TEST_CASE("a shuffle moves exactly its fraction of the sorted triangles, and its
 TEST_CASE("parts are submitted one after the other, each sorted or as listed") {
     Random random{506};
     const TriangleSoup soup = soup_of_twenty(random);
-    const auto order = submission_order(soup, {.rule = SortRule::exact}, {.part_of_run = {1, 0, 1}, .sorts = {false, true}});
+    const auto order =
+        submission_order(soup, {.rule = SortRule::exact}, {.part_of_run = {1, 0, 1}, .sorts = {false, true}});
     REQUIRE(order.parts == std::vector<strata::pipeline::PrimitiveRange>{{0, 5}, {5, 20}});
     CHECK(is_permutation_of(order.triangles, 20));
     for (std::uint32_t i = 0; i < 5; ++i) CHECK(order.triangles[i] == 7 + i);

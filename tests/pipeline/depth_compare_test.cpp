@@ -41,7 +41,8 @@ TEST_CASE("a fragment is behind a stored depth by the frame's epsilon and quanti
                     const std::uint32_t last = strata::rasterizer::max_code(format);
                     const std::uint32_t stored = i % 50 == 0 ? last : static_cast<std::uint32_t>(random()) % (last + 1);
                     const auto apart = static_cast<std::uint32_t>(random_int(random, 0, i % 2 == 0 ? 6 : 4000));
-                    const std::uint32_t code = i % 3 == 0 && stored >= apart ? stored - apart : std::min(last, stored + apart);
+                    const std::uint32_t code =
+                        i % 3 == 0 && stored >= apart ? stored - apart : std::min(last, stored + apart);
                     const double scale = format == DepthFormat::d32f ? 0x1p-24 : 1.0;
                     const double z = compare.value(code) + scale * double{random_float(random, -0.9f, 1.9f)};
                     const bool found = compare.is_behind(code, z, stored);

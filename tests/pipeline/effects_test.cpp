@@ -39,7 +39,7 @@ TEST_CASE("a tile is empty, opaque alone, single or layered by the fragments of 
 }
 
 TEST_CASE("a pass needs what its program, its tests and its materials look at, and under Effects::all everything") {
-    const PreparedDraw plain;
+    const MaterialNeeds plain;
     PassState state;
     state.needs = {.shader_z = false, .code = false, .exact_code = false, .color = false};
     CHECK(pass_needs(state, plain, Effects::needed) == state.needs);
@@ -49,13 +49,23 @@ TEST_CASE("a pass needs what its program, its tests and its materials look at, a
     testing = state;
     testing.stencil = {.enabled = true, .two_sided = true, .front = {}, .back = {}};
     CHECK(pass_needs(testing, plain, Effects::needed).facing);
-    PreparedDraw textured;
-    textured.needs_texcoord = true;
+    const MaterialNeeds textured{.texcoord = true};
     CHECK_FALSE(pass_needs(state, textured, Effects::needed).texcoord);  // nobody looks at its colour
-    PreparedDraw masked = textured;
-    masked.needs_color = true;
+    const MaterialNeeds masked{.texcoord = true, .color = true};
     CHECK(pass_needs(state, masked, Effects::needed).color);
     CHECK(pass_needs(state, masked, Effects::needed).texcoord);
     const auto all = pass_needs(state, plain, Effects::all);
     CHECK((all.shader_z && all.code && all.color && all.texcoord && all.facing && !all.exact_code));
+}
+
+TEST_CASE("a tile's materials call for no more than the list's, and for nothing where no triangle has them") {
+    PreparedDraw list = squares({0, 8});  // a square a tile
+    for (std::uint32_t t = 0; t < list.geometry.triangles.size(); ++t)
+        list.geometry.triangles[t].material = list.geometry.bin(1).front() <= t ? 1 : 0;
+    const Texture texture;
+    list.materials = {{}, {.texture = &texture, .mask = {.enabled = true}}};
+    list.needs = {.texcoord = true, .color = true};
+    CHECK(needs_of(list, list.geometry.bin(0)) == MaterialNeeds{});
+    CHECK(needs_of(list, list.geometry.bin(1)) == list.needs);
+    CHECK(needs_of(list, {}) == MaterialNeeds{});
 }

@@ -11,14 +11,14 @@ namespace strata::testing {
 class TestFrame {
   public:
     TestFrame(pipeline::DrawList draws, const pipeline::View& view, int width, int height, const char* profile,
-              int tile_size = 8)
+              int tile_size = 8, const pipeline::CoordinateUnits& units = {})
         : list_{std::move(draws)} {
         const pipeline::DeviceProfile& device = *pipeline::find_profile(profile);
         rasterizer::RasterState raster;
         raster.viewport = {0, 0, width, height};
         raster.depth_format = device.has_d32f ? pipeline::DepthFormat::d32f : pipeline::DepthFormat::d24;
         pipeline::PrepareOptions options{
-            .selection = pipeline::Selection::transparent, .tile_size = tile_size, .threads = 1};
+            .selection = pipeline::Selection::transparent, .tile_size = tile_size, .threads = 1, .units = units};
         transparent_ = pipeline::prepare(list_, view, raster, device, options);
         options.selection = pipeline::Selection::opaque;
         opaque_ = pipeline::prepare(list_, view, raster, device, options);

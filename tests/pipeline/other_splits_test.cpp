@@ -41,7 +41,8 @@ struct Depths {
 };
 
 // Codes by pixel, seen from the viewport's corner.
-[[nodiscard]] Depths codes(const DrawList& list, strata::rasterizer::DepthPath path, const char* profile, int shift = 0) {
+[[nodiscard]] Depths codes(const DrawList& list, strata::rasterizer::DepthPath path, const char* profile,
+                           int shift = 0) {
     strata::rasterizer::RasterState state;
     state.viewport = {0, 0, 32, 32};
     state.depth_format = DepthFormat::d24;
@@ -95,7 +96,9 @@ TEST_CASE("flat quads are cut along their other diagonal, bent ones and lone tri
     CHECK(flip_diagonals(random_triangles(952, 10).list).quads == 0);
 }
 
-TEST_CASE("another order, diagonal or place changes no exact depth, while the chip's own rule depends on order and diagonal") {
+TEST_CASE(
+    "another order, diagonal or place changes no exact depth, while the chip's own rule depends on order and "
+    "diagonal") {
     using strata::rasterizer::DepthPath;
     const DrawList list = flat_grid(5);
     const DrawList rotated = rotate_vertices(list, 1), flipped = flip_diagonals(list).list;

@@ -165,6 +165,34 @@ TEST_CASE("a mirrored instance turns its winding, and its front stays its front"
         }
 }
 
+TEST_CASE("parts keep their primitives and lie between their depths, which no fragment leaves") {
+    const TriangleScene scene = random_triangles(507, 24);
+    for (const char* profile : {"geforce8", "ideal", "llvmpipe"}) {
+        strata::rasterizer::RasterState raster;
+        raster.viewport = {0, 0, 64, 64};
+        PrepareOptions options{.selection = Selection::transparent, .tile_size = 8};
+        options.order = [](const auto& soup) {
+            const auto first = soup.runs[0].index_count / 3;
+            return SubmissionOrder{{}, {{0, first}, {first, static_cast<std::uint32_t>(soup.indices.size() / 3)}}};
+        };
+        const PreparedDraw draw = prepare(scene.list, scene.view, raster, *find_profile(profile), options);
+        REQUIRE(draw.parts.size() == 2);
+        TestFrame test{FragmentScene{64, 64}, profile};
+        test.frame.transparent = &draw;
+        Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+        std::size_t outside = 0;
+        const auto fragments = region.capture(Bookkeeping::counted);
+        for (const CapturedFragment& f : fragments)
+            for (const DrawPart& part : draw.parts)
+                if (f.primitive >= part.primitives.first && f.primitive < part.primitives.last)
+                    outside += double{f.shader_z} < part.near || double{f.shader_z} > part.far ? 1 : 0;
+        CHECK(fragments.size() > 1000);
+        CHECK(outside == 0);
+        CHECK(draw.parts[0].near > 0);
+        CHECK(draw.parts[0].far < 1);
+    }
+}
+
 TEST_CASE("opaque and masked materials go to the opaque list, blended ones to the transparent") {
     const TriangleScene scene = random_triangles(504, 8);  // materials: blend, blend, mask, opaque
     const auto materials = [&](Selection selection) {
@@ -209,7 +237,7 @@ TEST_CASE("lists know whether a pass must shade: textures, and alphas that MASK 
         raster.viewport = {0, 0, 16, 16};
         const PreparedDraw draw =
             prepare(scene.list, scene.view, raster, *find_profile("geforce8"), {.selection = selection});
-        return std::pair{draw.needs_texcoord, draw.needs_color};
+        return std::pair{draw.needs.texcoord, draw.needs.color};
     };
     CHECK(needs(Selection::opaque) == std::pair{true, true});
     CHECK(needs(Selection::transparent) == std::pair{true, false});

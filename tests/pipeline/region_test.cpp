@@ -218,6 +218,62 @@ TEST_CASE("several targets take their own outputs, formats, blends and write mas
     CHECK(code(2, 0) == 0x3e00u);  // 1.5 as a half
 }
 
+TEST_CASE("a pass draws the named primitives alone, in order, and an empty range draws nothing") {
+    Machine m{stacks({4}), "geforce8"};  // primitives 0 to 3, reds 0 to 3
+    const auto drawn_reds = [&](std::vector<PrimitiveRange> ranges) {
+        std::vector<float> reds;
+        PassState state;
+        state.primitives = ranges;
+        static_cast<void>(m.region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs&) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) reds.push_back(in.color[0][i]);
+        }));
+        return reds;
+    };
+    CHECK(drawn_reds({}) == std::vector<float>{0, 1, 2, 3});
+    CHECK(drawn_reds({{1, 3}}) == std::vector<float>{1, 2});
+    CHECK(drawn_reds({{0, 1}, {3, 9}}) == std::vector<float>{0, 3});
+    CHECK(drawn_reds({{2, 2}}).empty());
+}
+
+TEST_CASE("a full-screen program that replaces depths has them compared and written, lane by lane") {
+    Machine m{stacks({}), "geforce8"};
+    const Target depth = m.region.make(Format::d32f);
+    m.region.clear(depth, {.depth = 0.5f});
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::greater, .write = true};
+    state.depth_target = depth;
+    const Drawn drawn = m.region.full_screen(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        out.replaces_depth = true;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+            out.depth[i] = std::bit_cast<std::uint32_t>(in.pixel[i] == 3 ? 0.75f : 0.25f);
+    });
+    CHECK(m.region.any(drawn.passed, Idle::no));
+    for (std::size_t p = 0; p < 32; ++p)
+        CHECK(m.region.storage(depth).depth(0)[p] == std::bit_cast<std::uint32_t>(p == 3 ? 0.75f : 0.5f));
+}
+
+TEST_CASE("a stencil count that stops by design is no fault") {
+    Machine m{stacks({300}), "geforce8"};
+    PassState state;
+    state.stencil = every_fragment(StencilOp::incr);
+    state.stencil_target = m.region.make(Format::s8);
+    state.saturates_by_design = true;
+    static_cast<void>(m.region.draw(state, write_nothing));
+    CHECK(stencil_of(m.region, state.stencil_target, 0) == 255);
+    CHECK(m.region.diagnostics().empty());
+}
+
+TEST_CASE("a limit is reached when fewer passes are left than an iteration needs") {
+    TestFrame test{stacks({1}), "geforce8"};
+    test.frame.max_passes = 3;
+    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    CHECK_FALSE(region.limit_reached(3));
+    CHECK(region.limit_reached(4));
+    static_cast<void>(region.draw({}, write_nothing));
+    CHECK_FALSE(region.limit_reached(2));
+    CHECK(region.limit_reached(3));
+}
+
 TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere else") {
     const auto cleared = [](const char* profile, Format format, float value) {
         Machine m{FragmentScene{1, 1}, profile};

@@ -58,14 +58,16 @@ using Row = std::array<float, 4>;
 
 [[nodiscard]] float in_pairs(const Row& m, const Row& p) {
     const auto product = [&](std::size_t i) { return near(Rational{m[i]} * Rational{p[i]}); };
-    const float xy = near(Rational{product(0)} + Rational{product(1)}), zw = near(Rational{product(2)} + Rational{product(3)});
+    const float xy = near(Rational{product(0)} + Rational{product(1)}),
+                zw = near(Rational{product(2)} + Rational{product(3)});
     return near(Rational{xy} + Rational{zw});
 }
 
 struct Matrices {
     Matrix whole, outer, inner;
     [[nodiscard]] static Row rounded(const Matrix& m, std::size_t r) {
-        return {static_cast<float>(m[r]), static_cast<float>(m[4 + r]), static_cast<float>(m[8 + r]), static_cast<float>(m[12 + r])};
+        return {static_cast<float>(m[r]), static_cast<float>(m[4 + r]), static_cast<float>(m[8 + r]),
+                static_cast<float>(m[12 + r])};
     }
 };
 
@@ -85,7 +87,8 @@ struct Matrices {
             const float xy = down(Rational{down(exact(0))} + Rational{down(exact(1))});
             return down(Rational{down(Rational{xy} + Rational{down(exact(2))})} + Rational{row[3]});
         }
-        case VertexPath::double_precision: return in_binary64({m.whole[r], m.whole[4 + r], m.whole[8 + r], m.whole[12 + r]}, p);
+        case VertexPath::double_precision:
+            return in_binary64({m.whole[r], m.whole[4 + r], m.whole[8 + r], m.whole[12 + r]}, p);
         case VertexPath::reassociated: {
             Row eye{};
             for (std::size_t i = 0; i < 4; ++i) eye[i] = in_pairs(Matrices::rounded(m.inner, i), {p[0], p[1], p[2], 1});
@@ -133,11 +136,12 @@ TEST_CASE("a view's vertex path computes its positions, and nv20 divides by w as
         View view = scene.view;
         view.vertex_path = path;
         const PreparedDraw prepared = prepare(scene.list, view, state, geforce3, {});
-        CHECK(prepared.geometry.rules.w_divide == (path == VertexPath::nv20 ? strata::rasterizer::WDivide::nv20
-                                                                            : strata::rasterizer::WDivide::reciprocal));
+        CHECK(prepared.geometry.rules.w_divide ==
+              (path == VertexPath::nv20 ? strata::rasterizer::WDivide::nv20 : strata::rasterizer::WDivide::reciprocal));
         const Instance& first = scene.list.instances.front();
         const Matrix inner = product(view.view, first.model);
-        const VertexTransform clip{path, product(product(view.projection, view.view), first.model), view.projection, inner};
+        const VertexTransform clip{path, product(product(view.projection, view.view), first.model), view.projection,
+                                   inner};
         const auto& positions = scene.list.meshes[first.mesh].positions;
         bool same = true;
         for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -162,7 +166,8 @@ TEST_CASE("r over q is the window depth of the vertex, in the units of vertex z,
                 state.depth_near = n, state.depth_far = f;
                 View view = scene.view;
                 view.vertex_path = path;
-                const auto prepared = prepare(scene.list, view, state, *find_profile(profile), {.depth_quotient = true});
+                const auto prepared =
+                    prepare(scene.list, view, state, *find_profile(profile), {.depth_quotient = true});
                 const auto& g = prepared.geometry;
                 REQUIRE((g.extras.has_rq && g.extras.values.size() == 2 * g.vertices.size()));
                 const double units = profile == std::string{"geforce3"} ? 16777215.0 : 1.0;
@@ -170,8 +175,12 @@ TEST_CASE("r over q is the window depth of the vertex, in the units of vertex z,
                 for (std::size_t i = 0; i < g.vertices.size(); ++i) {
                     const float* rq = g.extras.of(i);
                     const double depth = double{rq[0]} / double{rq[1]} / units;
-                    const double truth = 0.5 * (double{f} - n) * (double{g.vertices[i].z} / double{g.vertices[i].w}) + 0.5 * (double{n} + f);
-                    far_off += std::abs(depth - truth) > 0x1p-20 || std::abs(rq[1] - g.vertices[i].w) > 0x1p-20f * g.vertices[i].w ? 1 : 0;
+                    const double truth = 0.5 * (double{f} - n) * (double{g.vertices[i].z} / double{g.vertices[i].w}) +
+                                         0.5 * (double{n} + f);
+                    far_off += std::abs(depth - truth) > 0x1p-20 ||
+                                       std::abs(rq[1] - g.vertices[i].w) > 0x1p-20f * g.vertices[i].w
+                                   ? 1
+                                   : 0;
                 }
                 CHECK(far_off == 0);
             }
@@ -186,7 +195,9 @@ TEST_CASE("the rows of r and q are Listing 2's matrices multiplied out, row r ti
     state.depth_format = DepthFormat::d16;
     const View view{.view = v, .projection = p};
     const VertexTransform rows = depth_rows(view, m, state, find_profile("geforce3")->raster);
-    const auto entry = [&](const Matrix& a, std::size_t row, std::size_t column) { return Rational{a[4 * column + row]}; };
+    const auto entry = [&](const Matrix& a, std::size_t row, std::size_t column) {
+        return Rational{a[4 * column + row]};
+    };
     std::array<float, 4> r{}, q{};
     for (std::size_t column = 0; column < 4; ++column) {
         Rational z{0}, w{0};

@@ -38,7 +38,7 @@ using namespace strata::rasterizer;
 [[nodiscard]] TriangleSoup soup_of(std::vector<ClipVertex> vertices) {
     TriangleSoup soup;
     for (std::uint32_t i = 0; i < vertices.size(); ++i) soup.indices.push_back(i);
-    soup.runs = {{0, static_cast<std::uint32_t>(vertices.size()), 0, true, false}};
+    soup.runs = {{0, static_cast<std::uint32_t>(vertices.size()), 0, 0, true, false}};
     soup.vertices = std::move(vertices);
     return soup;
 }
@@ -66,7 +66,7 @@ constexpr float near_plane = 0.5f, far_plane = 40.0f;
             const std::uint32_t a = j * (cells + 1) + i, b = a + 1, c = b + cells + 1, d = a + cells + 1;
             for (const std::uint32_t index : {a, b, c, c, d, a}) soup.indices.push_back(index);
         }
-    soup.runs = {{0, static_cast<std::uint32_t>(soup.indices.size()), 0, true, false}};
+    soup.runs = {{0, static_cast<std::uint32_t>(soup.indices.size()), 0, 0, true, false}};
     return soup;
 }
 

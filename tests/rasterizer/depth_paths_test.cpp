@@ -52,7 +52,8 @@ struct Triangle {
     return triangles;
 }
 
-[[nodiscard]] Geometry geometry_of(const std::vector<Triangle>& triangles, const RasterRules& rules, DepthFormat format) {
+[[nodiscard]] Geometry geometry_of(const std::vector<Triangle>& triangles, const RasterRules& rules,
+                                   DepthFormat format) {
     std::vector<SetupTriangle> setup;
     VertexExtras extras{.stride = 2, .has_rq = true, .values = {}};
     for (const Triangle& t : triangles) {
@@ -125,9 +126,11 @@ struct Tally {
     const int count = hypothesis == DepthHypothesis{} ? 60 : 15;
     for (const Triangle& t : random_triangles(seed, count, 4, max_code(format)))
         for (const Fragment& f :
-             draw(geometry_of({t}, buffer_rules(hypothesis), format), {DepthPath::perspective_rq, format}, depths).fragments) {
+             draw(geometry_of({t}, buffer_rules(hypothesis), format), {DepthPath::perspective_rq, format}, depths)
+                 .fragments) {
             const float r = model_quotient(t, f, 4, hypothesis);
-            tally.wrong += f.reference_z != double{r} || f.reference_code != model_floor(Rational{r}, max_code(format)) ||
+            tally.wrong += f.reference_z != double{r} ||
+                                   f.reference_code != model_floor(Rational{r}, max_code(format)) ||
                                    f.code != f.reference_code
                                ? 1
                                : 0;
@@ -147,10 +150,12 @@ TEST_CASE("the compared depth is comparison (4): planes of r/w, q/w and 1/w and 
 }
 
 TEST_CASE("fewer bits of the interpolants and divides by a reciprocal change what their hypothesis says") {
-    for (const int bits : {16, 17, 20, 23}) CHECK(compare_quotients(902, {.interpolant_bits = bits}, DepthFormat::d24).wrong == 0);
+    for (const int bits : {16, 17, 20, 23})
+        CHECK(compare_quotients(902, {.interpolant_bits = bits}, DepthFormat::d24).wrong == 0);
     for (const DivideRule rule : {DivideRule::cut_reciprocal, DivideRule::low_reciprocal})
         CHECK(compare_quotients(903, {.divide = rule}, DepthFormat::d24).wrong == 0);
-    CHECK(compare_quotients(904, {.interpolant_bits = 18, .divide = DivideRule::low_reciprocal}, DepthFormat::d24).wrong == 0);
+    CHECK(compare_quotients(904, {.interpolant_bits = 18, .divide = DivideRule::low_reciprocal}, DepthFormat::d24)
+              .wrong == 0);
 }
 
 TEST_CASE("with full double interpolants R is the true quotient of the vertex products but for 2^-45 of it") {
@@ -158,7 +163,8 @@ TEST_CASE("with full double interpolants R is the true quotient of the vertex pr
     for (const Triangle& t : random_triangles(905, 60, 4, 0xffffff)) {
         const RasterRules rules = buffer_rules({.interpolant_bits = full_double});
         for (const Fragment& f :
-             draw(geometry_of({t}, rules, DepthFormat::d24), {DepthPath::perspective_rq, DepthFormat::d24}, depths).fragments) {
+             draw(geometry_of({t}, rules, DepthFormat::d24), {DepthPath::perspective_rq, DepthFormat::d24}, depths)
+                 .fragments) {
             const std::array<Rational, 3> b = barycentric(t.setup.p, f.x, f.y, 4);
             std::array<Rational, 3> r, q;
             for (std::size_t i = 0; i < 3; ++i) {
@@ -223,7 +229,8 @@ namespace {
 [[nodiscard]] float times(float a, float b) { return rounded(Rational{a} * Rational{b}); }
 
 // depth_paths.h, float32_plane; false where the slopes do not exist.
-[[nodiscard]] std::optional<float> model_float32_plane(const SetupTriangle& t, const Fragment& f, int bits, PlaneAnchor anchor) {
+[[nodiscard]] std::optional<float> model_float32_plane(const SetupTriangle& t, const Fragment& f, int bits,
+                                                       PlaneAnchor anchor) {
     std::array<float, 3> x, y, z;
     for (std::size_t i = 0; i < 3; ++i) {
         x[i] = rounded(Rational{t.p[i].x} / (1 << bits));
@@ -322,8 +329,8 @@ TEST_CASE("rotating the vertices or moving the viewport changes many depths of f
 }
 
 TEST_CASE("a reference is to the bit the depth that a pass storing by that path would store") {
-    constexpr std::array paths{DepthPath::window_z, DepthPath::perspective_rq, DepthPath::float32, DepthPath::float32_plane,
-                               DepthPath::exact};
+    constexpr std::array paths{DepthPath::window_z, DepthPath::perspective_rq, DepthPath::float32,
+                               DepthPath::float32_plane, DepthPath::exact};
     for (const WindowZRule rule : {WindowZRule::chip, WindowZRule::exact, WindowZRule::float32}) {
         std::vector<Triangle> triangles = random_triangles(910, 40, 4, 0xffffff);
         const Geometry geometry = geometry_of(triangles, buffer_rules({.window_z = rule}), DepthFormat::d24);
@@ -333,7 +340,8 @@ TEST_CASE("a reference is to the bit the depth that a pass storing by that path 
                 const auto both = draw(geometry, {stored, DepthFormat::d24, compared}, depths).fragments;
                 const auto alone = draw(geometry, {compared, DepthFormat::d24}, depths).fragments;
                 for (std::size_t i = 0; i < both.size(); ++i) {
-                    wrong += both[i].reference_code != alone[i].code || alone[i].reference_code != alone[i].code ? 1 : 0;
+                    wrong +=
+                        both[i].reference_code != alone[i].code || alone[i].reference_code != alone[i].code ? 1 : 0;
                     const auto floored = model_floor(Rational{both[i].reference_z}, 0xffffff);
                     unlike += floored != both[i].reference_code ? 1 : 0;
                 }
@@ -349,7 +357,8 @@ TEST_CASE("window_z from the exact plane is path exact, and from binary32 the pl
     std::uint64_t fragments = 0, wrong = 0;
     for (const Triangle& t : random_triangles(911, 60, 4, 0xffffff)) {
         const auto by = [&](WindowZRule rule, DepthPath path) {
-            return draw(geometry_of({t}, buffer_rules({.window_z = rule}), DepthFormat::d24), {path, DepthFormat::d24}, depths)
+            return draw(geometry_of({t}, buffer_rules({.window_z = rule}), DepthFormat::d24), {path, DepthFormat::d24},
+                        depths)
                 .fragments;
         };
         const auto exact = by(WindowZRule::exact, DepthPath::window_z), truth = by(WindowZRule::chip, DepthPath::exact);
@@ -367,12 +376,13 @@ TEST_CASE("window_z from the exact plane is path exact, and from binary32 the pl
 TEST_CASE("r and q are clipped with their vertex and drop a triangle over whose w they are not finite") {
     RasterState state = scene_state(16, 16);
     TriangleSoup soup;
-    soup.vertices = {{.x = -1, .y = -1, .z = 0, .w = 1}, {.x = 1, .y = -1, .z = 0, .w = 1}, {.x = 0, .y = 3, .z = 4, .w = 2}};
+    soup.vertices = {
+        {.x = -1, .y = -1, .z = 0, .w = 1}, {.x = 1, .y = -1, .z = 0, .w = 1}, {.x = 0, .y = 3, .z = 4, .w = 2}};
     soup.indices = {0, 1, 2};
-    soup.runs = {{0, 3, 0, true, false}};
+    soup.runs = {{0, 3, 0, 0, true, false}};
     add_rq(soup, state, {});
     CHECK(soup.extras.values == std::vector<float>{0.5f, 1, 0.5f, 1, 3, 2});  // (z + w) / 2
-    const Geometry clipped = set_up(soup, state, {}, 1);                     // cut where z = w, at t = 1/3
+    const Geometry clipped = set_up(soup, state, {}, 1);                      // cut where z = w, at t = 1/3
     REQUIRE(clipped.counters.clipped == 1);
     REQUIRE(clipped.extras.values.size() == 2 * clipped.vertices.size());
     for (std::size_t i = 0; i < clipped.vertices.size(); ++i) {

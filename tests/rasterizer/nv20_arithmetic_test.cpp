@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "rasterizer/window.h"
 #include "rational.h"
 #include "support.h"
 
@@ -74,7 +75,8 @@ TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven 
     CHECK(same(nv20::sum(std::array{1.0f, -0x1p-28f}), 0x1.fffffep-1f));  // cut after the one addition
     CHECK(same(nv20::sum(std::array{1.0f, -0x1p-29f}), 1.0f));            // lost before it
     CHECK(same(nv20::sum(std::array{2.0f, -2.0f}), 0.0f));
-    CHECK(std::isnan(nv20::sum(std::array{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()})));
+    CHECK(std::isnan(
+        nv20::sum(std::array{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()})));
 }
 
 TEST_CASE("NV20's reciprocal is a seed of its 6 leading bits and two Newton steps on integers") {
@@ -110,4 +112,28 @@ TEST_CASE("NV20's reciprocal is within 2^-22 of 1/d, as its extension promises, 
     }
     CHECK(worst < 0x1p-22);
     CHECK(worst > 0x1p-24);
+}
+
+TEST_CASE("a window of NV20's engine multiplies by its reciprocal of w and adds the viewport's offset, cut each time") {
+    Random random{923};
+    RasterState state;
+    state.viewport = {0, 0, 640, 480};
+    state.depth_format = DepthFormat::d24;
+    const WindowTransform window{state, {.w_divide = WDivide::nv20, .window_z = WindowZ::buffer_units}};
+    std::uint64_t wrong = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const auto part = [&] { return random_float(random, -2, 2); };
+        const ClipVertex v{.x = part(), .y = part(), .z = part(), .w = random_float(random, 0.5f, 9)};
+        const WindowVertex found = window.project(v);
+        const float inverse_w = nv20::reciprocal(v.w);
+        const auto mapped = [&](float scale, float c, float offset) {
+            const float divided = model_cut(model_value(c) * model_value(inverse_w));
+            return model_sum(std::array{model_cut(Rational{scale} * Rational{divided}), offset});
+        };
+        wrong += same(found.inverse_w, inverse_w) && same(found.x, mapped(320, v.x, 320)) &&
+                         same(found.y, mapped(-240, v.y, 240)) && same(found.z, mapped(8388607.5f, v.z, 8388607.5f))
+                     ? 0
+                     : 1;
+    }
+    CHECK(wrong == 0);
 }

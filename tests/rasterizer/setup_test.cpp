@@ -19,7 +19,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
     TriangleSoup soup;
     soup.vertices = {at(-.5f, -.5f), at(.5f, -.5f), at(0, .5f)};
     soup.indices = {0, 1, 2};
-    soup.runs = {{0, 3, 0, true, false}};
+    soup.runs = {{0, 3, 0, 0, true, false}};
     return soup;
 }
 

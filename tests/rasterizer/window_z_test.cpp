@@ -14,12 +14,12 @@ using namespace strata::rasterizer;
 constexpr int bits = 4;
 
 [[nodiscard]] Integer model_window_z(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z, int x, int y,
-                                     int subpixel_bits) {
+                                     int subpixel_bits, int reciprocal_bits = 28, int sum_bits = 29) {
     const std::array<Rational, 3> weight = barycentric(p, x, y, subpixel_bits);
     Rational area{doubled_area(p[0], p[1], p[2])};
     if (area < 0) area = -area;
-    const Rational r = cut_to_bits(Rational{1} / area, 28);  // step 2
-    std::array<Rational, 3> e;                               // step 1
+    const Rational r = cut_to_bits(Rational{1} / area, reciprocal_bits);  // step 2
+    std::array<Rational, 3> e;                                            // step 1
     std::array<int, 3> k;
     for (std::size_t i = 0; i < 3; ++i) {
         e[i] = weight[i] * area;
@@ -35,7 +35,7 @@ constexpr int bits = 4;
     }
     Rational sum{z[reference]};  // step 7
     for (std::size_t i = 0; i < 3; ++i)
-        if (i != reference && product[i] != 0) sum += cut(product[i], largest - 28);
+        if (i != reference && product[i] != 0) sum += cut(product[i], largest - (sum_bits - 1));
     return floor(sum);
 }
 
@@ -202,4 +202,36 @@ TEST_CASE("GeForce3 depth depends on the order of a triangle's vertices") {
     const auto first = drawn(0, 1, 2), turned = drawn(1, 2, 0);
     REQUIRE(first.size() == turned.size());
     CHECK(first != turned);
+}
+
+TEST_CASE("other widths of the reciprocal and of the aligned add change what their hypothesis says, and many words") {
+    Random random{45};
+    for (const auto& [reciprocal_bits, sum_bits] :
+         {std::pair{24, 29}, std::pair{27, 29}, std::pair{30, 29}, std::pair{28, 24}, std::pair{26, 26}}) {
+        const DepthHypothesis varied{.reciprocal_bits = reciprocal_bits, .sum_bits = sum_bits};
+        std::uint64_t fragments = 0, wrong = 0, changed = 0;
+        for (int n = 0; n < 12; ++n) {
+            std::array<SubpixelPoint, 3> p;
+            for (SubpixelPoint& c : p) c = random_point(random, 24, 24, bits, 200);
+            if (doubled_area(p[0], p[1], p[2]) <= 0) std::swap(p[1], p[2]);
+            if (doubled_area(p[0], p[1], p[2]) == 0) continue;
+            std::array<float, 3> z;
+            for (float& each : z) each = random_float(random, 8388608.0f, 16777215.0f);
+            const SetupTriangle t = window_triangle(p, bits, {z[0], z[1], z[2]});
+            Geometry geometry = geometry_of({t}, 24, 24, DepthFormat::d24);
+            const auto given = draw(geometry, {DepthPath::window_z, DepthFormat::d24}, {.color = false}).fragments;
+            geometry.rules.hypothesis = varied;
+            const auto found = draw(geometry, {DepthPath::window_z, DepthFormat::d24}, {.color = false}).fragments;
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                const Integer model = model_window_z(p, z, found[i].x, found[i].y, bits, reciprocal_bits, sum_bits);
+                wrong += Integer{found[i].code} != model ? 1 : 0;
+                changed += found[i].code != given[i].code ? 1 : 0;
+            }
+            fragments += found.size();
+        }
+        INFO(reciprocal_bits << " and " << sum_bits << " bits, " << fragments << " fragments");
+        CHECK(fragments > 500);
+        CHECK(wrong == 0);
+        CHECK((changed > 0 || reciprocal_bits >= 27));
+    }
 }

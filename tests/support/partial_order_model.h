@@ -6,7 +6,8 @@
 namespace strata::testing {
 
 // UNDER of straight fragments, near to far, each blended as it is.
-[[nodiscard]] inline Rgba under_model(const TargetModel& target, const std::vector<Rgba>& near_to_far, const Rgba& background) {
+[[nodiscard]] inline Rgba under_model(const TargetModel& target, const std::vector<Rgba>& near_to_far,
+                                      const Rgba& background) {
     Rgba front{0, 0, 0, 1};
     for (const Rgba& s : near_to_far) {
         for (std::size_t c = 0; c < 3; ++c) front[c] = target.under(front[c], front[3], s[c] * s[3]);
@@ -23,12 +24,14 @@ namespace strata::testing {
 // FIRST: by depth, the first arrival in front.
 [[nodiscard]] inline std::vector<Rgba> in_first_order(const std::vector<GivenFragment>& fragments) {
     std::vector<Rgba> colors;
-    for (const auto& [depth, sources] : groups_of(fragments)) colors.insert(colors.end(), sources.begin(), sources.end());
+    for (const auto& [depth, sources] : groups_of(fragments))
+        colors.insert(colors.end(), sources.begin(), sources.end());
     return colors;
 }
 
 // algorithms.md 13: samples hold straight colours; the program that sorts them works in binary32.
-[[nodiscard]] inline Rgba routed_model(const TargetModel& target, const std::vector<Rgba>& near_to_far, const Rgba& background) {
+[[nodiscard]] inline Rgba routed_model(const TargetModel& target, const std::vector<Rgba>& near_to_far,
+                                       const Rgba& background) {
     Rgba sum{0, 0, 0, 1};
     for (const Rgba& s : near_to_far) {
         const float alpha = target.stored(s[3]);

@@ -73,7 +73,8 @@ TEST_CASE("the plan's passes are those of the statistics, and its tiles are all 
         CHECK(tiles["empty"].get<int>() + tiles["opaque_only"].get<int>() + tiles["single"].get<int>() +
                   tiles["layered"].get<int>() == tiles["all"].get<int>());
         CHECK(tiles["all"] == 4);  // 64 x 48 in tiles of 32
-        CHECK(row(all[i], "stencil test").at("simulated") == false);
+        const std::string name = rows[i]["algorithm"];
+        CHECK(row(all[i], "stencil test").at("simulated") == (name.starts_with("coherent_") || name.starts_with("stencil_")));
     }
 }
 
@@ -85,4 +86,20 @@ TEST_CASE("what --effects all simulates the plan says, and where it is needed it
     CHECK(row(all, "texture coordinates").at("simulated") == true);
     CHECK(row(all, "texture coordinates")["why"] == "--effects all");
     CHECK(row(needed, "program depth").at("passes") == needed.at("geometry_passes"));
+    for (const char* stage : {"alpha test", "stencil test", "depth test"}) {
+        CHECK(row(needed, stage).at("simulated") == false);
+        CHECK(row(all, stage).at("simulated") == true);
+        CHECK(row(all, stage).at("passes") == all.at("geometry_passes"));
+    }
+}
+
+TEST_CASE("every effect that can be timed has its time, whether it is simulated or left out") {
+    const Folder folder;
+    const auto plan = plans(folder, {"volume-beam:slices=2", "--algorithm", "front_to_back"})[0];
+    for (const char* effect : {"colour interpolation, perspective division", "stored depth code", "depth test", "blending",
+                               "loads of the own pixel", "texture coordinates", "program depth", "alpha test", "stencil test"}) {
+        INFO(effect);
+        CHECK(row(plan, effect).at("seconds").is_number());
+    }
+    CHECK(row(plan, "culling").at("seconds").is_null());
 }

@@ -22,7 +22,7 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (render, layers, bench, effects, scene, digest, algorithms, profiles or scenes), found 'rendr' "
+         "strata: expected a command (render, layers, bench, effects, reproduce, scene, digest, algorithms, profiles or scenes), found 'rendr' "
          "(did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},
          "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
@@ -54,6 +54,20 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --fragment-memory: expected bytes such as 65536, 64M or 1G, found '64Q'"},
         {{"render", "teapot", "--execution", "tile"},
          "strata: --execution: expected literal, tiled or replay, found 'tile' (did you mean 'tiled'?)"},
+        {{"render", "teapot", "--reference-path", "rq"},
+         "strata: --reference-path: expected window_z, perspective_rq, depth_replace, float32, float32_plane or exact, "
+         "found 'rq'"},
+        {{"render", "teapot", "--compare-epsilon", "2ups"},
+         "strata: --compare-epsilon: expected a part of the depth range from 0 to 1 such as 1e-7, or units in the last "
+         "place such as 2ulp, found '2ups'"},
+        {{"render", "teapot", "--compare-epsilon", "1.5"},
+         "strata: --compare-epsilon: expected a part of the depth range from 0 to 1 such as 1e-7, or units in the last "
+         "place such as 2ulp, found '1.5'"},
+        {{"render", "teapot", "--vertex-path", "fused,double,nv20"},
+         "strata: --vertex-path: expected one or two of separate, fused, reassociated, double, toward_zero or nv20, "
+         "found 'fused,double,nv20'"},
+        {{"render", "teapot", "--polygon-offset", "1"},
+         "strata: --polygon-offset: expected two numbers such as 1,1, found '1'"},
         {{"bench", "teapot", "--execution", "replay,tile"},
          "strata: --execution: expected literal, tiled, replay or all, found 'tile' (did you mean 'tiled'?)"},
         {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
@@ -68,6 +82,18 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapot", "--termination", "ratio:2"},
          "strata: --termination: expected exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1, "
          "found 'ratio:2'"},
+        {{"render", "teapot", "--sort", "bucket:0"},
+         "strata: --sort: expected bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to "
+         "1, found 'bucket:0'"},
+        {{"render", "teapot", "--sort", "shuffle:0.5"}, "strata: --sort: ..."},
+        {{"render", "teapot", "--formulation", "printed"},
+         "strata: --formulation: expected resolved or published, found 'printed'"},
+        {{"render", "volume-beam:slices=2", "--sorted", "plane"},
+         "strata: --sorted: expected a mesh or a material of the scene (strata scene lists them), found 'plane' (did you mean "
+         "'planes'?)"},
+        {{"reproduce", "carr2007", "-o", "page"},
+         "strata: PAPER: expected carr2008, everitt2001 or bavoil2008, found 'carr2007' (did you mean 'carr2008'?)"},
+        {{"reproduce", "everitt2001"}, "strata: --output: expected one, found none; strata reproduce --help says more"},
         {{"render", "teapot", "--orbit", "1,2", "--camera", "x.json"},
          "strata: --orbit: expected either --orbit or --camera, found both"},
         {{"render", "teapot", "--camera", "top"},

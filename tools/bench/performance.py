@@ -7,6 +7,7 @@ Standard library alone. Ratios count, times tell the scale: every table's number
 """
 import argparse
 import json
+import os
 import pathlib
 import statistics
 import subprocess
@@ -161,7 +162,7 @@ submission order, the prefix sums of the bins, the last tiles, and the memory th
 {median:.3f}: 64 threads would be at most {ceiling:.1f} times as fast as one. Two bounds stand beside it. Tiles: {options.size} has
 {tiles} tiles of 64; with 64 threads a thread has {tiles / 64:.0f}, and the frame waits for the costliest one, so a frame whose
 fragments crowd into a few tiles scales with these. Memory: what a thread keeps of fragments is --fragment-memory divided by the
-threads; a tile that does not fit rasterizes every pass.
+threads; a tile that does not fit rasterizes every pass, or a closed form walks it band by band.
 """)
 
 
@@ -223,6 +224,35 @@ the machine gives says that the tile's targets stayed in cache or were not touch
             rows))
 
 
+def peak_mib(command):
+    """Largest resident set of one process, MiB; Linux reports it in KiB."""
+    print(" ".join(command), file=sys.stderr)
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    if status != 0:
+        sys.exit(f"performance.py: {command[1]} ended with status {status}")
+    return usage.ru_maxrss / 1024
+
+
+def memory_section(options, scenes):
+    fragment_memory = 256  # MiB, the default
+    width, height = (int(n) for n in options.size.split("x"))
+    targets = width * height * (4 + 1) * 4 / 2**20
+    rows = []
+    for scene in scenes:
+        own = peak_mib([options.strata, "scene", scene.spec])
+        bound = 1.5 * (own + targets + fragment_memory)
+        for algorithm in ALGORITHMS:
+            peak = peak_mib([options.strata, "bench", scene.spec, *scene.options, "--size", options.size, "--profile", "llvmpipe",
+                             "--algorithm", algorithm, "--threads", "2", "--repeat", "1"])
+            rows.append([scene.name, algorithm, f"{peak:.0f}", f"{own:.0f}", f"{targets:.0f}", fragment_memory, f"{bound:.0f}",
+                         "yes" if peak <= bound else "**no**"])
+    return (f"## Memory\n\nThe largest resident set of a process that runs one job, {options.size}, 2 threads, in MiB. The bound is 1.5 times "
+            "the sum of the scene's own data (the program that loads it and does no more), the targets (colour and depth, a word a "
+            "code) and --fragment-memory.\n\n" +
+            table(["scene", "job", "peak", "scene", "targets", "--fragment-memory", "bound", "kept"], rows))
+
+
 def mesa_section(options):
     title = "## Beside Mesa llvmpipe\n\n"
     build = pathlib.Path(options.strata).parent
@@ -251,7 +281,8 @@ def page(options, scenes):
         ways_section(options, scenes, "execution", ["literal", "tiled", "replay"], "literal : tiled : replay",
                      "The same bits three ways, each over replay."),
         ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets", "Each over the last."),
-        items_section(options, scenes), scaling_section(options, scenes), roofline_section(options, scenes),
+        items_section(options, scenes), scaling_section(options, scenes), memory_section(options, scenes),
+        roofline_section(options, scenes),
         "## Tried and dropped\n\n" + (tried.read_text() if tried.exists() else "Nothing yet.\n")])
 
 

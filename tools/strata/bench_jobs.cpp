@@ -54,6 +54,7 @@ BenchRun run_once(const BenchJob& job) {
     peeling::RenderOptions options = job.scene->options.render;
     options.execution = job.execution;
     options.effects = job.effects;
+    options.once_more = job.once_more;
     options.audit = false;
     options.nearest_depth = false;
     choose_simd(job.simd);

@@ -21,6 +21,7 @@ struct BenchJob {
     pipeline::Execution execution = pipeline::Execution::replay;
     Simd simd = Simd::scalar;
     pipeline::Effects effects = pipeline::Effects::needed;
+    pipeline::Effect once_more = pipeline::Effect::none;  // of `strata effects`
 };
 
 // One repetition.

@@ -4,10 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "tools/strata/bench_report.h"
 #include "tools/strata/choices.h"
 #include "tools/strata/command.h"
-#include "tools/strata/effects_plan.h"
+#include "tools/strata/effects_costs.h"
 #include "tools/strata/parse.h"
 #include "tools/strata/table.h"
 
@@ -23,35 +22,22 @@ struct EffectsOptions {
     bool json = false;
 };
 
-// Median seconds. Replay is a saving of its own, and does not join --effects all: both are timed without it.
-struct Times {
-    double needed = 0, all = 0, as_asked = 0;
-};
-
 struct Explained {
     const peeling::Algorithm* algorithm = nullptr;
     std::string refusal;  // empty: it ran
     EffectsPlan plan;
-    Times times;
+    EffectTimes times;
 };
 
 Explained explain(const BenchScene& scene, const peeling::Algorithm& algorithm, int repeat) {
-    const BenchJob asked{&scene, &algorithm, scene.options.render.execution, scene.options.simd,
-                         scene.options.render.effects};
-    BenchJob needed = asked, all = asked;
-    if (asked.execution == pipeline::Execution::replay)
-        needed.execution = all.execution = pipeline::Execution::tiled;
-    needed.effects = pipeline::Effects::needed;
-    all.effects = pipeline::Effects::all;
+    const BenchJob asked{.scene = &scene, .algorithm = &algorithm, .execution = scene.options.render.execution,
+                         .simd = scene.options.simd, .effects = scene.options.render.effects};
     Explained explained{.algorithm = &algorithm, .refusal = "", .plan = {}, .times = {}};
-    const auto results = measure({needed, all, asked}, repeat);
-    if (results[0].is_refused()) {
-        explained.refusal = results[0].last.refusal;
-        return explained;
-    }
-    explained.times = {spread_of(results[0].seconds).median, spread_of(results[1].seconds).median,
-                       spread_of(results[2].seconds).median};
-    explained.plan = plan_effects(asked, results[2].last);
+    const BenchRun run = run_once(asked);
+    explained.refusal = run.refusal;
+    if (!run.refusal.empty()) return explained;
+    explained.plan = plan_effects(asked, run);
+    explained.times = measure_effects(asked, repeat, explained.plan);
     return explained;
 }
 
@@ -65,7 +51,8 @@ ordered_json to_json(const Explained& e, const BenchScene& scene) {
                                        {"simulated", row.is_simulated},
                                        {"why", row.why},
                                        {"passes", row.passes},
-                                       {"fragments", row.fragments}});
+                                       {"fragments", row.fragments},
+                                       {"seconds", row.seconds ? ordered_json(*row.seconds) : ordered_json(nullptr)}});
     const auto& t = e.plan.tiles;
     document["tiles"] = {{"all", t.tiles},       {"empty", t.empty},     {"opaque_only", t.opaque_only},
                          {"single", t.single}, {"layered", t.layered}, {"with_opaque", t.with_opaque}};
@@ -75,15 +62,18 @@ ordered_json to_json(const Explained& e, const BenchScene& scene) {
 
 std::string to_text(const Explained& e, const BenchScene& scene) {
     if (!e.refusal.empty()) return fmt::format("{}: {}\n", e.algorithm->name, e.refusal);
-    Table table{{{e.algorithm->name}, {""}, {"passes", Align::right}, {"fragments", Align::right}, {"why"}}, {}};
+    Table table{{{e.algorithm->name}, {""}, {"passes", Align::right}, {"fragments", Align::right}, {"ms", Align::right},
+                  {"why"}}, {}};
     for (const bool simulated : {true, false})
         for (const EffectRow& row : e.plan.rows)
             if (row.is_simulated == simulated)
                 table.rows.push_back({row.effect, simulated ? "simulated" : "left out",
                                       row.passes > 0 ? fmt::format("{}", row.passes) : "-",
-                                      row.fragments > 0 ? fmt::format("{}", row.fragments) : "-", row.why});
+                                      row.fragments > 0 ? fmt::format("{}", row.fragments) : "-",
+                                      row.seconds ? fmt::format("{:.2f}", *row.seconds * 1e3) : "-", row.why});
     const auto& t = e.plan.tiles;
     std::string text = to_text(table);
+    text += "ms: what an effect costs in the whole run, or what leaving it out saves; each pass rasterizes, medians of runs in turn\n";
     text += fmt::format(
         "{} tiles: {} empty, {} with opaque fragments alone, {} with one transparent fragment a pixel at most, {} that "
         "need peeling; {} need opaque priming\n",

@@ -10,6 +10,7 @@ namespace strata::tools {
 namespace {
 
 using pipeline::AlphaMode;
+using pipeline::Effect;
 using pipeline::Material;
 using pipeline::PassRecord;
 
@@ -57,6 +58,7 @@ std::string names_of(const pipeline::DrawList& list, Holds holds) {
 // What state decides, pass by pass.
 struct PassEffect {
     const char* name;
+    Effect effect;
     bool (*is_in)(const PassRecord&);
     const char* called;
     const char* idle;
@@ -69,33 +71,39 @@ bool is_blending(const PassRecord& p) {
 }
 
 constexpr std::array pass_effects{
-    PassEffect{"colour interpolation, perspective division", [](const PassRecord& p) { return p.needs.color; },
+    PassEffect{"colour interpolation, perspective division", Effect::color, [](const PassRecord& p) { return p.needs.color; },
                "a program looks at colour, or a MASK material must be shaded", "no program looks at colour"},
-    PassEffect{"texture coordinates", [](const PassRecord& p) { return p.needs.texcoord; },
+    PassEffect{"texture coordinates", Effect::texcoord, [](const PassRecord& p) { return p.needs.texcoord; },
                "colour is looked at and a material has a texture", "nothing samples"},
-    PassEffect{"program depth", [](const PassRecord& p) { return p.needs.shader_z; }, "a program compares depths",
-               "no program looks at depth"},
-    PassEffect{"stored depth code", [](const PassRecord& p) { return p.needs.code; },
+    PassEffect{"program depth", Effect::shader_z, [](const PassRecord& p) { return p.needs.shader_z; },
+               "a program compares depths", "no program looks at depth"},
+    PassEffect{"stored depth code", Effect::code, [](const PassRecord& p) { return p.needs.code; },
                "a depth test, a depth unit or a program compares codes", "nothing compares codes"},
-    PassEffect{"exact depth code", [](const PassRecord& p) { return p.needs.exact_code; }, "the oracle's own order",
-               "the oracle alone asks for it"},
-    PassEffect{"facing", [](const PassRecord& p) { return p.needs.facing; }, "a two-sided stencil test",
+    PassEffect{"exact depth code", Effect::none, [](const PassRecord& p) { return p.needs.exact_code; },
+               "the oracle's own order", "the oracle alone asks for it"},
+    PassEffect{"facing", Effect::facing, [](const PassRecord& p) { return p.needs.facing; }, "a two-sided stencil test",
                "no two-sided stencil test"},
-    PassEffect{"loads of the own pixel", [](const PassRecord& p) {
+    PassEffect{"loads of the own pixel", Effect::loads, [](const PassRecord& p) {
                    return std::any_of(p.state.reads.begin(), p.state.reads.end(), [](auto t) { return t.exists(); });
                },
                "a program compares with what an earlier pass left", "no program loads"},
-    PassEffect{"alpha test", [](const PassRecord& p) { return p.state.alpha.enabled; }, "the pass's state",
+    PassEffect{"alpha test", Effect::alpha_test, [](const PassRecord& p) { return p.state.alpha.enabled; }, "the pass's state",
                "no pass enables it"},
-    PassEffect{"sequential depth units", [](const PassRecord& p) { return p.state.depth_unit_count > 0; },
+    PassEffect{"sequential depth units", Effect::none, [](const PassRecord& p) { return p.state.depth_unit_count > 0; },
                "the pass's state", "no pass has one"},
-    PassEffect{"stencil test", [](const PassRecord& p) { return p.state.stencil.enabled; }, "the pass's state",
-               "no pass enables it, and there is no stencil buffer"},
-    PassEffect{"depth test", [](const PassRecord& p) { return p.state.depth.enabled; }, "the pass's state",
+    PassEffect{"stencil test", Effect::stencil_test, [](const PassRecord& p) { return p.state.stencil.enabled; },
+               "the pass's state", "no pass enables it, and there is no stencil buffer"},
+    PassEffect{"depth test", Effect::depth_test, [](const PassRecord& p) { return p.state.depth.enabled; }, "the pass's state",
                "no pass enables it"},
-    PassEffect{"depth write", [](const PassRecord& p) { return p.state.depth.enabled && p.state.depth.write; },
+    PassEffect{"depth write", Effect::none, [](const PassRecord& p) { return p.state.depth.enabled && p.state.depth.write; },
                "the pass's state", "no pass writes depth"},
-    PassEffect{"blending", is_blending, "the pass's state", "no pass blends"}};
+    PassEffect{"blending", Effect::blending, is_blending, "the pass's state", "no pass blends"}};
+
+// The stages that --effects all runs with a state that changes nothing.
+bool idles_when_off(Effect effect) {
+    return effect == Effect::alpha_test || effect == Effect::stencil_test || effect == Effect::depth_test ||
+           effect == Effect::blending;
+}
 
 std::uint64_t total(const std::vector<std::uint64_t>& counts) {
     std::uint64_t sum = 0;
@@ -130,8 +138,11 @@ class Planner {
                 p.needs = p.called_for;
                 return e.is_in(p);
             });
-            add(e.name, count > 0, count == 0 ? e.idle : called == 0 ? "--effects all" : e.called, count,
-                count * total(plan_.tiles.transparent_fragments));
+            const bool idles = called == 0 && job_.effects == pipeline::Effects::all && idles_when_off(e.effect);
+            const std::uint64_t simulated = idles ? plan_.geometry_passes : count;
+            add(e.name, simulated > 0, simulated == 0 ? e.idle : called == 0 ? "--effects all" : e.called, simulated,
+                simulated * total(plan_.tiles.transparent_fragments));
+            plan_.rows.back().effect_id = e.effect;
         }
         add_frame();
         return std::move(plan_);
@@ -140,11 +151,16 @@ class Planner {
   private:
     template <class Holds>
     [[nodiscard]] std::uint64_t passes(Holds holds) const {
+        if (job_.algorithm != nullptr && job_.algorithm->whole_frame)  // no iteration of it is like another
+            return static_cast<std::uint64_t>(std::count_if(log_.passes.begin(), log_.passes.end(), [&](const PassRecord& pass) {
+                return !pass.is_opaque_priming && holds(pass);
+            }));
         return count_passes(log_, run_.iterations, holds);
     }
 
     void add(std::string effect, bool is_simulated, std::string why, std::uint64_t pass_count, std::uint64_t fragments) {
-        plan_.rows.push_back({std::move(effect), is_simulated, std::move(why), pass_count, fragments});
+        plan_.rows.push_back({.effect = std::move(effect), .is_simulated = is_simulated, .why = std::move(why),
+                              .passes = pass_count, .fragments = fragments, .seconds = {}});
     }
 
     [[nodiscard]] const pipeline::DrawList& list() const { return job_.scene->session.scene.list; }
@@ -164,9 +180,9 @@ class Planner {
         // With --alpha nothing is opaque: the other list is then one without a triangle.
         pipeline::PreparedDraw opaque = prepared(Selection::opaque);
         if (options.render.alpha) std::fill(opaque.geometry.bin_start.begin(), opaque.geometry.bin_start.end(), 0u);
-        const pipeline::PreparedDraw drawn = prepared(options.render.alpha ? Selection::all : Selection::transparent);
-        setup_ = drawn.geometry.counters;
-        plan_.tiles = pipeline::count_tiles(drawn, opaque);
+        plan_.drawn = prepared(options.render.alpha ? Selection::all : Selection::transparent);
+        setup_ = plan_.drawn.geometry.counters;
+        plan_.tiles = pipeline::count_tiles(plan_.drawn, opaque);
     }
 
     // A row that materials call for: in `drawn` passes over the transparent list, and once in opaque priming.

@@ -30,11 +30,13 @@ Page page_of(const ReproduceOptions& options) {
 
 int reproduce(const ReproduceOptions& options) {
     if (std::find(papers.begin(), papers.end(), options.paper) == papers.end())
-        throw CLI::ValidationError("PAPER", "expected " + one_of(papers) + ", found " + found_but_near(options.paper, papers));
+        throw CLI::ValidationError("PAPER",
+                                   "expected " + one_of(papers) + ", found " + found_but_near(options.paper, papers));
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
     if (!std::filesystem::is_directory(options.folder))
-        throw CLI::ValidationError("-o", "expected a folder that exists or can be made, found '" + options.folder + "'");
+        throw CLI::ValidationError("-o",
+                                   "expected a folder that exists or can be made, found '" + options.folder + "'");
     write_page(options.folder, page_of(options));
     print(options.folder + "/index.html\n");
     return 0;
@@ -43,18 +45,24 @@ int reproduce(const ReproduceOptions& options) {
 }  // namespace
 
 Command add_reproduce(CLI::App& root) {
-    auto* app = root.add_subcommand("reproduce", "a paper's figures and tables beside our own: one page, CSV and pictures");
+    auto* app =
+        root.add_subcommand("reproduce", "a paper's figures and tables beside our own: one page, CSV and pictures");
     const auto options = std::make_shared<ReproduceOptions>();
     app->add_option("PAPER", options->paper, "carr2008, everitt2001 or bavoil2008")->required()->type_name("");
-    app->add_option("MODEL", options->models, "glTF files to run beside the built-in scenes (dragon.glb, sponza.glb, a car ...)")
+    app->add_option("MODEL", options->models,
+                    "glTF files to run beside the built-in scenes (dragon.glb, sponza.glb, a car ...)")
         ->type_name("");
-    app->add_option("-o,--output", options->folder, "the folder that takes the page; made if it is not there")->required()->type_name("DIR");
-    add_option(*app, options->size, {"--size", "N", "pixels a side of the pictures (default 256)", "a whole number from 1 to 4096"},
+    app->add_option("-o,--output", options->folder, "the folder that takes the page; made if it is not there")
+        ->required()
+        ->type_name("DIR");
+    add_option(*app, options->size,
+               {"--size", "N", "pixels a side of the pictures (default 256)", "a whole number from 1 to 4096"},
                [](std::string_view text) {
                    const auto size = to_positive(text);
                    return size && *size <= 4096 ? size : std::nullopt;
                });
-    app->footer(footer("  strata reproduce everitt2001 -o everitt --size 128\n  strata reproduce bavoil2008 -o bavoil --size 128\n"));
+    app->footer(footer(
+        "  strata reproduce everitt2001 -o everitt --size 128\n  strata reproduce bavoil2008 -o bavoil --size 128\n"));
     return {app, [options] { return reproduce(*options); }};
 }
 

@@ -15,7 +15,8 @@ struct Subject {
     pipeline::View view;
 };
 
-peeling::RenderResult render(const Subject& subject, const std::string& algorithm, const peeling::RenderOptions& options) {
+peeling::RenderResult render(const Subject& subject, const std::string& algorithm,
+                             const peeling::RenderOptions& options) {
     return peeling::Renderer(subject.model.scene.list, subject.view, *pipeline::find_profile("geforce8"), options)
         .render(*peeling::find_algorithm(algorithm));
 }
@@ -37,7 +38,11 @@ std::vector<std::string> pass_row(const ReproduceOptions& options, const Subject
     const auto with_paper_exit = render(subject, "dual", paper);
     const auto front_to_back = render(subject, "front_to_back", exact);
     const std::string printed = fmt::format("{:g}", n / 2.0 + 1);
-    return {subject.model.name, std::to_string(n), std::to_string(front_to_back.frame.passes.geometry), printed, std::to_string(passes),
+    return {subject.model.name,
+            std::to_string(n),
+            std::to_string(front_to_back.frame.passes.geometry),
+            printed,
+            std::to_string(passes),
             std::to_string(with_paper_exit.frame.passes.geometry),
             n % 2 == 0 ? "as printed; the paper's own query needs one empty pass more (E11)"
                        : "N is odd: the layer in the middle takes a pass of its own (E11)"};
@@ -59,9 +64,12 @@ void vary_alpha(scenes::Scene& scene) {
 
 Section alphas(const ReproduceOptions& options, const Model& model, const pipeline::View& view) {
     Section section{"Figure 4 with " + model.name,
-                    "Dual peeling is exact; the other two take one pass. The paper finds the average close to it for low and for high alpha, and "
+                    "Dual peeling is exact; the other two take one pass. The paper finds the average close to it for "
+                    "low and for high alpha, and "
                     "that the sum darkens above 20 %. Non-uniform: 20 % at the bottom to 80 % at the top."};
-    section.sheet = {"figure4_" + model.name, {"alpha", "algorithm", "largest difference from dual / 255", "mean difference / 255"}, {}};
+    section.sheet = {"figure4_" + model.name,
+                     {"alpha", "algorithm", "largest difference from dual / 255", "mean difference / 255"},
+                     {}};
     Model varied = model;
     vary_alpha(varied.scene);
     struct Column {
@@ -76,9 +84,11 @@ Section alphas(const ReproduceOptions& options, const Model& model, const pipeli
         for (const char* algorithm : {"dual", "weighted_average", "weighted_sum"}) {
             const auto other = render(subject, algorithm, render_options);
             const PictureDifference d = difference(other.frame.color, dual.frame.color);
-            section.sheet.rows.push_back({column.name, algorithm, fmt::format("{:.0f}", d.largest), fmt::format("{:.3f}", d.mean)});
-            section.pictures.push_back(write_picture(options.folder, fmt::format("{}_{}_{}.png", model.name, column.name, algorithm),
-                                                     fmt::format("{}, alpha {}", algorithm, column.name), other.frame.color));
+            section.sheet.rows.push_back(
+                {column.name, algorithm, fmt::format("{:.0f}", d.largest), fmt::format("{:.3f}", d.mean)});
+            section.pictures.push_back(
+                write_picture(options.folder, fmt::format("{}_{}_{}.png", model.name, column.name, algorithm),
+                              fmt::format("{}, alpha {}", algorithm, column.name), other.frame.color));
         }
     }
     return section;
@@ -90,9 +100,13 @@ Page reproduce_bavoil(const ReproduceOptions& options, const std::vector<Model>&
     std::vector<Model> models{{"teapot", scenes::load_scene("teapot", {})}};
     models.insert(models.end(), given.begin(), given.end());
     Page page{"Bavoil and Myers 2008: Order Independent Transparency with Dual Depth Peeling"};
-    Section passes{"Geometry passes: N/2 + 1", "Printed: N/2 + 1 passes for N layers, against N of front-to-back peeling (whose last, empty "
-                                             "pass is counted here)."};
-    passes.sheet = {"passes", {"scene", "layers N", "front_to_back", "printed N/2 + 1", "dual", "dual, the paper's exit", "why they differ"}, {}};
+    Section passes{"Geometry passes: N/2 + 1",
+                   "Printed: N/2 + 1 passes for N layers, against N of front-to-back peeling (whose last, empty "
+                   "pass is counted here)."};
+    passes.sheet = {
+        "passes",
+        {"scene", "layers N", "front_to_back", "printed N/2 + 1", "dual", "dual, the paper's exit", "why they differ"},
+        {}};
     std::vector<Section> figures;
     for (const Model& model : models) {
         const Subject subject{model, scenes::orbit_view(model.scene.bounds, 30, 20, 1.0)};

@@ -20,16 +20,16 @@ struct Run {
 
 // Literal execution: every pass rasterizes all its geometry, as the paper's machine did. `paper_exit`: iterations as the paper
 // counts them, by queries during compositing.
-Run run(const scenes::Scene& scene, const pipeline::View& view, const std::string& algorithm, peeling::RenderOptions options,
-        bool paper_exit) {
+Run run(const scenes::Scene& scene, const pipeline::View& view, const std::string& algorithm,
+        peeling::RenderOptions options, bool paper_exit) {
     options.execution = pipeline::Execution::literal;
     options.audit = options.nearest_depth = false;
     if (paper_exit) options.termination.rule = pipeline::TerminationRule::paper;
     const char* const profile = algorithm == "coherent_ideal" ? "ideal" : "geforce8";
-    const auto result =
-        peeling::Renderer(scene.list, view, *pipeline::find_profile(profile), options).render(*peeling::find_algorithm(algorithm));
-    return {result.frame.iterations, result.frame.passes.geometry, result.frame.counters.fragments_rasterized, result.seconds.passes,
-            result.frame.color};
+    const auto result = peeling::Renderer(scene.list, view, *pipeline::find_profile(profile), options)
+                            .render(*peeling::find_algorithm(algorithm));
+    return {result.frame.iterations, result.frame.passes.geometry, result.frame.counters.fragments_rasterized,
+            result.seconds.passes, result.frame.color};
 }
 
 std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
@@ -48,12 +48,19 @@ const std::array beam_algorithms{"layer_peel", "hybrid", "coherent_stencil", "co
 
 Section beam(const ReproduceOptions& options) {
     Section section{"Figures 1 and 3: slices of a volume and a cone",
-                    fmt::format("volume-beam:slices=N,order=near at {0}x{0}; slices arrive front to back, the cone of two layers after them. The paper, "
-                                "for 256 slices: layer peeling 257 iterations, hybrid 3 and 62 times faster (Figure 1; 52 in section 8), coherent about "
-                                "6 times slower than hybrid; of Figure 3 only the curves' shapes are told: hybrid and coherent constant in passes "
-                                "and linear in time, layer peeling linear in passes and worse in time. Fragments are counted over all geometry passes.",
+                    fmt::format("volume-beam:slices=N,order=near at {0}x{0}; slices arrive front to back, the cone of "
+                                "two layers after them. The paper, "
+                                "for 256 slices: layer peeling 257 iterations, hybrid 3 and 62 times faster (Figure 1; "
+                                "52 in section 8), coherent about "
+                                "6 times slower than hybrid; of Figure 3 only the curves' shapes are told: hybrid and "
+                                "coherent constant in passes "
+                                "and linear in time, layer peeling linear in passes and worse in time. Fragments are "
+                                "counted over all geometry passes.",
                                 beam_size)};
-    section.sheet = {"figure3", {"slices", "algorithm", "iterations", "geometry passes", "fragments", "of layer_peel's fragments", "times faster than layer_peel", "the paper", "why they differ"}, {}};
+    section.sheet = {"figure3",
+                     {"slices", "algorithm", "iterations", "geometry passes", "fragments", "of layer_peel's fragments",
+                      "times faster than layer_peel", "the paper", "why they differ"},
+                     {}};
     for (const int slices : {16, 32, 64, 128, 256, 512, 1024}) {
         const scenes::Scene scene = scenes::load_scene(fmt::format("volume-beam:slices={},order=near", slices), {});
         const auto view = scenes::orbit_view(scene.bounds, 30, 20, 1.0);
@@ -64,7 +71,10 @@ Section beam(const ReproduceOptions& options) {
             std::string paper, why;
             if (slices == 256 && algorithm == "layer_peel") {
                 paper = "257 iterations";
-                if (r.iterations != 257) why = "the deepest pixel meets all slices and as much of the cone as its ray does; the last iteration is empty";
+                if (r.iterations != 257)
+                    why =
+                        "the deepest pixel meets all slices and as much of the cone as its ray does; the last "
+                        "iteration is empty";
             }
             if (slices == 256 && algorithm == "hybrid") {
                 paper = "3 iterations, 62 or 52 times faster";
@@ -74,14 +84,17 @@ Section beam(const ReproduceOptions& options) {
                 paper = "about 6 times slower than hybrid";
                 why = "times are this machine's; passes and fragments are counted";
             }
-            section.sheet.rows.push_back({std::to_string(slices), algorithm, std::to_string(r.iterations), std::to_string(r.passes),
-                                          std::to_string(r.fragments), ratio(double(r.fragments), double(baseline.fragments)),
+            section.sheet.rows.push_back({std::to_string(slices), algorithm, std::to_string(r.iterations),
+                                          std::to_string(r.passes), std::to_string(r.fragments),
+                                          ratio(double(r.fragments), double(baseline.fragments)),
                                           ratio(baseline.seconds, r.seconds), paper, why});
         }
     }
     const scenes::Scene scene = scenes::load_scene("volume-beam:slices=64,order=near", {});
-    const Run picture = run(scene, scenes::orbit_view(scene.bounds, 30, 20, 1.0), "hybrid", options_for(options, options.size), false);
-    section.pictures.push_back(write_picture(options.folder, "beam.png", "64 slices and the cone, by hybrid", picture.color));
+    const Run picture =
+        run(scene, scenes::orbit_view(scene.bounds, 30, 20, 1.0), "hybrid", options_for(options, options.size), false);
+    section.pictures.push_back(
+        write_picture(options.folder, "beam.png", "64 slices and the cone, by hybrid", picture.color));
     return section;
 }
 
@@ -96,22 +109,32 @@ struct PaperRow {
     const char* why;
 };
 
-constexpr auto other_model = "another model than the paper's (faces, holes), and view, size and number of buckets are not printed";
+constexpr auto other_model =
+    "another model than the paper's (faces, holes), and view, size and number of buckets are not printed";
 constexpr std::array paper_rows{
     PaperRow{"engine", "Figure 4", 7, 22, 22, 23, 21, 30, 20, other_model},
-    PaperRow{"dragon", "front", 3, 14, 51, 53, 35, 0, 0, "Stanford's res2 with 202,520 faces, the paper's has 150K; view, size and number of buckets are not printed"},
-    PaperRow{"dragon", "side", 3, 14, 51, 53, 35, 90, 0, "Stanford's res2 with 202,520 faces, the paper's has 150K; view, size and number of buckets are not printed"},
+    PaperRow{
+        "dragon", "front", 3, 14, 51, 53, 35, 0, 0,
+        "Stanford's res2 with 202,520 faces, the paper's has 150K; view, size and number of buckets are not printed"},
+    PaperRow{
+        "dragon", "side", 3, 14, 51, 53, 35, 90, 0,
+        "Stanford's res2 with 202,520 faces, the paper's has 150K; view, size and number of buckets are not printed"},
     PaperRow{"lucy", "end on", 3, 22, 37, 41, 15, 0, 90, other_model},
     PaperRow{"lucy", "front", 3, 12, 36, 40, 27, 0, 0, other_model},
-    PaperRow{"sponza", "end on", 3, 26, 36, 40, 12, 90, 0, "Crytek's Sponza with 262,267 triangles, the paper's has 66K; we look from outside its bounds, and coordinates lie on a coarse grid: ties"},
-    PaperRow{"sponza", "front", 3, 16, 56, 50, 35, 0, 0, "Crytek's Sponza with 262,267 triangles, the paper's has 66K; we look from outside its bounds, and coordinates lie on a coarse grid: ties"},
+    PaperRow{"sponza", "end on", 3, 26, 36, 40, 12, 90, 0,
+             "Crytek's Sponza with 262,267 triangles, the paper's has 66K; we look from outside its bounds, and "
+             "coordinates lie on a coarse grid: ties"},
+    PaperRow{"sponza", "front", 3, 16, 56, 50, 35, 0, 0,
+             "Crytek's Sponza with 262,267 triangles, the paper's has 66K; we look from outside its bounds, and "
+             "coordinates lie on a coarse grid: ties"},
     PaperRow{"car", "front", 11, 36, 0.28, 0.34, 0.27, 0, 0, other_model},
     PaperRow{"building", "front", 20, 50, 0.71, 0.83, 0.86, 0, 0, other_model},
 };
 
 std::string counts(int iterations, int passes) { return fmt::format("{} it, {} g", iterations, passes); }
 
-void add_rows(const ReproduceOptions& options, const Model& model, const PaperRow& paper, bool in_paper, Section& section) {
+void add_rows(const ReproduceOptions& options, const Model& model, const PaperRow& paper, bool in_paper,
+              Section& section) {
     peeling::RenderOptions render = options_for(options, options.size);
     render.alpha = 0.3f;
     const auto view = scenes::orbit_view(model.scene.bounds, paper.azimuth, paper.elevation, 1.0);
@@ -119,18 +142,26 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
         render.sort = sort;
         const Run layer = run(model.scene, view, "layer_peel", render, false);
         const auto row = [&](const std::string& algorithm, const Run& r, int iterations, int passes, double fps) {
-            const bool differs = in_paper && order != "as listed" && r.iterations != iterations;
-            section.sheet.rows.push_back(
-                {model.name, paper.view, order, algorithm, iterations > 0 && in_paper ? counts(iterations, passes) : "", counts(r.iterations, r.passes),
-                 fps > 0 && in_paper ? ratio(fps, paper.layer_fps) : "", ratio(layer.seconds, r.seconds),
-                 ratio(double(r.fragments), double(layer.fragments)), differs ? paper.why : ""});
+            const bool is_paper = in_paper && iterations > 0, counts_empty = algorithm != "coherent_ideal";
+            std::string why;
+            if (is_paper && counts_empty && r.iterations - 1 == iterations)
+                why = "the last iteration, which finds nothing, is counted here";
+            else if (is_paper && r.iterations != iterations)
+                why = order == "as listed" ? "triangles as the file has them; the paper sorts" : paper.why;
+            section.sheet.rows.push_back({model.name, paper.view, order, algorithm, is_paper ? counts(iterations, passes) : "",
+                                          counts(r.iterations, r.passes), is_paper ? ratio(fps, paper.layer_fps) : "",
+                                          ratio(layer.seconds, r.seconds),
+                                          ratio(double(r.fragments), double(layer.fragments)), why});
         };
         row("layer_peel", layer, paper.layers, 2 * paper.layers, paper.layer_fps);
-        row("coherent_stencil", run(model.scene, view, "coherent_stencil", render, true), paper.coherent, 6 * paper.coherent, paper.a_fps);
-        row("coherent_blend", run(model.scene, view, "coherent_blend", render, true), paper.coherent, 5 * paper.coherent, paper.b_fps);
+        row("coherent_stencil", run(model.scene, view, "coherent_stencil", render, true), paper.coherent,
+            6 * paper.coherent, paper.a_fps);
+        row("coherent_blend", run(model.scene, view, "coherent_blend", render, true), paper.coherent,
+            5 * paper.coherent, paper.b_fps);
         row("coherent_ideal", run(model.scene, view, "coherent_ideal", render, false), 0, 0, 0);
         if (order != "as listed")
-            section.pictures.push_back(write_picture(options.folder, fmt::format("{}_{}.png", model.name, section.pictures.size()),
+            section.pictures.push_back(write_picture(options.folder,
+                                                     fmt::format("{}_{}.png", model.name, section.pictures.size()),
                                                      fmt::format("{}, {}", model.name, paper.view), layer.color));
     };
     add("bucket:1024", {.rule = peeling::SortRule::bucket, .buckets = 1024});
@@ -140,11 +171,16 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
 
 Section table(const ReproduceOptions& options, const std::vector<Model>& models) {
     Section section{"Table 1: models",
-                    fmt::format("{0}x{0}, every alpha 0.3. it: iterations, g: geometry passes. Coherent peels end by the paper's query, which counts an empty "
-                                "iteration; layer_peel ends when its first pass finds nothing, one geometry pass earlier than two an iteration. Times as "
-                                "frame rates relative to layer_peel in the same run; the paper's are a GeForce 8800's.",
+                    fmt::format("{0}x{0}, every alpha 0.3. it: iterations, g: geometry passes. Coherent peels end by "
+                                "the paper's query, which counts an empty "
+                                "iteration; layer_peel ends when its first pass finds nothing, one geometry pass "
+                                "earlier than two an iteration. Speeds are of one run, "
+                                "relative to layer_peel's; the paper's are a GeForce 8800's frame rates.",
                                 options.size)};
-    section.sheet = {"table1", {"model", "view", "order of triangles", "algorithm", "paper", "ours", "paper: speed to layer_peel", "ours: speed", "fragments to layer_peel's", "why they differ"}, {}};
+    section.sheet = {"table1",
+                     {"model", "view", "order of triangles", "algorithm", "paper", "ours", "paper: speed to layer_peel",
+                      "ours: speed", "fragments to layer_peel's", "why they differ"},
+                     {}};
     for (const Model& model : models) {
         bool in_paper = false;
         for (const PaperRow& row : paper_rows)

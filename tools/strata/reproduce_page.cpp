@@ -15,9 +15,12 @@ namespace {
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
-        if (c == '<') out += "&lt;";
-        else if (c == '&') out += "&amp;";
-        else out += c;
+        if (c == '<')
+            out += "&lt;";
+        else if (c == '&')
+            out += "&amp;";
+        else
+            out += c;
     }
     return out;
 }
@@ -79,8 +82,8 @@ void write_page(const std::string& folder, const Page& page) {
             scenes::write_file(folder + '/' + section.sheet.file + ".csv", csv(section.sheet));
         }
         for (const Picture& picture : section.pictures)
-            text += fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n", picture.file,
-                                escaped(picture.caption));
+            text += fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
+                                picture.file, escaped(picture.caption));
     }
     scenes::write_file(folder + "/index.html", text + "</body></html>\n");
 }
@@ -92,7 +95,9 @@ Picture write_picture(const std::string& folder, const std::string& file, const 
 }
 
 PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b) {
-    const auto bytes = [](const pipeline::Image& image) { return scenes::as_straight_rgba8({.color = image, .premultiplied = true}); };
+    const auto bytes = [](const pipeline::Image& image) {
+        return scenes::as_straight_rgba8({.color = image, .premultiplied = true});
+    };
     const pipeline::Image x = bytes(a), y = bytes(b);
     PictureDifference found;
     const std::size_t pixels = x.codes.size() / 4;

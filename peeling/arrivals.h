@@ -1,0 +1,169 @@
+// peeling/arrivals.h - fragments put down pixel by pixel as they come, and taken up again as sorted blocks: the scalar twins of
+// columns_simd.cpp.
+//
+// Rule     The k-th visible fragment of a pixel is a word of rank k: its key above, below it its place among all fragments of these
+//          pixels in submission order, where its colour stands. So one comparison orders words by (key, arrival).
+// Layout   All words of rank 0, then all of rank 1: one walk over the triangles suffices, and neighbours of a rank are neighbours.
+// Source   Sorting: Batcher's merge exchange; Knuth, The Art of Computer Programming 3, 5.2.2, Algorithm M.
+// Tests    tests/peeling/columns_test.cpp
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "peeling/columns.h"
+#include "peeling/programs.h"
+
+namespace strata::peeling {
+
+// The memory is the caller's; `count`, `hidden` and `at_surface` start at 0.
+struct Arrivals {
+    std::size_t stride = 0;    // words a rank: the pixels, rounded up to whole blocks, and some more
+    std::uint32_t ranks = 0;   // that there is room for
+    std::uint32_t places = 0, most_places = 0;  // colours in use, and room for; a vector may end fifteen behind them
+    std::uint64_t* word = nullptr;
+    std::array<float*, 4> color{};
+    std::uint32_t *count = nullptr, *hidden = nullptr, *at_surface = nullptr;  // by pixel, as in ColumnBlock
+    const std::uint32_t* opaque = nullptr;  // by pixel: the surface's key, shader_z or code
+    bool same_opaque = false;               // all of them are opaque[0]
+    bool by_shader_z = false;
+    bool has_denormals = false;             // of the visible shader_z that have come
+};
+
+inline namespace strict {
+namespace scalar {
+
+[[nodiscard]] inline bool is_denormal(float z) noexcept { return z != 0.0f && z > -0x1p-126f && z < 0x1p-126f; }
+
+template <bool by_shader_z>
+[[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
+    for (std::size_t i = 0; i < lanes(in); ++i) {
+        if (alive[i] == 0) continue;
+        const std::uint32_t pixel = in.pixel[i], surface = to.opaque[to.same_opaque ? 0 : pixel];
+        const std::uint32_t key = by_shader_z ? ordered_code(in.shader_z[i]) : in.code[i];
+        const bool is_visible = by_shader_z ? in.shader_z[i] < std::bit_cast<float>(surface) : key < surface;
+        if (!is_visible) {
+            ++to.hidden[pixel];
+            to.at_surface[pixel] += !by_shader_z && key == surface ? 1 : 0;
+            continue;
+        }
+        if (by_shader_z) to.has_denormals |= is_denormal(in.shader_z[i]);
+        const std::uint32_t rank = to.count[pixel]++;
+        if (rank >= to.ranks) return false;
+        to.word[rank * to.stride + pixel] = std::uint64_t{key} << 32 | (to.places + i);
+    }
+    for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), lanes(in), to.color[c] + to.places);
+    to.places += static_cast<std::uint32_t>(lanes(in));
+    return true;
+}
+
+inline void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {
+    for (std::uint32_t k = 0; k < block.depth; ++k)
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            std::uint32_t rows = k < block.visible[lane] ? k : 0;
+            while (rows > 0 && block.place(lane, rows - 1) > block.place(lane, k)) --rows;
+            before[k * block_lanes + lane] = rows;
+        }
+}
+
+}  // namespace scalar
+
+// A row is sixteen words. What is done with rows stands in `Rows`: the loops here, vectors in columns_simd.cpp.
+namespace scalar {
+
+struct Rows {
+    // The lesser of each pair to `a`, the greater to `b`.
+    static void exchange(std::uint64_t* a, std::uint64_t* b) noexcept {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            if (b[lane] < a[lane]) std::swap(a[lane], b[lane]);
+    }
+    static void swap(std::uint64_t* a, std::uint64_t* b) noexcept { std::swap_ranges(a, a + block_lanes, b); }
+    // a <= b in every column.
+    [[nodiscard]] static bool in_order(const std::uint64_t* a, const std::uint64_t* b) noexcept {
+        return std::equal(a, a + block_lanes, b, [](std::uint64_t x, std::uint64_t y) { return x <= y; });
+    }
+    // Row k: words where a column is that high, ~0 elsewhere.
+    static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) noexcept {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
+    }
+    static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) noexcept {
+        has_ties = {};
+        for (std::size_t i = block_lanes; i < depth * block_lanes; ++i) {
+            const std::uint64_t before = rows[i - block_lanes];
+            if ((rows[i] ^ before) >> 32 == 0 && rows[i] != ~std::uint64_t{0}) has_ties[i % block_lanes] = ~0u;
+        }
+    }
+};
+
+}  // namespace scalar
+
+// Merge exchange compares the same rows whatever they hold, so sixteen columns go through it side by side.
+template <class Rows>
+[[gnu::always_inline]] inline void merge_exchange(std::uint64_t* rows, std::size_t depth) noexcept {
+    if (depth < 2) return;
+    std::size_t top = 1;
+    while (top * 2 < depth) top *= 2;
+    for (std::size_t p = top; p > 0; p /= 2) {
+        std::size_t r = 0, d = p;
+        for (std::size_t q = top;; q /= 2) {
+            for (std::size_t i = 0; i + d < depth; ++i)
+                if ((i & p) == r) Rows::exchange(rows + i * block_lanes, rows + (i + d) * block_lanes);
+            if (q == p) break;
+            d = q - p;
+            r = p;
+        }
+    }
+}
+
+// How many rows from the first on rise (or fall) in every column.
+template <class Rows>
+[[gnu::always_inline]] inline std::size_t rising_rows(const std::uint64_t* rows, std::size_t depth) noexcept {
+    std::size_t count = 1;
+    while (count < depth && Rows::in_order(rows + (count - 1) * block_lanes, rows + count * block_lanes)) ++count;
+    return count;
+}
+template <class Rows>
+[[gnu::always_inline]] inline std::size_t falling_rows(const std::uint64_t* rows, std::size_t depth) noexcept {
+    std::size_t count = 1;
+    while (count < depth && Rows::in_order(rows + count * block_lanes, rows + (count - 1) * block_lanes)) ++count;
+    return count;
+}
+
+// Ascending. What was drawn in depth order, but for a few rows at its end, needs only those inserted.
+template <class Rows>
+[[gnu::always_inline]] inline void sort_rows(std::uint64_t* rows, std::size_t depth) noexcept {
+    constexpr std::size_t few = 8;
+    if (depth < 2) return;
+    const std::size_t rising = rising_rows<Rows>(rows, depth), falling = rising > 1 ? 0 : falling_rows<Rows>(rows, depth);
+    const std::size_t ordered = std::max(rising, falling);
+    if (depth - ordered > few) return merge_exchange<Rows>(rows, depth);
+    for (std::size_t i = 0, j = falling; i + 1 < j; ++i) Rows::swap(rows + i * block_lanes, rows + --j * block_lanes);
+    for (std::size_t row = ordered; row < depth; ++row)
+        for (std::uint64_t* at = rows + row * block_lanes; at > rows && !Rows::in_order(at - block_lanes, at); at -= block_lanes)
+            Rows::exchange(at - block_lanes, at);
+}
+
+template <class Rows>
+[[gnu::always_inline]] inline void sort_words(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
+                                              std::uint64_t* rows) noexcept {
+    for (std::uint32_t k = 0; k < block.depth; ++k)
+        Rows::load(from.word + k * from.stride + pixel, block.visible, k, rows + k * block_lanes);
+    sort_rows<Rows>(rows, block.depth);
+    Rows::find_ties(rows, block.depth, block.has_ties);
+}
+
+}  // namespace strict
+
+// Puts the living fragments of a batch down; false if there was no room for one of them: then `to` is of no more use.
+[[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept;
+// The sixteen columns from `pixel` on into `rows`, of which there are block.depth, sorted; fills has_ties.
+void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept;
+// before[row * block_lanes + lane] = how many rows there are up to the last one below `row` whose fragment came earlier; 0 if none did.
+void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept;
+// Sorts the first `depth` rows of sixteen columns, each on its own, ascending.
+void sort_columns(std::uint64_t* rows, std::size_t depth) noexcept;
+
+}  // namespace strata::peeling

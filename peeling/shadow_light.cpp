@@ -1,0 +1,42 @@
+#include "peeling/shadow_light.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+void draw_depth(Region& region) {
+    const Target depth = region.make_depth();
+    region.copy(region.opaque_depth(), depth);
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = depth;
+    state.needs = {.shader_z = false, .code = true, .color = false};
+    region.begin_iteration();
+    static_cast<void>(region.draw_depth(state));
+    region.publish(depth);
+}
+
+LightMap light_map(const DrawList& list, const DeviceProfile& profile, const rasterizer::RasterState& eye,
+                   const rasterizer::DepthRequest& depth, int threads) {
+    const ShadowLight& light = *list.light;
+    rasterizer::RasterState state = eye;
+    state.viewport = {0, 0, light.size_px, light.size_px};
+    state.scissor.reset();
+    state.clip_plane_count = 0;
+    state.polygon_offset = {.enabled = true, .factor = light.offset_factor, .units = light.offset_units};
+    state.depth_format = depth.format;
+    const View from{.view = light.view, .projection = light.projection};
+    const PreparedDraw seen =
+        prepare(list, from, state, profile, {.selection = Selection::opaque, .tile_size = 64, .threads = threads});
+    Frame frame;
+    frame.profile = &profile;
+    frame.transparent = &seen;
+    frame.depth = depth;
+    frame.published_format = target_format(depth.format);
+    frame.needs_frame = true;
+    LightMap map{run(frame, draw_depth, Execution::literal, threads).color, state, {}};
+    map.stage = shadow_stage(light, map.depth, state);
+    return map;
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,23 @@
+// peeling/shadow_light.h - a light's shadow map: one depth pass over the opaque scene from the light's view.
+// It runs before anything is drawn for the eye, literally: whoever looks at it later looks anywhere. Transparent surfaces let
+// the light through, also where --alpha makes all of them transparent.
+#pragma once
+#include "pipeline/executor.h"
+#include "pipeline/shadow_stage.h"
+
+namespace strata::peeling {
+
+// The nearest depths of the transparent list, published.
+void draw_depth(pipeline::Region& region);
+
+struct LightMap {
+    pipeline::Image depth;
+    rasterizer::RasterState state;  // of the light's pass
+    pipeline::ShadowStage stage;    // looks at `depth`, whose codes stay where they are when this is moved
+};
+
+// `eye` lends its conventions: clip depth, y direction, depth range.
+[[nodiscard]] LightMap light_map(const pipeline::DrawList& list, const pipeline::DeviceProfile& profile,
+                                 const rasterizer::RasterState& eye, const rasterizer::DepthRequest& depth, int threads);
+
+}  // namespace strata::peeling

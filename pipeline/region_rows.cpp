@@ -1,0 +1,118 @@
+// pipeline/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the targets, where
+// that leaves the same bits and the same counts. Literal execution never takes this way: it is what this one is tested against.
+#include "pipeline/region.h"
+#include "pipeline/region_scratch.h"
+#include "pipeline/sum_rows.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+static_assert(rasterizer::row_padding <= spare_words);
+
+// The two halves of every word of a plane.
+void split(const std::uint32_t* words, std::span<std::uint16_t> low, std::span<std::uint16_t> high) {
+    for (std::size_t i = 0; i < low.size(); ++i) low[i] = static_cast<std::uint16_t>(words[i]);
+    for (std::size_t i = 0; i < high.size(); ++i) high[i] = static_cast<std::uint16_t>(words[i] >> 16);
+}
+void join(std::span<const std::uint16_t> low, std::span<const std::uint16_t> high, std::uint32_t* words) {
+    for (std::size_t i = 0; i < low.size(); ++i) words[i] = low[i];
+    for (std::size_t i = 0; i < high.size(); ++i) words[i] |= std::uint32_t{high[i]} << 16;
+}
+
+// An fp16 target as planes of halves while rows are added to it: up to four channels, two a word.
+class HalfPlanes {
+  public:
+    HalfPlanes(TargetStorage& target, Arena& arena) : texels_{target.texels(0)}, pixels_{target.pixels()} {
+        for (auto& plane : planes_) plane = arena.take<std::uint16_t>(pixels_ + spare_words);
+        for (std::size_t word = 0; word < texels_.words(); ++word)
+            split(texels_.plane(word).words, half(2 * word), half(2 * word + 1));
+    }
+    void write_back() const {
+        for (std::size_t word = 0; word < texels_.words(); ++word)
+            join(half(2 * word), half(2 * word + 1), texels_.plane(word).words);
+    }
+    [[nodiscard]] std::uint16_t* plane(std::size_t channel) const { return planes_[channel].data(); }
+
+  private:
+    [[nodiscard]] std::span<std::uint16_t> half(std::size_t channel) const {
+        return planes_[channel].first(channel < static_cast<std::size_t>(texels_.channels) ? pixels_ : 0);
+    }
+
+    Texels texels_;
+    std::size_t pixels_;
+    std::array<std::span<std::uint16_t>, 4> planes_;
+};
+
+}  // namespace
+
+// Whether nothing stands between the rasterizer and the tests of this pass.
+bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const {
+    const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
+                          (state.sample_mask & 1u) != 0 && !list.needs.color && state.primitives.empty() &&
+                          !state.needs.reference;
+    const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
+    return is_plain && !is_recalled && extent_ == Extent::tile && frame_.effects == Effects::needed &&
+           row_walk_suits(list.geometry, frame_.key_request(), rect_);
+}
+
+// What batches would have counted, with the test against the depth target.
+void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn) {
+    const auto bytes = static_cast<std::uint64_t>(info(at(state.depth_target).format()).bytes_per_pixel);
+    fragments_drawn_ += drawn.fragments;
+    record().counters += {.fragments_rasterized = drawn.fragments,
+                          .depth_killed = drawn.fragments - drawn.passed,
+                          .blended = drawn.passed,
+                          .bytes_read = bytes * drawn.fragments,
+                          .bytes_written = state.depth.write ? bytes * drawn.passed : 0};
+}
+
+Drawn Region::draw_depth(const PassState& state) {
+    const PreparedDraw& list = *frame_.transparent;
+    const bool is_nearest = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true};
+    if (!is_nearest || !is_one_sample(state.depth_target) || !draws_rows(state, list))
+        return draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {});
+    begin_pass(state, PassKind::geometry);
+    const rasterizer::DepthDrawn rows = draw_depth_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(), rect_,
+                                                        at(state.depth_target).depth_plane(0).words);
+    count_rows(state, rows);
+    Drawn drawn;
+    drawn.passed.own_ = rows.passed;
+    return drawn;
+}
+
+bool Region::sums_suit_rows(const PassState& state) const {
+    const auto is_sum = [&](std::size_t k, Format format) {
+        return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format && state.blend[k] == blend_mode::sum;
+    };
+    const PreparedDraw& list = *frame_.transparent;
+    const bool is_tested = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = false};
+    const bool counts = state.color[1].exists();
+    return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
+           (!counts || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
+           profile().raster.color == rasterizer::ColorInterpolation::exact_plane && !list.needs.texcoord && list.needs.shadow == 0 &&
+           draws_rows(state, list);
+}
+
+Drawn Region::draw_sum_rows(const PassState& state) {
+    const PreparedDraw& list = *frame_.transparent;
+    begin_pass(state, PassKind::geometry);
+    const bool is_open = depth_outcome(state, list) == DepthOutcome::open, counts = state.color[1].exists();
+    const HalfPlanes sums{at(state.color[0]), arena()};
+    const HalfPlanes count{at(state.color[counts ? 1 : 0]), arena()};
+    const SumPlanes planes{{sums.plane(0), sums.plane(1), sums.plane(2), sums.plane(3)},
+                           counts ? count.plane(0) : nullptr,
+                           is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
+    const rasterizer::DepthDrawn rows =
+        add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(), rect_, planes,
+                     profile().denormals == DenormalRule::flush);
+    sums.write_back();
+    if (counts) count.write_back();
+    count_rows(state, rows);
+    for (std::size_t k = 0; k < (counts ? 2u : 1u); ++k) count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);
+    Drawn drawn;
+    drawn.passed.own_ = rows.passed;
+    return drawn;
+}
+
+}  // namespace strata::pipeline

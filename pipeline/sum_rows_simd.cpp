@@ -1,0 +1,223 @@
+// pipeline/sum_rows_simd.cpp - add_sum_rows of sum_rows.h for the sets that convert halves.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/sum_rows_simd.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+#include "pipeline/sum_rows.h"
+#include "rasterizer/row_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::pipeline::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+namespace raster = rasterizer::HWY_NAMESPACE;
+using rasterizer::DrawnTriangle;
+using rasterizer::FilterPlane;
+using rasterizer::RationalPlane;
+using raster::F32;
+using raster::F64;
+using raster::U32;
+using raster::V32;
+
+struct SumState {
+    SumPlanes planes;
+    rasterizer::DepthConversion to_code;
+    double z_units;
+    rasterizer::DepthDrawn drawn{};
+};
+
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
+
+using Code16 = raster::U16;
+using Half16 = hn::Rebind<hwy::float16_t, F32>;
+
+// As sum_of_halves of stages_simd.cpp, stored where the lane is covered.
+template <bool flushes>
+HWY_INLINE void add(V32 source, hn::Mask<Code16> covered, std::uint16_t* halves) {
+    const F32 d;
+    if constexpr (flushes) {
+        const auto bits = hn::BitCast(U32{}, source);
+        const auto is_small = hn::Eq(hn::And(bits, hn::Set(U32{}, 0x7f800000u)), hn::Zero(U32{}));
+        source = hn::BitCast(d, hn::IfThenElse(is_small, hn::And(bits, hn::Set(U32{}, 0x80000000u)), bits));
+    }
+    const V32 stored = hn::PromoteTo(d, hn::BitCast(Half16{}, hn::LoadU(Code16{}, halves)));
+    const V32 sum = hn::Add(source, stored);
+    const V32 nan = hn::BitCast(d, hn::Set(U32{}, 0x7fffffffu));
+    const auto rounded = hn::DemoteTo(Half16{}, hn::IfThenElse(hn::Eq(sum, sum), sum, nan));
+    hn::BlendedStore(hn::BitCast(Code16{}, rounded), covered, Code16{}, halves);
+}
+
+// The colour of a triangle: planes before the division by the one of 1 / w, equal ones once, and constants.
+class ColorPlanes {
+  public:
+    HWY_INLINE explicit ColorPlanes(const DrawnTriangle& triangle) : geometry_{triangle.geometry}, index_{triangle.index} {
+        std::array<const rasterizer::ClipVertex*, 3> v;
+        for (std::size_t i = 0; i < 3; ++i) {
+            v[i] = &geometry_.vertices[triangle.record.vertex[i]];
+            w_[i] = geometry_.corners[triangle.record.vertex[i]].inverse_w;
+        }
+        has_w_ = !(w_[0] == 1.0f && w_[1] == 1.0f && w_[2] == 1.0f);
+        const bool exact = triangle.weights.is_exact();
+        inverse_w_ = FilterPlane{plane_of(w_), exact};
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto value = [&](std::size_t i) { return triangle.record.front_facing ? v[i]->front[c] : v[i]->back[c]; };
+            value_[c] = {value(0), value(1), value(2)};
+            source_[c] = source_of(c);
+            if (source_[c] != c || is_constant(c)) continue;
+            for (std::size_t i = 0; i < 3; ++i) product_[c][i] = value_[c][i] * w_[i];
+            plane_[c] = FilterPlane{plane_of(product_[c]), exact};
+        }
+    }
+
+    // r g b a, divided.
+    template <bool unsnapped>
+    HWY_INLINE void at(const raster::Row& row, const raster::Weights& b, V32 (&color)[4]) const {
+        const V32 inverse_w = has_w_ ? rounded<unsnapped>(row, b, inverse_w_, w_) : hn::Set(F32{}, 1.0f);
+        for (std::size_t c = 0; c < 4; ++c) {
+            if (source_[c] != c) {
+                color[c] = color[source_[c]];
+            } else if (is_constant(c)) {
+                color[c] = hn::Set(F32{}, value_[c][0]);
+            } else {
+                const V32 u = rounded<unsnapped>(row, b, plane_[c], product_[c]);
+                color[c] = has_w_ ? hn::Div(u, inverse_w) : u;
+            }
+        }
+    }
+
+  private:
+    using Corners = std::array<float, 3>;
+
+    HWY_INLINE static RationalPlane plane_of(const Corners& v) { return {{v[0], v[1], v[2]}}; }
+    HWY_INLINE static bool same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
+    HWY_INLINE bool is_constant(std::size_t c) const {
+        return same(value_[c][0], value_[c][1]) && same(value_[c][0], value_[c][2]);
+    }
+    // The first channel with the same values at all corners: greys have one plane.
+    HWY_INLINE std::size_t source_of(std::size_t c) const {
+        for (std::size_t other = 0; other < c; ++other)
+            if (same(value_[c][0], value_[other][0]) && same(value_[c][1], value_[other][1]) &&
+                same(value_[c][2], value_[other][2]))
+                return other;
+        return c;
+    }
+    template <bool unsnapped>
+    HWY_INLINE V32 rounded(const raster::Row& row, const raster::Weights& b, const FilterPlane& plane,
+                           const Corners& corners) const {
+        const auto v = raster::plane_at(plane, b);
+        if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
+        auto unsure = hn::Zero(U32{});
+        const V32 low = raster::rounded(v, hn::Set(F64{}, plane.error), unsure);
+        return raster::decided(low, unsure, plane_of(corners), geometry_, index_, row);
+    }
+
+    const rasterizer::Geometry& geometry_;
+    const std::uint32_t index_;
+    Corners w_;
+    std::array<Corners, 4> value_, product_;
+    std::array<std::size_t, 4> source_;
+    FilterPlane inverse_w_;
+    std::array<FilterPlane, 4> plane_;
+    bool has_w_;
+};
+
+template <bool is_tested, bool flushes>
+struct SumOf {
+    template <bool unsnapped>
+    class Shade {
+      public:
+        HWY_INLINE Shade(SumState& state, const DrawnTriangle& triangle)
+            : state_{state}, planes_{state.planes}, to_code_{state.to_code}, triangle_{triangle}, color_{triangle} {
+            if constexpr (!is_tested) return;
+            depth_ = RationalPlane{triangle.geometry.depths(triangle.index), 1.0, state.z_units};
+            filter_ = raster::filter_of(depth_, triangle);
+        }
+
+        HWY_INLINE void operator()(const raster::Row& row, const raster::Weights& b) {
+            raster::RowMask covered = row.covered;
+            if constexpr (is_tested) {
+                covered = hn::And(covered, nearer(row, b));
+                if (hn::AllFalse(F32{}, covered)) return;
+                passed_ += hn::CountTrue(F32{}, covered);
+            }
+            alignas(8) std::uint8_t bits[8] = {static_cast<std::uint8_t>(raster::bits_of(covered))};
+            const auto lanes = hn::LoadMaskBits(Code16{}, bits);
+            V32 color[4];
+            color_.template at<unsnapped>(row, b, color);
+            for (std::size_t c = 0; c < 3; ++c)
+                add<flushes>(hn::Mul(color[c], color[3]), lanes, planes_.sums[c] + row.pixel);
+            add<flushes>(color[3], lanes, planes_.sums[3] + row.pixel);
+            if (planes_.count != nullptr) add<false>(hn::Set(F32{}, 1.0f), lanes, planes_.count + row.pixel);
+        }
+        HWY_INLINE void finish(std::uint64_t pixels) {
+            state_.drawn.fragments += pixels;
+            state_.drawn.passed += is_tested ? passed_ : pixels;
+        }
+
+      private:
+        HWY_INLINE raster::RowMask nearer(const raster::Row& row, const raster::Weights& b) const {
+            const auto v = raster::plane_at(filter_, b);
+            auto unsure = hn::Zero(U32{});
+            V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
+            if constexpr (!unsnapped)
+                z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, row);
+            return raster::nearer(raster::codes(z, to_code_), hn::LoadU(U32{}, planes_.opaque + row.pixel), to_code_.is_fixed);
+        }
+
+        SumState& state_;
+        const SumPlanes planes_;
+        const rasterizer::DepthConversion to_code_;
+        const DrawnTriangle& triangle_;
+        const ColorPlanes color_;
+        RationalPlane depth_;
+        FilterPlane filter_;
+        std::uint64_t passed_ = 0;
+    };
+};
+
+template <bool is_tested, bool flushes>
+void add_all(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles, const rasterizer::Rect& region,
+             SumState& state) {
+    raster::RowWalk<SumOf<is_tested, flushes>::template Shade, SumState>{state, geometry, region}.draw(triangles);
+}
+
+#else
+
+template <bool is_tested, bool flushes>
+void add_all(const rasterizer::Geometry&, std::span<const std::uint32_t>, const rasterizer::Rect&, SumState&) {}
+
+#endif
+
+rasterizer::DepthDrawn add_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
+                                const rasterizer::Rect& region, const rasterizer::DepthConversion& to_code, double units,
+                                const SumPlanes& planes, bool flushes) {
+    SumState state{planes, to_code, units};
+    if (planes.opaque == nullptr && flushes) add_all<false, true>(geometry, triangles, region, state);
+    if (planes.opaque == nullptr && !flushes) add_all<false, false>(geometry, triangles, region, state);
+    if (planes.opaque != nullptr && flushes) add_all<true, true>(geometry, triangles, region, state);
+    if (planes.opaque != nullptr && !flushes) add_all<true, false>(geometry, triangles, region, state);
+    return state.drawn;
+}
+
+}  // namespace
+}  // namespace strata::pipeline::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "rasterizer/window.h"
+
+namespace strata::pipeline {
+HWY_EXPORT(add_rows);
+
+rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
+                                    const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
+                                    const SumPlanes& planes, bool flushes) noexcept {
+    const rasterizer::FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
+    return HWY_DYNAMIC_DISPATCH(add_rows)(geometry, triangles, region, values.to_code(),
+                                          z_units(geometry.state, geometry.rules), planes, flushes);
+}
+
+}  // namespace strata::pipeline
+#endif

@@ -1,0 +1,187 @@
+// Everitt 2001, Listing 2, entered as it is printed, matrix for matrix, with its slips mended (hardware.md 14): what its state
+// stores and compares, against the depth paths that the peeling algorithms use.
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "peeling/layer_quads.h"
+#include "pipeline/fragment_path.h"
+#include "pipeline/matrix.h"
+#include "pipeline/texture_environment.h"
+#include "rasterizer/depth_quotient.h"
+#include "rendering.h"
+#include "tests/support/random_triangles.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::rasterizer::DepthPath;
+
+constexpr int width = 48, height = 32;
+
+// glMatrixMode(GL_TEXTURE) and what is called after it.
+struct TextureMatrix {
+    Matrix m = identity;
+    TextureMatrix& translate(double x, double y, double z) { return multiply(translation(x, y, z)); }
+    TextureMatrix& scale(double x, double y, double z) { return multiply(scaling(x, y, z)); }
+    TextureMatrix& multiply(const Matrix& by) {
+        m = product(m, by);
+        return *this;
+    }
+};
+
+// 2^n - 1 of the depth buffer: the driver's factor of rows that hold a depth.
+CoordinateUnit unit(const TextureMatrix& texture, double depth_units, bool addresses_texels) {
+    CoordinateUnit u{.enabled = true, .gen = eye_position(), .matrix = texture.m};
+    u.depth_units = {addresses_texels ? 1 : depth_units, addresses_texels ? 1 : depth_units, depth_units};
+    return u;
+}
+
+CoordinateUnits listing_2(const Matrix& projection, double depth_units) {
+    CoordinateUnits units{};
+    units[0].enabled = true;
+    units[1] = unit(TextureMatrix{}.translate(0, 0, 0.5).scale(0, 0, 0.5).multiply(projection), depth_units, false);
+    Matrix m{};  // row r takes what was q
+    m[14] = 1;
+    units[2] = unit(TextureMatrix{}.multiply(m).multiply(projection), 1, false);
+    units[3] = unit(TextureMatrix{}.scale(width, height, 1).translate(0.5, 0.5, 0.5).scale(0.5, 0.5, 0.5).multiply(projection),
+                    depth_units, true);
+    return units;
+}
+
+HiloTexture simple_1x1_uhilo() {
+    HiloTexture texture;
+    texture.texels = {{0, 0}};
+    return texture;
+}
+const HiloTexture uhilo = simple_1x1_uhilo();
+
+// Stages 0 to 2; with a map, stage 3 compares with it: LEQUAL_R is R <= D.
+FragmentPath stages(Target map) {
+    FragmentPath path;
+    path.shader[0] = {.op = ShaderOp::texture_2d, .texture = {.hilo = &uhilo}};
+    path.shader[1] = {.op = ShaderOp::dot_product, .previous = 0, .texture = {}};
+    path.shader[2] = {.op = ShaderOp::dot_product_depth_replace, .previous = 0, .texture = {}};
+    path.combiners = texture_environment({});
+    if (!map.exists()) return path;
+    path.shader[3].op = ShaderOp::texture_rectangle;
+    path.shader[3].texture.depth = map;
+    path.shader[3].texture.compare = {.func = CompareFunc::lequal, .mode = DepthTextureMode::luminance, .target = TextureTarget::rectangle};
+    path.combiners = peel_combiners(3);
+    return path;
+}
+
+struct Scene {
+    TriangleScene triangles;
+    strata::rasterizer::RasterState raster;
+    PreparedDraw list;
+    Frame frame;
+    Scene(std::uint64_t seed, int count, DepthFormat format) : triangles{random_triangles(seed, count)} {
+        triangles.list.instances.resize(2);  // transparent: plain and textured
+        triangles.list.instances[1].model = {0.8, 0.1, 0, 0, -0.2, 0.9, 0.1, 0, 0, 0.1, 1.1, 0, 0.05, 0.02, -0.3, 1};
+        raster.viewport = {0, 0, width, height};
+        raster.depth_format = format;
+        const CoordinateUnits units =
+            listing_2(triangles.view.projection, strata::rasterizer::max_code(format));
+        const DeviceProfile& device = *find_profile("geforce3");
+        list = prepare(triangles.list, triangles.view, raster, device,
+                       {.depth_quotient = true, .tile_size = 16, .threads = 1, .units = units});
+        frame.profile = &device;
+        frame.transparent = &list;
+        frame.depth = {DepthPath::window_z, format};
+    }
+};
+
+using Codes = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>;  // of pixel and primitive
+
+// The codes that a pass would store if nothing lay before anything.
+template <class Program>
+Codes codes_of(const Frame& frame, PassState state, Program&& program) {
+    Region region{frame, frame.rect(), 0, Extent::frame};
+    state.needs.code = true;
+    Codes codes;
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        program(in, own, out);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+            if (out.alive[i] != 0) codes[{in.pixel[i], in.primitive[i]}] = (out.replaces_depth ? out.depth : in.code)[i];
+    }));
+    return codes;
+}
+
+// Peels by Listing 2's state alone.
+void peel(Region& region) {
+    strata::peeling::SavedLayers layers;
+    Target map;
+    for (int pass = 0; pass < 20; ++pass) {
+        const Target color = region.make_color(), depth = region.make_depth();
+        region.clear(color, {});
+        region.clear(depth, {});
+        PassState state;
+        state.alpha = {.enabled = true, .func = CompareFunc::greater, .ref = 0};
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = depth;
+        state.color[0] = color;
+        FragmentPathProgram program{region, stages(map)};
+        program.apply(state);
+        region.begin_iteration();
+        const Drawn drawn = region.draw(state, program);
+        layers.color.push_back(color);
+        layers.depth.push_back(map = region.make_depth());
+        region.copy_rectangle(depth, region.frame().rect(), map, 0, 0);
+        if (!region.any(drawn.passed, Idle::no)) break;
+    }
+    const Target result = region.make_color();
+    region.copy(region.opaque_color(), result);
+    composite_quads(region, layers, result);
+    region.publish(result);
+}
+
+}  // namespace
+
+TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_replace, and compares the same bits") {
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
+        Scene scene{401, 60, format};
+        Region region{scene.frame, scene.frame.rect(), 0, Extent::frame};
+        PassState state;
+        FragmentPathProgram listing{region, stages({})};
+        listing.apply(state);
+        state.needs.units |= 0xf000;  // unit 3, which no stage looks at yet
+        std::size_t other_pixel = 0, other_r = 0, fragments = 0;
+        const Codes literal = codes_of(scene.frame, state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            listing(in, own, out);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+                const auto over_q = [&](std::size_t c) {
+                    return strata::rasterizer::divide(in.unit[3][c][i], in.unit[3][3][i], scene.frame.profile->raster.hypothesis.divide);
+                };
+                if (out.alive[i] == 0) continue;
+                ++fragments;
+                other_pixel += static_cast<int>(over_q(0)) != in.x[i] || static_cast<int>(over_q(1)) != height - 1 - in.y[i];
+                other_r += static_cast<std::uint32_t>(over_q(2)) != out.depth[i];
+            }
+        });
+        Frame replaced = scene.frame;
+        replaced.depth.path = DepthPath::depth_replace;
+        const Codes expected = codes_of(replaced, {}, [](const FragmentBatch&, const Loads&, Outputs&) {});
+        CHECK(fragments > 5000);
+        CHECK(literal == expected);
+        CHECK(other_pixel == 0);  // s/q and t/q never leave the fragment's own pixel
+        CHECK(other_r == 0);      // R is the depth that was stored
+    }
+}
+
+TEST_CASE("a peel by Listing 2's state alone is shadow_map_depth_replace, to the bit, in every execution") {
+    Scene scene{402, 24, DepthFormat::d24};
+    strata::peeling::RenderOptions options;
+    options.width = width;
+    options.height = height;
+    options.threads = 1;
+    const auto expected = render(scene.triangles.list, scene.triangles.view, {"geforce3", "shadow_map_depth_replace"}, options);
+    REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+    CHECK(expected.frame.passes.geometry > 5);
+    for (const Execution execution : {Execution::literal, Execution::tiled}) {
+        const FrameResult found = run(scene.frame, peel, execution, 2);
+        CHECK(found.color == expected.frame.color);
+        CHECK(found.passes.geometry == expected.frame.passes.geometry);
+        CHECK(found.work.regions == (execution == Execution::literal ? 1u : 6u));  // no lookup left its tile
+    }
+}

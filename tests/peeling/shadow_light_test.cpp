@@ -1,0 +1,115 @@
+// Ordinary shadow mapping, against the geometry of a floor, a blocker and a light: no depth map in the model.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+
+constexpr int size = 64;
+constexpr double floor_z = -0.5, blocker_z = 0.25, half = 0.25;
+constexpr float ambient = 0.375f;
+
+Mesh square(double half_side, double z) {
+    Mesh mesh;
+    const auto s = static_cast<float>(half_side), depth = static_cast<float>(z);
+    mesh.positions = {{-s, -s, depth}, {s, -s, depth}, {s, s, depth}, {-s, s, depth}};
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    return mesh;
+}
+
+// The eye looks down -z and sees x and y of the world from -1 to 1. `w`: the light's divisor, 1 or 3 - z.
+DrawList floor_and_blocker(AlphaMode mode, bool perspective) {
+    DrawList list;
+    list.materials = {{.name = "white", .alpha_mode = AlphaMode::opaque, .double_sided = true, .unlit = true},
+                      {.name = "black", .front = {0, 0, 0, 1}, .back = {0, 0, 0, 1}, .alpha_mode = mode, .double_sided = true, .unlit = true}};
+    list.meshes = {square(1, floor_z), square(half, blocker_z)};
+    list.instances = {{.mesh = 0, .material = 0}, {.mesh = 1, .material = 1}};
+    ShadowLight light;
+    light.view = {1, 0, 0, 0, 0, 1, 0, 0, -0.4, 0.3, 1, 0, 0, 0, 0, 1};  // x - 0.4 z, y + 0.3 z: it comes in at a slant
+    light.projection = perspective ? Matrix{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, 0, 3} : Matrix{0.7, 0, 0, 0, 0, 0.7, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+    light.size_px = 256;
+    light.ambient = ambient;
+    light.offset_units = 16;
+    light.percentage_closer = false;
+    list.light = light;
+    return list;
+}
+
+const View from_above{.view = identity, .projection = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}};
+
+struct Place {
+    double x, y;
+};
+Place seen_by_light(double x, double y, double z, bool perspective) {
+    const double w = perspective ? (3 - z) / 2 : 1 / 0.7;
+    return {(x - 0.4 * z) / w, (y + 0.3 * z) / w};
+}
+
+// Positive inside the blocker's outline as the light sees it, in its clip space.
+double inside(double x, double y, bool perspective) {
+    const Place p = seen_by_light(x, y, floor_z, perspective);
+    const Place low = seen_by_light(-half, -half, blocker_z, perspective), high = seen_by_light(half, half, blocker_z, perspective);
+    return std::min({p.x - low.x, high.x - p.x, p.y - low.y, high.y - p.y});
+}
+
+}  // namespace
+
+TEST_CASE("the floor is dark where the blocker stands between it and the light, and nowhere else") {
+    for (const bool perspective : {false, true})
+        for (const char* profile : {"geforce3", "geforce8", "ideal"}) {
+            strata::peeling::RenderOptions options;
+            options.width = options.height = size;
+            options.threads = 1;
+            const DrawList list = floor_and_blocker(AlphaMode::opaque, perspective);
+            const auto result = render(list, from_above, {profile, "unsorted"}, options);
+            REQUIRE(result.outcome == strata::peeling::Outcome::done);
+            std::size_t wrong = 0, dark = 0;
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x) {
+                    const double wx = (x + 0.5) * 2 / size - 1, wy = 1 - (y + 0.5) * 2 / size;
+                    if (std::max(std::abs(wx), std::abs(wy)) < half + 0.05) continue;    // the blocker itself
+                    const double depth_inside = inside(wx, wy, perspective);
+                    if (std::abs(depth_inside) < 2.0 / 256) continue;                    // a texel of the map more or less
+                    const std::uint32_t code = result.frame.color.codes[result.frame.color.index(x, y)];
+                    const bool is_float = result.frame.color.format == Format::rgba32f;
+                    const float value = is_float ? std::bit_cast<float>(code) : static_cast<float>(code) / 255.0f;
+                    wrong += std::abs(value - (depth_inside > 0 ? ambient : 1.0f)) > 0.003f;
+                    dark += depth_inside > 0;
+                }
+            INFO(profile << (perspective ? ", perspective light" : ", parallel light"));
+            CHECK(dark > 30);
+            CHECK(wrong == 0);
+        }
+}
+
+TEST_CASE("transparent surfaces let the light through, and colours in shadow are the same in every execution") {
+    const DrawList list = floor_and_blocker(AlphaMode::blend, true);
+    strata::peeling::RenderOptions options;
+    options.width = options.height = size;
+    options.threads = 1;
+    options.execution = Execution::literal;
+    const auto lit = render(list, from_above, {"geforce8", "dual"}, options);
+    std::uint32_t darkest = 255;  // of the floor's right half, where the shadow would lie
+    for (int y = 0; y < size; ++y)
+        for (int x = size * 3 / 4; x < size; ++x) darkest = std::min(darkest, lit.frame.color.codes[lit.frame.color.index(x, y)]);
+    CHECK(darkest == 255);
+
+    const DrawList opaque = floor_and_blocker(AlphaMode::opaque, true);
+    options.alpha = 0.5f;
+    for (const char* algorithm : {"dual", "front_to_back", "unsorted"}) {
+        options.execution = Execution::literal;
+        const auto expected = render(opaque, from_above, {"geforce8", algorithm}, options);
+        CHECK(expected.frame.color != lit.frame.color);
+        for (const Execution execution : {Execution::tiled, Execution::replay})
+            for (const Effects effects : {Effects::needed, Effects::all}) {
+                auto other = options;
+                other.execution = execution;
+                other.effects = effects;
+                CHECK(render(opaque, from_above, {"geforce8", algorithm}, other).frame.color == expected.frame.color);
+            }
+    }
+}
