@@ -251,7 +251,7 @@ class Region {
     std::vector<TargetStorage> storages_;
     Target opaque_depth_, opaque_color_, published_;
 
-    std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, once asked for
+    std::optional<MaterialNeeds> transparent_needs_, second_needs_, opaque_needs_;  // of the tile's triangles, once asked for
     std::optional<TargetStorage> idle_stencil_;
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
     bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle

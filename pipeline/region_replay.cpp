@@ -16,7 +16,7 @@ FragmentStore& Region::store() noexcept { return scratch_->store; }
 
 const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
     if (extent_ == Extent::frame || list.needs == MaterialNeeds{}) return list.needs;
-    auto& needs = &list == frame_.transparent ? transparent_needs_ : opaque_needs_;
+    auto& needs = &list == frame_.transparent ? transparent_needs_ : &list == frame_.second ? second_needs_ : opaque_needs_;
     if (!needs) needs = needs_of(list, list.geometry.bin(tile_));
     return *needs;
 }
