@@ -41,6 +41,7 @@ void check_options(const RenderOptions& o) {
 Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
     using rasterizer::DepthPath;
     if (auto lacking = check(profile, depth.format)) return lacking;
+    if (depth.format == DepthFormat::d16f) return Refusal{"peeling over 16-bit float depth", "", "use --depth d16 or d24"};
     const bool has_chip_rule =
         profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
     const bool uses_chip_rule = depth.path == DepthPath::window_z || depth.reference == DepthPath::window_z;

@@ -9,6 +9,7 @@
 #include "pipeline/check.h"
 #include "pipeline/convert.h"
 #include "pipeline/half.h"
+#include "pipeline/narrow.h"
 #include "pipeline/region_scratch.h"
 #include "pipeline/unorm8.h"
 
@@ -20,7 +21,7 @@ std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, c
     std::array<std::uint32_t, 4> codes{};
     for (std::size_t c = 0; c < 4; ++c) {
         switch (info(format).type) {
-            case ChannelType::unorm8: codes[c] = to_unorm8(color[c]); break;
+            case ChannelType::unorm8: codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c])); break;
             case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
             case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
             case ChannelType::depth:

@@ -110,6 +110,11 @@ class Region {
     Drawn draw(const PassState& state, List list, P&& program) {
         return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent, program);
     }
+    // The same over a list that is not the frame's; whoever draws one needs a frame that is one region (surface.h).
+    template <FragmentProgram P>
+    Drawn draw(const PassState& state, const PreparedDraw& list, P&& program) {
+        return draw_list(state, list, program);
+    }
     // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it can.
     Drawn draw_depth(const PassState& state);
     // One geometry pass that adds (c a, a) of every fragment to color[0], and 1 to color[1] if it is there. `program` says the
