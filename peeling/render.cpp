@@ -41,6 +41,7 @@ void check_options(const RenderOptions& o) {
 Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
     using rasterizer::DepthPath;
     if (auto lacking = check(profile, depth.format)) return lacking;
+    if (depth.format == DepthFormat::d16f) return Refusal{"peeling over 16-bit float depth", "", "use --depth d16 or d24"};
     const bool has_chip_rule =
         profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
     const bool uses_chip_rule = depth.path == DepthPath::window_z || depth.reference == DepthPath::window_z;
@@ -304,16 +305,18 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     return result;
 }
 
-std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
+FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
-    std::vector<CapturedFragment> all;
+    FrameFragments found;
     const Body capture = [&](Region& region) {
-        all = region.capture(Bookkeeping::counted);
+        found.all = region.capture(Bookkeeping::counted);
+        const std::uint32_t* opaque = region.storage(region.opaque_depth()).depth(0);
+        found.opaque.assign(opaque, opaque + region.rect().area());
         region.publish(region.opaque_color());
     };
     static_cast<void>(run(frame, capture, Execution::literal, 1));
-    return all;
+    return found;
 }
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }

@@ -5,6 +5,7 @@
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets' precision.
 #include "peeling/average.h"
+#include "peeling/average_words.h"
 #include "peeling/runs.h"
 
 namespace strata::peeling {
@@ -30,6 +31,26 @@ Target accumulate(Region& region, Target sums, Target count) {
     return sums;
 }
 
+// Reads sums, count and background.
+StuckPixels resolve(Region& region, const PassState& state) {
+    constexpr std::array reads{Format::rgba16f, Format::r16f, Format::rgba8};
+    if (resolves_words())
+        if (const auto words = region.full_screen_words(state, reads, Format::rgba8)) return resolve_average_words(*words);
+    const bool half_count = region.storage(state.reads[1]).format() == Format::r16f;
+    StuckPixels stuck;
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        const ColorLanes& sum = own.color(0);
+        const Lanes<float>& n = own.color(1)[0];
+        resolve_average(sum, n, own.color(2), out.color[0], lanes(in));
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            if (!(half_count && n[i] >= 2048.0f) && sum[3][i] <= 65504.0f) continue;
+            ++stuck.pixels;
+            stuck.first = std::min(stuck.first, in.pixel[i]);
+        }
+    }));
+    return stuck;
+}
+
 }  // namespace
 
 void weighted_average(Region& region) {
@@ -41,20 +62,9 @@ void weighted_average(Region& region) {
     PassState state;
     state.color[0] = result;
     state.reads = {sums, count, region.opaque_color()};
-    const bool half_count = count_format == Format::r16f;
-    std::uint64_t stuck = 0;
-    std::uint32_t first_stuck = ~0u;
-    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        const ColorLanes& sum = own.color(0);
-        const Lanes<float>& n = own.color(1)[0];
-        resolve_average(sum, n, own.color(2), out.color[0], lanes(in));
-        for (std::size_t i = 0; i < lanes(in); ++i) {
-            if (!(half_count && n[i] >= 2048.0f) && sum[3][i] <= 65504.0f) continue;
-            ++stuck;
-            first_stuck = std::min(first_stuck, in.pixel[i]);
-        }
-    }));
-    region.report(Fault::half_saturated, stuck, first_stuck, "an fp16 sum or count has stopped growing (hardware.md 9)");
+    const StuckPixels stuck = resolve(region, state);
+    region.report(Fault::half_saturated, stuck.pixels, stuck.first,
+                  "an fp16 sum or count has stopped growing (hardware.md 9)");
     region.publish(result);
 }
 

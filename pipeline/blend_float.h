@@ -63,6 +63,8 @@ struct FloatArithmetic {
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
         if constexpr (equation == BlendEquation::min || equation == BlendEquation::max)
             return extreme<equation, nan_rule>(s, d);
+        if constexpr (equation == BlendEquation::signed_add || equation == BlendEquation::signed_reverse_subtract)
+            return d;  // 8-bit targets alone: check.h refuses the rest
         const float source = keeps_s ? s : flushed<denormals>(s * F);
         const float destination = keeps_d ? d : flushed<denormals>(d * G);
         float sum = 0;

@@ -73,6 +73,8 @@ void with_equation(BlendEquation equation, Body&& body) {
         case reverse_subtract: return body(std::integral_constant<BlendEquation, reverse_subtract>{});
         case min: return body(std::integral_constant<BlendEquation, min>{});
         case max: return body(std::integral_constant<BlendEquation, max>{});
+        case signed_add: return body(std::integral_constant<BlendEquation, signed_add>{});
+        case signed_reverse_subtract: return body(std::integral_constant<BlendEquation, signed_reverse_subtract>{});
     }
 }
 

@@ -37,6 +37,10 @@ constexpr std::array feature_rows{
                &DeviceProfile::has_sequential_depth_units},
     FeatureRow{Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw",
                &DeviceProfile::has_ordered_rmw},
+    FeatureRow{Feature::signed_blend, "signed blend equations", "", &DeviceProfile::has_signed_blend},
+    FeatureRow{Feature::d16f, "16-bit float depth buffers", "", &DeviceProfile::has_d16f},
+    FeatureRow{Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "",
+               &DeviceProfile::has_narrow_surfaces},
 };
 
 const FeatureRow& row(Feature feature) {
@@ -108,6 +112,7 @@ Verdict check(const DeviceProfile& profile, DepthFormat format) {
         case DepthFormat::d16: return check(profile, Feature::d16);
         case DepthFormat::d24: return check(profile, Feature::d24);
         case DepthFormat::d32f: return check(profile, Feature::d32f);
+        case DepthFormat::d16f: return check(profile, Feature::d16f);
     }
     return std::nullopt;  // unreachable: the enum is closed
 }
@@ -116,6 +121,7 @@ Verdict check(const DeviceProfile& profile, Format target) {
     if (is_depth(target)) return check(profile, depth_format(target));
     const ChannelType type = info(target).type;
     if (type == ChannelType::half || type == ChannelType::single) return check(profile, Feature::float_targets);
+    if (is_narrow(target)) return check(profile, Feature::narrow_surfaces);
     return std::nullopt;
 }
 
@@ -125,6 +131,11 @@ Verdict check(const DeviceProfile& profile, const StencilTest& state) {
 }
 
 Verdict check(const DeviceProfile& profile, const Blend& state) {
+    const auto is_signed = [](const BlendTerm& term) {
+        return term.equation == BlendEquation::signed_add || term.equation == BlendEquation::signed_reverse_subtract;
+    };
+    if (state.enabled && (is_signed(state.color) || is_signed(state.alpha)))
+        if (Verdict refusal = check(profile, Feature::signed_blend)) return refusal;
     if (state.enabled && state.color != state.alpha) return check(profile, Feature::separate_alpha_blend);
     return std::nullopt;
 }

@@ -32,6 +32,9 @@ enum class Feature : std::uint8_t {
     depth_replace,
     sequential_depth_units,
     ordered_rmw,
+    signed_blend,
+    d16f,
+    narrow_surfaces,
 };
 
 enum class UnsupportedState : std::uint8_t { fog, color_sum, dither, logic_op };

@@ -12,7 +12,10 @@ using rasterizer::DepthFormat;
 using rasterizer::DepthRounding;
 
 // Colour formats hold 1, 2 or 4 channels; depth and stencil have targets of their own (d24s8 is a d24 beside an s8).
-enum class Format : std::uint8_t { rgba8, rgba16f, rgba32f, r16f, r32f, rg32f, d16, d24, d24s8, d32f, s8 };
+// The narrow formats of GeForce3's surfaces hold 8-bit codes as the blender reads them back (narrow.h).
+enum class Format : std::uint8_t {
+    rgba8, rgba16f, rgba32f, r16f, r32f, rg32f, d16, d24, d24s8, d32f, s8, d16f, x8r8g8b8, x1a7r8g8b8, r5g6b5, x1r5g5b5
+};
 
 enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil };
 
@@ -36,6 +39,11 @@ struct FormatInfo {
         case Format::d24s8: return {"d24s8", ChannelType::depth, 1, 4};
         case Format::d32f: return {"d32f", ChannelType::depth, 1, 4};
         case Format::s8: return {"s8", ChannelType::stencil, 1, 1};
+        case Format::d16f: return {"d16f", ChannelType::depth, 1, 2};
+        case Format::x8r8g8b8: return {"x8r8g8b8", ChannelType::unorm8, 4, 4};
+        case Format::x1a7r8g8b8: return {"x1a7r8g8b8", ChannelType::unorm8, 4, 4};
+        case Format::r5g6b5: return {"r5g6b5", ChannelType::unorm8, 4, 2};
+        case Format::x1r5g5b5: return {"x1r5g5b5", ChannelType::unorm8, 4, 2};
     }
     return {"", ChannelType::single, 0, 0};  // unreachable: the enum is closed
 }
@@ -44,14 +52,28 @@ struct FormatInfo {
     const ChannelType t = info(f).type;
     return t == ChannelType::unorm8 || t == ChannelType::half || t == ChannelType::single;
 }
+[[nodiscard]] constexpr bool is_narrow(Format f) noexcept {
+    return f == Format::x8r8g8b8 || f == Format::x1a7r8g8b8 || f == Format::r5g6b5 || f == Format::x1r5g5b5;
+}
 [[nodiscard]] constexpr bool is_depth(Format f) noexcept { return info(f).type == ChannelType::depth; }
 [[nodiscard]] constexpr bool has_stencil(Format f) noexcept { return f == Format::d24s8 || f == Format::s8; }
 
 [[nodiscard]] constexpr DepthFormat depth_format(Format f) noexcept {
-    return f == Format::d16 ? DepthFormat::d16 : f == Format::d32f ? DepthFormat::d32f : DepthFormat::d24;
+    switch (f) {
+        case Format::d16: return DepthFormat::d16;
+        case Format::d16f: return DepthFormat::d16f;
+        case Format::d32f: return DepthFormat::d32f;
+        default: return DepthFormat::d24;
+    }
 }
 [[nodiscard]] constexpr Format target_format(DepthFormat f) noexcept {
-    return f == DepthFormat::d16 ? Format::d16 : f == DepthFormat::d24 ? Format::d24 : Format::d32f;
+    switch (f) {
+        case DepthFormat::d16: return Format::d16;
+        case DepthFormat::d24: return Format::d24;
+        case DepthFormat::d16f: return Format::d16f;
+        case DepthFormat::d32f: break;
+    }
+    return Format::d32f;
 }
 
 }  // namespace strata::pipeline

@@ -27,6 +27,9 @@ DeviceProfile geforce3() {
     p.quantizes_vertex_color = true;
     p.has_d16 = true;
     p.has_depth_clamp = true;
+    p.has_signed_blend = true;
+    p.has_d16f = true;
+    p.has_narrow_surfaces = true;
     p.has_depth_replace = true;
     p.max_samples = 4;
     return p;

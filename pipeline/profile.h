@@ -33,6 +33,8 @@ struct DeviceProfile {
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;
+    bool has_d16f = false;            // 4 bits of exponent, 12 of mantissa
+    bool has_narrow_surfaces = false;  // x8r8g8b8, x1a7r8g8b8, r5g6b5 and x1r5g5b5 (narrow.h)
     bool has_float_targets = false;   // fp16 and fp32 render targets that blend, RG32F and R16F among them
     bool has_unclamped_depth_clear = false;  // NV_depth_buffer_float
 
@@ -45,6 +47,7 @@ struct DeviceProfile {
     bool has_depth_replace = false;           // NV_texture_shader: DOT_PRODUCT_DEPTH_REPLACE
     bool has_sequential_depth_units = true;   // STRATA_depth_units: an emulator extension, reported when used
     bool has_ordered_rmw = false;             // STRATA_ordered_rmw: targets that a program reads and writes
+    bool has_signed_blend = false;            // signed add and signed reverse subtract, on 8-bit targets
     int max_render_targets = 1;
     int max_texture_units = 4;
     int max_viewport_px = 4096;
@@ -52,7 +55,13 @@ struct DeviceProfile {
     friend bool operator==(const DeviceProfile&, const DeviceProfile&) = default;
 
     [[nodiscard]] bool has_depth(DepthFormat f) const noexcept {
-        return f == DepthFormat::d16 ? has_d16 : f == DepthFormat::d24 ? has_d24 : has_d32f;
+        switch (f) {
+            case DepthFormat::d16: return has_d16;
+            case DepthFormat::d24: return has_d24;
+            case DepthFormat::d32f: return has_d32f;
+            case DepthFormat::d16f: return has_d16f;
+        }
+        return false;  // unreachable: the enum is closed
     }
 };
 

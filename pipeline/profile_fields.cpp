@@ -185,6 +185,10 @@ constexpr std::array fields{
     boolean<&Profile::has_d24>("has_d24", {"[M] 2: Z24S8", "[M] 2: Z24S8", ours, opengl}),
     boolean<&Profile::has_d32f>("has_d32f",
                                 {"[M] 2: no such format", "[M] 2: Z32F among G80's depth formats", ours, opengl}),
+    boolean<&Profile::has_d16f>(
+        "has_d16f", {"[M] nv2a-geometry.md 4: 98 pictures", "[M] 2: not among G80's depth formats", ours, opengl}),
+    boolean<&Profile::has_narrow_surfaces>(
+        "has_narrow_surfaces", {"[M] nv2a-fragment.md R10", "[A] 2: none is emulated", ours, opengl}),
     boolean<&Profile::has_float_targets>(
         "has_float_targets", {"[D] 8: NV30 had the first, without blending", "[D] 8: Bavoil and Myers", ours, opengl}),
     boolean<&Profile::has_unclamped_depth_clear>(
@@ -211,6 +215,8 @@ constexpr std::array fields{
          "[A] decisions.md 4: an emulator extension"}),
     boolean<&Profile::has_ordered_rmw>("has_ordered_rmw",
                                        {"[A] decisions.md 4", "[A] decisions.md 4", ours, "[A] decisions.md 4"}),
+    boolean<&Profile::has_signed_blend>(
+        "has_signed_blend", {"[M] nv2a-fragment.md R3: 478 of 478 pictures", "[D] 8: no such equation", ours, opengl}),
     integer<&Profile::max_render_targets>(
         "max_render_targets", {1, 8},
         {"[D] 8: one colour buffer", "[D] 8: D3D 11.3 17.14", ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS"}),

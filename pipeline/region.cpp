@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstring>
 #include <numeric>
 
 #include "pipeline/check.h"
 #include "pipeline/convert.h"
 #include "pipeline/half.h"
+#include "pipeline/narrow.h"
 #include "pipeline/region_scratch.h"
 #include "pipeline/unorm8.h"
 
@@ -19,7 +21,7 @@ std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, c
     std::array<std::uint32_t, 4> codes{};
     for (std::size_t c = 0; c < 4; ++c) {
         switch (info(format).type) {
-            case ChannelType::unorm8: codes[c] = to_unorm8(color[c]); break;
+            case ChannelType::unorm8: codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c])); break;
             case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
             case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
             case ChannelType::depth:
@@ -27,6 +29,23 @@ std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, c
         }
     }
     return codes;
+}
+
+// Neighbouring pixels of the two commonest layouts, whose words are nearly the image's codes; false for the others.
+bool read_words(const Texels& from, std::size_t first, std::size_t count, std::uint32_t* out) {
+    const std::uint32_t* const words = from.plane(0).words + first;
+    if (from.channels == 1 && from.bits_per_channel == 32) {
+        std::copy_n(words, count, out);
+        return true;
+    }
+    if (from.channels != 4 || from.bits_per_channel != 8) return false;
+    std::array<std::uint8_t, 4 * batch_capacity> bytes;  // a loop that widens bytes is vectorised, one that shifts words is not
+    for (std::size_t done = 0; done < count; done += batch_capacity) {
+        const std::size_t part = std::min<std::size_t>(count - done, batch_capacity);
+        std::memcpy(bytes.data(), words + done, 4 * part);
+        for (std::size_t i = 0; i < 4 * part; ++i) out[4 * done + i] = bytes[i];
+    }
+    return std::endian::native == std::endian::little;
 }
 
 std::uint64_t bytes(const TargetStorage& s) {
@@ -233,12 +252,7 @@ void Region::read_row(const TargetStorage& from, int y, std::uint32_t* out) cons
     const auto width = static_cast<std::size_t>(rect_.width()), first = static_cast<std::size_t>(y) * width;
     const auto channels = static_cast<std::size_t>(info(from.format()).channels);
     const auto samples = static_cast<std::size_t>(from.samples());
-    if (from.format() == Format::rgba8 && samples == 1) {
-        static_assert(std::endian::native == std::endian::little);
-        const auto* const bytes = reinterpret_cast<const unsigned char*>(from.depth(0) + first);
-        for (std::size_t i = 0; i < width * channels; ++i) out[i] = bytes[i];
-        return;
-    }
+    if (samples == 1 && read_words(from.texels(0), first, width, out)) return;
     for (std::size_t x = 0; x < width; x += batch_capacity) {
         const std::size_t count = std::min<std::size_t>(width - x, batch_capacity);
         for (std::size_t sample = 0; sample < samples; ++sample) {

@@ -54,6 +54,13 @@ struct KeptLayer {
     Image color, depth;  // of the region's rectangle
 };
 
+// The targets of a full-screen pass as they are stored: for kernels that leave by themselves what the pass would leave.
+struct ScreenWords {
+    std::array<Texels, max_reads> reads;  // as PassState::reads; sample 0
+    Texels color;                         // target 0
+    std::size_t pixels = 0;
+};
+
 enum class Extent : std::uint8_t { frame, tile };
 // Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
 enum class List : std::uint8_t { first, second };
@@ -103,6 +110,11 @@ class Region {
     Drawn draw(const PassState& state, List list, P&& program) {
         return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent, program);
     }
+    // The same over a list that is not the frame's; whoever draws one needs a frame that is one region (surface.h).
+    template <FragmentProgram P>
+    Drawn draw(const PassState& state, const PreparedDraw& list, P&& program) {
+        return draw_list(state, list, program);
+    }
     // One geometry pass that tests and writes depth, without a program or colours; straight into the target where it can.
     Drawn draw_depth(const PassState& state);
     // One geometry pass that adds (c a, a) of every fragment to color[0], and 1 to color[1] if it is there. `program` says the
@@ -114,6 +126,11 @@ class Region {
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
+
+    // The same without a program, for targets of these formats: counts a pass that reads and writes every pixel and hands out its
+    // words. Nothing, and nothing counted, where a kernel must not stand in for the pass.
+    [[nodiscard]] std::optional<ScreenWords> full_screen_words(const PassState& state, std::span<const Format> reads,
+                                                               Format color);
 
     // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.
     template <FragmentProgram P>

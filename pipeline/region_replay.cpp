@@ -14,10 +14,12 @@ using rasterizer::FragmentNeeds;
 
 FragmentStore& Region::store() noexcept { return scratch_->store; }
 
+// A second list's is not asked for tile by tile.
 const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
-    auto& needs = &list == frame_.transparent ? transparent_needs_ : opaque_needs_;
-    const bool whole = extent_ == Extent::frame || list.needs == MaterialNeeds{};
-    if (!needs) needs = whole ? list.needs : needs_of(list, list.geometry.bin(tile_));
+    const bool is_transparent = &list == frame_.transparent, is_opaque = &list == frame_.opaque;
+    if (extent_ == Extent::frame || list.needs == MaterialNeeds{} || !(is_transparent || is_opaque)) return list.needs;
+    auto& needs = is_transparent ? transparent_needs_ : opaque_needs_;
+    if (!needs) needs = needs_of(list, list.geometry.bin(tile_));
     return *needs;
 }
 

@@ -1,5 +1,7 @@
 // pipeline/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the targets, where
 // that leaves the same bits and the same counts. Literal execution never takes this way: it is what this one is tested against.
+#include <algorithm>
+
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
 #include "pipeline/sum_rows.h"
@@ -48,12 +50,12 @@ class HalfPlanes {
 
 // Whether nothing stands between the rasterizer and the tests of this pass.
 bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const {
+    if (extent_ != Extent::tile || frame_.effects != Effects::needed || frame_.once_more != Effect::none) return false;
     const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
-                          (state.sample_mask & 1u) != 0 && !list.needs.color && state.primitives.empty() &&
-                          !state.needs.reference;
+                          (state.sample_mask & 1u) != 0 && state.primitives.empty() && !state.needs.reference &&
+                          !needs_of(list, list.geometry.bin(tile_)).color;
     const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
-    return is_plain && !is_recalled && extent_ == Extent::tile && frame_.effects == Effects::needed &&
-           row_walk_suits(list.geometry, frame_.key_request(), rect_);
+    return is_plain && !is_recalled && row_walk_suits(list.geometry, frame_.key_request(), rect_);
 }
 
 // What batches would have counted, with the test against the depth target.
@@ -90,8 +92,8 @@ bool Region::sums_suit_rows(const PassState& state) const {
     const bool counts = state.color[1].exists();
     return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
            (!counts || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
-           profile().raster.color == rasterizer::ColorInterpolation::exact_plane && !list.needs.texcoord && list.needs.shadow == 0 &&
-           draws_rows(state, list);
+           profile().raster.color == rasterizer::ColorInterpolation::exact_plane &&
+           draws_rows(state, list) && list.needs.shadow == 0 && !needs_of(list, list.geometry.bin(tile_)).texcoord;
 }
 
 Drawn Region::draw_sum_rows(const PassState& state) {
@@ -113,6 +115,21 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     Drawn drawn;
     drawn.passed.own_ = rows.passed;
     return drawn;
+}
+
+std::optional<ScreenWords> Region::full_screen_words(const PassState& state, std::span<const Format> reads, Format color) {
+    const auto is = [&](Target t, Format format) { return is_one_sample(t) && storage(t).format() == format; };
+    const auto first_read = state.reads.begin();
+    if (extent_ != Extent::tile || frame_.effects != Effects::needed || !is(state.color[0], color) ||
+        !std::equal(reads.begin(), reads.end(), first_read, [&](Format format, Target t) { return is(t, format); }))
+        return {};
+    begin_pass(state, PassKind::full_screen);
+    ScreenWords words{{}, at(state.color[0]).texels(0), rect_.area()};
+    for (std::size_t r = 0; r < reads.size(); ++r) {
+        words.reads[r] = at(state.reads[r]).texels(0);
+        record().counters.bytes_read += static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel) * words.pixels;
+    }
+    return words;
 }
 
 }  // namespace strata::pipeline

@@ -9,6 +9,7 @@
 #include "pipeline/convert.h"
 #include "pipeline/depth_test.h"
 #include "pipeline/effects.h"
+#include "pipeline/narrow.h"
 #include "pipeline/region.h"
 #include "pipeline/region_scratch.h"
 #include "pipeline/shadow_stage.h"
@@ -36,6 +37,11 @@ constexpr auto every_lane = [] {
     return lanes;
 }();
 
+void narrow(Format format, ColorCodes& codes, int count) noexcept {
+    for (int c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            codes[static_cast<std::size_t>(c)][i] = narrowed(format, c, codes[static_cast<std::size_t>(c)][i]);
+}
 Blend idle(const Blend& blending) { return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask}; }
 
 std::uint64_t pixel_bytes(const TargetStorage& s) { return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel); }
@@ -271,6 +277,7 @@ void Region::write_colors(const PassState& state, const FragmentBatch& batch, co
         if (used.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
             target.gather(batch.pixel, batch.count, sample, scratch_->codes);
         blend(used, format.type, profile(), format.channels, out.color[k], scratch_->codes, batch.count);
+        if (is_narrow(target.format())) narrow(target.format(), scratch_->codes, batch.count);
         target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, scratch_->codes);
     }
 }

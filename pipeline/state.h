@@ -37,7 +37,9 @@ struct DepthTest {  // off: no depth write either, and the stencil acts as if de
     friend bool operator==(const DepthTest&, const DepthTest&) = default;
 };
 
-enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max };
+// The signed ones read the source byte as two's complement and ignore both factors: d + s', d - s'. NV2A alone
+// (nv2a-fragment.md R3); OpenGL has no such equations.
+enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max, signed_add, signed_reverse_subtract };
 
 enum class BlendFactor : std::uint8_t {
     zero, one,

@@ -33,20 +33,45 @@ struct SumState {
 using Code16 = raster::U16;
 using Half16 = hn::Rebind<hwy::float16_t, F32>;
 
-// As sum_of_halves of stages_simd.cpp, stored where the lane is covered.
-template <bool flushes>
-HWY_INLINE void add(V32 source, hn::Mask<Code16> covered, std::uint16_t* halves) {
+HWY_INLINE V32 widened(const std::uint16_t* halves) {
+    return hn::PromoteTo(F32{}, hn::BitCast(Half16{}, hn::LoadU(Code16{}, halves)));
+}
+
+// A denormal as the zero of its sign.
+HWY_INLINE V32 flushed(V32 v) {
+    const auto bits = hn::BitCast(U32{}, v);
+    const auto is_small = hn::Eq(hn::And(bits, hn::Set(U32{}, 0x7f800000u)), hn::Zero(U32{}));
+    return hn::BitCast(F32{}, hn::IfThenElse(is_small, hn::And(bits, hn::Set(U32{}, 0x80000000u)), bits));
+}
+
+// Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered lanes. Two
+// of its steps show only where a source is negative (a positive denormal and its zero become the same half, whatever they are
+// added to) or a sum is NaN: they are done for rows that have one.
+template <bool flushes, std::size_t channels>
+HWY_INLINE void add(V32 (&source)[channels], raster::RowMask covered, std::uint16_t* const (&halves)[channels]) {
     const F32 d;
     if constexpr (flushes) {
-        const auto bits = hn::BitCast(U32{}, source);
-        const auto is_small = hn::Eq(hn::And(bits, hn::Set(U32{}, 0x7f800000u)), hn::Zero(U32{}));
-        source = hn::BitCast(d, hn::IfThenElse(is_small, hn::And(bits, hn::Set(U32{}, 0x80000000u)), bits));
+        auto signs = hn::BitCast(hn::RebindToSigned<U32>{}, source[0]);
+        for (std::size_t c = 1; c < channels; ++c)
+            signs = hn::Or(signs, hn::BitCast(hn::RebindToSigned<U32>{}, source[c]));
+        const auto negative = hn::RebindMask(d, hn::Lt(signs, hn::Zero(hn::RebindToSigned<U32>{})));
+        if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(covered, negative))))
+            for (V32& v : source) v = flushed(v);
     }
-    const V32 stored = hn::PromoteTo(d, hn::BitCast(Half16{}, hn::LoadU(Code16{}, halves)));
-    const V32 sum = hn::Add(source, stored);
-    const V32 nan = hn::BitCast(d, hn::Set(U32{}, 0x7fffffffu));
-    const auto rounded = hn::DemoteTo(Half16{}, hn::IfThenElse(hn::Eq(sum, sum), sum, nan));
-    hn::BlendedStore(hn::BitCast(Code16{}, rounded), covered, Code16{}, halves);
+    V32 sum[channels];
+    auto number = hn::Eq(source[0], source[0]);
+    for (std::size_t c = 0; c < channels; ++c) {
+        sum[c] = hn::Add(source[c], widened(halves[c]));
+        number = hn::And(number, hn::Eq(sum[c], sum[c]));
+    }
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::AndNot(number, covered)))) {
+        const V32 nan = hn::BitCast(d, hn::Set(U32{}, 0x7fffffffu));
+        for (V32& v : sum) v = hn::IfThenElse(hn::Eq(v, v), v, nan);
+    }
+    alignas(8) std::uint8_t bits[8] = {static_cast<std::uint8_t>(raster::bits_of(covered))};
+    const auto lanes = hn::LoadMaskBits(Code16{}, bits);
+    for (std::size_t c = 0; c < channels; ++c)
+        hn::BlendedStore(hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, sum[c])), lanes, Code16{}, halves[c]);
 }
 
 // The colour of a triangle: planes before the division by the one of 1 / w, equal ones once, and constants.
@@ -142,14 +167,14 @@ struct SumOf {
                 if (hn::AllFalse(F32{}, covered)) return;
                 passed_ += hn::CountTrue(F32{}, covered);
             }
-            alignas(8) std::uint8_t bits[8] = {static_cast<std::uint8_t>(raster::bits_of(covered))};
-            const auto lanes = hn::LoadMaskBits(Code16{}, bits);
             V32 color[4];
             color_.template at<unsnapped>(row, b, color);
-            for (std::size_t c = 0; c < 3; ++c)
-                add<flushes>(hn::Mul(color[c], color[3]), lanes, planes_.sums[c] + row.pixel);
-            add<flushes>(color[3], lanes, planes_.sums[3] + row.pixel);
-            if (planes_.count != nullptr) add<false>(hn::Set(F32{}, 1.0f), lanes, planes_.count + row.pixel);
+            for (std::size_t c = 0; c < 3; ++c) color[c] = hn::Mul(color[c], color[3]);
+            const auto& sums = planes_.sums;
+            add<flushes>(color, covered, {sums[0] + row.pixel, sums[1] + row.pixel, sums[2] + row.pixel, sums[3] + row.pixel});
+            if (planes_.count == nullptr) return;
+            V32 one[1] = {hn::Set(F32{}, 1.0f)};
+            add<false>(one, covered, {planes_.count + row.pixel});
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
             state_.drawn.fragments += pixels;

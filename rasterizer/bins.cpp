@@ -167,7 +167,7 @@ void find_homes(const Geometry& geometry, const TileWalk& walk, std::size_t firs
         const TriangleRecord* const record = &geometry.triangles[first + at];
         load_corners(
             geometry.corners, triangles, [&](std::size_t k) -> const auto& { return record[k].vertex; }, group);
-        kernels.set_up(rules, group);
+        kernels.set_up_boxes(rules, group);
         for (std::size_t k = 0; k < triangles; ++k) {
             TileBlock block;
             const Rect box = group.box(k);

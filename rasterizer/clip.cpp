@@ -18,6 +18,7 @@ Clipper::Clipper(const RasterState& state, const RasterRules& rules)
       guard_holds_viewport_{state.clip_plane_count == 0 && state.viewport.x0 >= -rules.guard_band_px &&
                             state.viewport.y0 >= -rules.guard_band_px && state.viewport.x1 <= rules.guard_band_px &&
                             state.viewport.y1 <= rules.guard_band_px} {
+    if (state.window_positions) return;  // there is no clip space; set-up keeps positions within the guard band
     const auto add = [&](Plane plane) { plane_[static_cast<std::size_t>(count_++)] = plane; };
     add({0, 0, 0, 1, -double{least_w}, Kind::w});
     if (!state.depth_clamp && rules.z_clip == ZClip::per_primitive) {

@@ -1,6 +1,5 @@
 #include "rasterizer/depth_bound.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,16 +23,18 @@ namespace {
 }  // namespace
 
 double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
+    const auto larger = [](double a, double b) { return a > b ? a : b; };  // without a branch, as std::max of a list is not
     double greatest = -std::numeric_limits<double>::infinity(), size = 0.0;
     const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
     const double beyond = geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
     for (const std::uint32_t i : triangles) {
         const std::array<double, 3> z = geometry.depths(i);
-        double most = std::max({z[0], z[1], z[2]});
+        double most = larger(larger(z[0], z[1]), z[2]);
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped)
             most += beyond * steepness(geometry, geometry.triangles[i], z);
-        greatest = std::max(greatest, most);
-        size = std::max({size, std::fabs(z[0]), std::fabs(z[1]), std::fabs(z[2]), std::fabs(most)});
+        greatest = larger(most, greatest);
+        const double corners = larger(larger(std::fabs(z[0]), std::fabs(z[1])), std::fabs(z[2]));
+        size = larger(larger(corners, std::fabs(most)), size);
     }
     return (greatest + 0x1p-20 * size) / z_units(geometry.state, geometry.rules);
 }

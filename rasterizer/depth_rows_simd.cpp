@@ -65,8 +65,8 @@ void draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, co
     RowWalk<DepthOf<is_fixed>::template Shade, DepthState>{state, geometry, region}.draw(triangles);
 }
 
-DepthDrawn draw_depth(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthConversion& to_code,
-                      double units, const Rect& region, std::uint32_t* codes) {
+DepthDrawn draw_depth(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                      const DepthConversion& to_code, double units, const Rect& region, std::uint32_t* codes) {
     DepthState state{to_code, units, codes, {}};
     if (to_code.is_fixed)
         draw<true>(geometry, triangles, region, state);
@@ -85,11 +85,11 @@ HWY_AFTER_NAMESPACE();
 namespace strata::rasterizer {
 HWY_EXPORT(draw_depth);
 
-DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
-                           const Rect& region, std::uint32_t* codes) noexcept {
+DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                           const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {
     const FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
-    return HWY_DYNAMIC_DISPATCH(draw_depth)(geometry, triangles, values.to_code(), z_units(geometry.state, geometry.rules),
-                                            region, codes);
+    return HWY_DYNAMIC_DISPATCH(draw_depth)(geometry, triangles, values.to_code(),
+                                            z_units(geometry.state, geometry.rules), region, codes);
 }
 
 }  // namespace strata::rasterizer

@@ -90,8 +90,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
     is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || depth.path == DepthPath::float32);
-    assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0)) &&
-           "window_z works in the buffer units of a fixed-point format, the one that is stored");
+    assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0) ||
+            z_units_ == max_d16f) &&
+           "window_z works in the buffer units of the format that is stored, which is no d32f");
     assert((geometry.extras.has_rq || !is_quotient(depth.path)) &&
            (geometry.extras.has_rq || !depth.reference || !is_quotient(*depth.reference)) &&
            "perspective_rq and depth_replace take r and q of the vertices");
@@ -190,6 +191,13 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
 
 int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
                                const float* shader_z, std::uint32_t* out) const {
+    if (depth_.format == DepthFormat::d16f) {  // no rule of the chip's bits is known: the exact plane rounded once, then cut
+        alignas(64) Lanes<float> z;
+        const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
+        for (int i = 0; i < lanes.count; ++i)
+            out[i] = std::clamp(to_d16f_code(z[static_cast<std::size_t>(i)]), least_code_, greatest_code_);
+        return fallbacks;
+    }
     if (path == DepthPath::float32) {
         to_codes(shader_z, lanes.count, least_, greatest_, depth_.format,
                  rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0, out);

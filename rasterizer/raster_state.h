@@ -57,6 +57,9 @@ struct RasterState {
     PolygonOffset polygon_offset;
     std::array<ClipPlane, 6> clip_planes{};
     int clip_plane_count = 0;
+    // Vertices carry window x, y (pixels) and z (rules.window_z units) beside their w, as a vertex program of NV2A leaves
+    // them: no clip volume, no division, no viewport.
+    bool window_positions = false;
     DepthFormat depth_format = DepthFormat::d32f;  // vertex z in buffer units and the offset unit depend on it
     friend bool operator==(const RasterState&, const RasterState&) = default;
 };

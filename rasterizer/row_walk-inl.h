@@ -47,7 +47,8 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
 
 // The rare ways below get copies: what a function elsewhere has seen the address of, the compiler keeps in memory.
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
-    if (HWY_UNLIKELY(plane.is_constant())) return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
+    if (HWY_UNLIKELY(plane.is_constant()))
+        return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
     return FilterPlane{plane, triangle.weights.is_exact()};
 }
 
@@ -64,7 +65,8 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
 
 // As the test LESS compares codes: those of binary32 as what they are.
 HWY_INLINE RowMask nearer(hn::Vec<U32> code, hn::Vec<U32> stored, bool is_fixed) {
-    return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored)) : hn::Lt(hn::BitCast(F32{}, code), hn::BitCast(F32{}, stored));
+    return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored))
+                    : hn::Lt(hn::BitCast(F32{}, code), hn::BitCast(F32{}, stored));
 }
 
 // What weights have in common by column, or by row.
@@ -123,7 +125,8 @@ class RowWalk {
     }
 
     template <bool unsnapped, int widest>
-    HWY_INLINE void draw_bits(const SmallCoverage<widest == 8>& coverage, const DrawnTriangle& triangle, std::size_t k) {
+    HWY_INLINE void draw_bits(const SmallCoverage<widest == 8>& coverage, const DrawnTriangle& triangle,
+                              std::size_t k) {
         constexpr std::uint32_t parts = widest / row_lanes;
         const int x0 = static_cast<int>(group_.x0[k]), y0 = static_cast<int>(group_.y0[k]);
         const WeightsAt<unsnapped> at{triangle.weights};

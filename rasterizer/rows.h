@@ -14,7 +14,7 @@
 
 namespace strata::rasterizer {
 
-inline constexpr int max_row_pixels = 128;  // of a region: the largest tile
+inline constexpr int max_row_pixels = 128;     // of a region: the largest tile
 inline constexpr std::size_t row_padding = 8;  // words behind the last pixel that rows may read, and write as they were
 
 // Whether rows can do what the batches of `geometry` would hold, in `region` and on the chosen instruction set.
@@ -26,8 +26,8 @@ struct DepthDrawn {
 
 // Every fragment of `triangles` (as TileRasterizer::draw takes them) whose code is LESS than the stored one replaces it, in
 // submission order. `codes`: the region's pixels row by row, and row_padding words more. Only where row_walk_suits.
-DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
-                           const Rect& region, std::uint32_t* codes) noexcept;
+DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                           const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
 
 // For the kernels. Replaces values[i] by the exact plane at (x + i, y), for every bit i of `lanes`.
 void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, int x, int y,

@@ -171,7 +171,7 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     TriangleGroup group;
     load_corners(
         corners_, triangles.size(), [&](std::size_t k) -> const auto& { return triangles[k].vertex; }, group);
-    small_kernels().set_up({state_.viewport, rules_.subpixel_bits, rules_.tie_rule}, group);
+    small_kernels().set_up_boxes({state_.viewport, rules_.subpixel_bits, rules_.tie_rule}, group);
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const auto& [a, b, c] = triangles[k].vertex;
         const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled;

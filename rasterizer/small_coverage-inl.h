@@ -59,7 +59,8 @@ class SmallCoverage {
         for (std::uint32_t b = 0; b < count(); ++b) {
             std::uint32_t covered = 0;
             for (std::size_t part = 0; part < block_parts; ++part) {
-                covered |= not_negative(hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part])) << part * block_part;
+                covered |= not_negative(hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part]))
+                           << part * block_part;
                 for (std::size_t i = 0; i < 3; ++i) edge[i][part] = hn::Add(edge[i][part], down[i]);
             }
             bits_[b / 4] |= std::uint64_t{covered & in_box} << b % 4 * 16;

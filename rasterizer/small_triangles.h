@@ -71,6 +71,8 @@ struct RegionPlace {
 
 struct SmallKernels {
     void (*set_up)(const GroupRules& rules, TriangleGroup& group) noexcept;
+    // The same without the edges: boxes, what is small, areas.
+    void (*set_up_boxes)(const GroupRules& rules, TriangleGroup& group) noexcept;
     // Appends the pixels of small triangle `k`; false if the batch must be flushed first: then it holds one of them, or
     // has no room.
     bool (*emit)(const TriangleGroup& group, std::size_t k, const RegionPlace& place, PixelClaims& claims,
@@ -136,9 +138,12 @@ inline void find_edge(const GroupRules& rules, std::size_t i, TriangleGroup& __r
     }
 }
 
-inline void set_up_group(const GroupRules& rules, TriangleGroup& group) noexcept {
+inline void set_up_boxes(const GroupRules& rules, TriangleGroup& group) noexcept {
     find_boxes(rules, group);
     find_areas(group);
+}
+inline void set_up_group(const GroupRules& rules, TriangleGroup& group) noexcept {
+    set_up_boxes(rules, group);
     for (std::size_t i = 0; i < 3; ++i) find_edge(rules, i, group);
 }
 

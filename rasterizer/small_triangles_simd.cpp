@@ -19,6 +19,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 [[gnu::flatten]] void set_up(const GroupRules& rules, TriangleGroup& group) noexcept {
     scalar::set_up_group(rules, group);
 }
+[[gnu::flatten]] void set_up_boxes(const GroupRules& rules, TriangleGroup& group) noexcept {
+    scalar::set_up_boxes(rules, group);
+}
 
 // The places of the bits of every byte, in ascending order.
 struct BitPlaces {
@@ -69,7 +72,7 @@ HWY_INLINE void append(const SmallCoverage<within_8>& coverage, const TriangleGr
 
 template <bool within_8>
 HWY_INLINE bool emit_covered(const TriangleGroup& g, std::size_t k, const RegionPlace& place, PixelClaims& claims,
-                            FragmentBatch& batch) {
+                             FragmentBatch& batch) {
     const SmallCoverage<within_8> coverage{g, k};
     if (coverage.pixels() == 0) return true;
     if (batch.count + coverage.pixels() > usable_capacity ||
@@ -89,7 +92,7 @@ bool emit(const TriangleGroup& g, std::size_t k, const RegionPlace& place, Pixel
 }  // namespace
 
 const SmallKernels* small_table() {
-    static constexpr SmallKernels kernels{set_up, emit};
+    static constexpr SmallKernels kernels{set_up, set_up_boxes, emit};
     return &kernels;
 }
 
@@ -103,7 +106,7 @@ HWY_EXPORT(small_table);
 inline namespace strict {
 
 const SmallKernels& small_kernels() noexcept {
-    static constexpr SmallKernels twins{scalar::set_up_group, scalar::emit_small};
+    static constexpr SmallKernels twins{scalar::set_up_group, scalar::set_up_boxes, scalar::emit_small};
     return simd_is_scalar() ? twins : *HWY_DYNAMIC_DISPATCH(small_table)();
 }
 

@@ -26,6 +26,7 @@ struct WindowVertex {
 // The number of vertex z units in depth 1.0: 2^n - 1 for buffer units of a fixed-point format, else 1.
 [[nodiscard]] constexpr double z_units(const RasterState& state, const RasterRules& rules) noexcept {
     const bool scaled = rules.window_z == WindowZ::buffer_units && state.depth_format != DepthFormat::d32f;
+    if (scaled && state.depth_format == DepthFormat::d16f) return max_d16f;
     return scaled ? max_code(state.depth_format) : 1.0;
 }
 
@@ -49,7 +50,7 @@ struct WindowVertex {
 class WindowTransform {
   public:
     constexpr WindowTransform(const RasterState& state, const RasterRules& rules) noexcept
-        : rules_{rules}, guard_{static_cast<float>(rules.guard_band_px)} {
+        : rules_{rules}, guard_{static_cast<float>(rules.guard_band_px)}, is_done_{state.window_positions} {
         const Rect& v = state.viewport;
         x_ = {0.5f * static_cast<float>(v.width()), static_cast<float>(v.x0) + 0.5f * static_cast<float>(v.width())};
         y_ = {0.5f * static_cast<float>(v.height()), static_cast<float>(v.y0) + 0.5f * static_cast<float>(v.height())};
@@ -63,6 +64,7 @@ class WindowTransform {
     [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v) const noexcept {
         if (rules_.w_divide == WDivide::nv20) return project_nv20(v);
         const float inverse_w = 1.0f / v.w;
+        if (is_done_) return {within_guard(v.x), within_guard(v.y), v.z, inverse_w};
         const auto divided = [&](float c) { return rules_.w_divide == WDivide::quotient ? c / v.w : c * inverse_w; };
         return {within_guard(map(x_, divided(v.x))), within_guard(map(y_, divided(v.y))), map(z_, divided(v.z)),
                 inverse_w};
@@ -94,6 +96,7 @@ class WindowTransform {
 
     RasterRules rules_;
     float guard_;
+    bool is_done_;
     Axis x_{}, y_{}, z_{};
 };
 

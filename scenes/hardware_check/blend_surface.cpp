@@ -1,0 +1,97 @@
+// Suite Blend_surface: <DstAlpha|1-DstAlpha>_<format>: what destination alpha is worth in surfaces with and without it.
+// nv2a-fragment.md 6. The <format>_Add_<factors> pictures hold a radial pattern that the reference does not describe.
+#include <algorithm>
+
+#include "scenes/hardware_check/names.h"
+#include "scenes/hardware_check/shapes.h"
+#include "scenes/hardware_check/suite.h"
+
+namespace strata::scenes::hardware_check {
+namespace {
+
+using pipeline::BlendEquation;
+using pipeline::BlendFactor;
+using pipeline::Format;
+
+struct Layout {
+    std::string_view name;
+    Format format;
+    bool ones = false;  // bits that hold nothing are written as 1, and the texture unit reads them as alpha
+};
+constexpr Layout layouts[] = {{"ARGB8", Format::rgba8},
+                              {"R5G6B5", Format::r5g6b5},
+                              {"XA_Z1A7RGB8", Format::x1a7r8g8b8, false},
+                              {"XA_O1A7RGB8", Format::x1a7r8g8b8, true},
+                              {"X_ZRGB8", Format::x8r8g8b8, false},
+                              {"X_ORGB8", Format::x8r8g8b8, true},
+                              {"X_Z1RGB5", Format::x1r5g5b5, false},
+                              {"X_O1RGB5", Format::x1r5g5b5, true}};
+
+constexpr int side = 128;
+
+// A filled target on which 22FFFFFF is blended by its destination alpha. The texture unit shows what is stored.
+pipeline::Image blended(const pipeline::DeviceProfile& profile, Format format, BlendFactor factor, Argb fill) {
+    pipeline::Surface target{profile, {.color = format, .width = side, .height = side}};
+    target.clear_color(unpack(fill));
+    const pipeline::BlendTerm term{BlendEquation::add, factor, BlendFactor::zero};
+    target.draw({.blend = {true, term, term}}, box({0, 0, side, side}, 0x22ffffff));
+    return target.color();
+}
+
+std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
+    switch (layout.format) {
+        case Format::x1a7r8g8b8: return static_cast<std::uint8_t>((layout.ones ? 0x80 : 0) | code >> 1);
+        case Format::x8r8g8b8:
+        case Format::x1r5g5b5: return layout.ones ? 255 : 0;
+        case Format::r5g6b5: return 255;
+        default: return code;
+    }
+}
+
+// Colour bits that are not stored read as the upper ones again.
+pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) {
+    pipeline::Texture texture = as_texture(image);
+    const auto widened = [](std::uint8_t v, int bits) { return static_cast<std::uint8_t>(v | v >> bits); };
+    const bool is_16_bit = layout.format == Format::r5g6b5 || layout.format == Format::x1r5g5b5;
+    for (std::size_t i = 0; i < texture.texels.size(); ++i) {
+        std::uint8_t& code = texture.texels[i];
+        if (i % 4 == 3) code = texel_alpha(layout, code);
+        else if (is_16_bit) code = widened(code, layout.format == Format::r5g6b5 && i % 4 == 1 ? 6 : 5);
+    }
+    return texture;
+}
+
+// The upper half with the texture's own alpha, the lower one opaque.
+void show(pipeline::Surface& window, const pipeline::Texture& texture, float x, float y) {
+    pipeline::Texture half = texture;
+    half.height = side / 2;
+    const std::size_t bytes = static_cast<std::size_t>(side) * side / 2 * 4;
+    half.texels.assign(texture.texels.begin(), texture.texels.begin() + static_cast<std::ptrdiff_t>(bytes));
+    place(window, half, x, y, {.blend = pipeline::blend_mode::over});
+    half.texels.assign(texture.texels.begin() + static_cast<std::ptrdiff_t>(bytes), texture.texels.end());
+    for (std::size_t i = 3; i < half.texels.size(); i += 4) half.texels[i] = 255;
+    place(window, half, x, y + side / 2, {.blend = pipeline::blend_mode::over});
+}
+
+}  // namespace
+
+Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile) {
+    if (name.find("_Add_") != std::string_view::npos)
+        return {std::nullopt, "its radial pattern is not described; its corners agree with the DstAlpha pictures"};
+    BlendFactor factor = BlendFactor::dst_alpha;
+    if (take(name, "1-")) factor = BlendFactor::one_minus_dst_alpha;
+    if (!take(name, "DstAlpha_")) return unknown_name;
+    const auto layout = std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
+    if (layout == std::end(layouts)) return unknown_name;
+    pipeline::Surface window{profile, {}};
+    window.clear_color(unpack(0xff555555));
+    for (int k = 0; k < 8; ++k) {
+        constexpr Argb alphas[] = {0x00000000, 0x40000000, 0x80000000, 0xff000000};
+        const Argb fill = alphas[k % 4] | (k < 4 ? 0x000000 : 0x0000ff);
+        const float x = 32.0f + 144.0f * static_cast<float>(k % 4), y = k < 4 ? 92 : 252;
+        show(window, as_texels(blended(profile, layout->format, factor, fill), *layout), x, y);
+    }
+    return {Picture{.image = window.color()}, {}};
+}
+
+}  // namespace strata::scenes::hardware_check

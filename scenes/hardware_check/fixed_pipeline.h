@@ -1,0 +1,27 @@
+// scenes/hardware_check/fixed_pipeline.h - the test suite's default camera through the fixed pipeline, to the window.
+//
+// Rule     Eye (0, 0, -7) looking along +z, field of view 45 degrees, 4:3, near 1, far 200. Window x = 320 + 320 * 1.81066 X / w,
+//          y = 240 - 240 * 2.41421 Y / w, w = z + 7, z = M (200 / 199) (1 - 1 / w); the viewport adds 0.53125 to x and y. In
+//          binary64, rounded once: the chip's own binary32 chain is not modelled.
+// Source   nv2a-geometry.md 1.3, 3.2, 5.4 and 5.7.
+#pragma once
+#include "scenes/hardware_check/shapes.h"
+
+namespace strata::scenes::hardware_check {
+
+inline constexpr float viewport_offset = 0.53125f;
+inline constexpr double cotangent = 2.414213562373095;  // of 22.5 degrees
+
+// Window z of world z, `units` (M) being the buffer's greatest value.
+[[nodiscard]] constexpr double window_z(double z, double units) {
+    return units * (200.0 / 199.0) * (1.0 - 1.0 / (z + 7.0));
+}
+
+// A world point in the window, without the viewport's offset.
+[[nodiscard]] inline ClipVertex project(double x, double y, double z, double units, const std::array<float, 4>& color) {
+    const double w = z + 7.0;
+    return at(static_cast<float>(320.0 + 240.0 * cotangent * x / w), static_cast<float>(240.0 - 240.0 * cotangent * y / w),
+              static_cast<float>(window_z(z, units)), color, static_cast<float>(w));
+}
+
+}  // namespace strata::scenes::hardware_check

@@ -1,0 +1,30 @@
+// Suite Front_face: FrontFace_<CW|CCW|0x00|0x63>_CF_<F|B|FaB>. The left quad turns counter-clockwise as seen, the right one
+// clockwise; a word that names no direction leaves CW in force. nv2a-geometry.md 5.5.
+#include "scenes/hardware_check/names.h"
+#include "scenes/hardware_check/shapes.h"
+#include "scenes/hardware_check/suite.h"
+
+namespace strata::scenes::hardware_check {
+
+Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& profile) {
+    using rasterizer::CullFace;
+    using rasterizer::FrontFace;
+    if (!take(name, "FrontFace_")) return unknown_name;
+    const std::string_view winding = take_until(name, "_CF_");
+    if (winding != "CW" && winding != "CCW" && !winding.starts_with("0x")) return unknown_name;
+    if (name != "F" && name != "B" && name != "FaB") return unknown_name;
+    pipeline::DrawState state;
+    state.front_face = winding == "CCW" ? FrontFace::counter_clockwise : FrontFace::clockwise;
+    state.cull = name == "F" ? CullFace::front : name == "B" ? CullFace::back : CullFace::front_and_back;
+
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(0xff000000));
+    constexpr Argb color = 0xffffffff;
+    TriangleSoup soup;
+    add_quad(soup, {at(138, 44, color), at(138, 430, color), at(310, 430, color), at(310, 44, color)});
+    add_box(soup, {330, 44, 502, 430}, color);
+    surface.draw(state, std::move(soup));
+    return {Picture{.reading = Reading::drawn, .image = surface.color(), .background = unpack(0xff000000)}, {}};
+}
+
+}  // namespace strata::scenes::hardware_check

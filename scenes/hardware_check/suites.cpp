@@ -1,0 +1,34 @@
+#include <algorithm>
+#include <array>
+
+#include "scenes/hardware_check/suite.h"
+
+namespace strata::scenes::hardware_check {
+
+std::span<const Suite> suites() {
+    static constexpr std::array all{Suite{"Alpha_func", draw_alpha_func},
+                                    Suite{"Blend_surface", draw_blend_surface},
+                                    Suite{"Blend_tests", draw_blend_tests},
+                                    Suite{"Clear", draw_clear},
+                                    Suite{"Color_mask_blend", draw_color_mask_blend},
+                                    Suite{"Depth_Clamp", draw_depth_clamp},
+                                    Suite{"Depth_buffer", draw_depth_buffer},
+                                    Suite{"Depth_buffer_fixed_function", draw_depth_buffer_fixed_function},
+                                    Suite{"Depth_function", draw_depth_function},
+                                    Suite{"Front_face", draw_front_face},
+                                    Suite{"Shade_model", draw_shade_model},
+                                    Suite{"Stencil", draw_stencil},
+                                    Suite{"Stencil_func", draw_stencil_func},
+                                    Suite{"Vertex_shader_rounding_tests", draw_vertex_shader_rounding},
+                                    Suite{"Window_clip", draw_window_clip},
+                                    Suite{"ZPass_pixel_count", draw_zpass_pixel_count}};
+    return all;
+}
+
+const Suite* find_suite(std::string_view name) {
+    const auto all = suites();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Suite& s) { return s.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace strata::scenes::hardware_check

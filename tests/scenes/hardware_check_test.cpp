@@ -1,0 +1,120 @@
+// The geforce3 profile against pictures of silicon: hardware_digests.txt holds, of every capture that is reproduced, the digest of
+// its pixels outside the box round its labels (abaire/nxdk_pgraph_tests_golden_results, CC0 1.0). `strata hardware-check DIR
+// --digests` made it; the pictures themselves are not needed.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "pipeline/check.h"
+#include "scenes/hardware_check/compare.h"
+
+using namespace strata;
+using namespace strata::scenes::hardware_check;
+
+namespace {
+
+struct Row {
+    std::string suite, picture, digest;
+    rasterizer::Rect labels;
+};
+
+std::vector<Row> rows() {
+    std::ifstream file{STRATA_HARDWARE_DIGESTS};
+    std::vector<Row> all;
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words{line};
+        Row r;
+        words >> r.suite >> r.picture >> r.labels.x0 >> r.labels.y0 >> r.labels.x1 >> r.labels.y1 >> r.digest;
+        REQUIRE(words);
+        all.push_back(std::move(r));
+    }
+    return all;
+}
+
+const pipeline::DeviceProfile& geforce3() { return *pipeline::find_profile("geforce3"); }
+
+std::string digest_with(const Row& row, const pipeline::DeviceProfile& profile) {
+    const Drawing drawing = find_suite(row.suite)->draw(row.picture, profile);
+    REQUIRE(drawing.picture);
+    return digest_outside(row.labels, *drawing.picture);
+}
+
+// The first picture of a suite.
+Row first_of(const std::string& suite) {
+    for (Row& row : rows())
+        if (row.suite == suite) return std::move(row);
+    FAIL("no digest of suite " << suite);
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("geforce3 draws the pictures that an NV2A gave: every compared word of every listed capture") {
+    const std::vector<Row> all = rows();
+    CHECK(all.size() >= 140);
+    std::string different;
+    for (const Row& row : all)
+        if (digest_with(row, geforce3()) != row.digest) different += row.suite + "/" + row.picture + " ";
+    CHECK(different.empty());
+}
+
+TEST_CASE("a profile that rounds positions, depth or blending otherwise is caught by the chip's pictures") {
+    pipeline::DeviceProfile nearest = geforce3();
+    nearest.raster.snap = rasterizer::Snap::nearest_even;
+    const Row geometry{"Vertex_shader_rounding_tests", "Geometry_0.5624", "", {}};
+    CHECK(digest_with(geometry, nearest) != digest_with(geometry, geforce3()));
+
+    pipeline::DeviceProfile exact = geforce3();
+    exact.raster.depth_path = rasterizer::DepthPath::exact;
+    const Row depth{"Depth_buffer", "DepthFmt_z24_Cn_FZn_Mffffff_ZB", "", {}};
+    CHECK(digest_with(depth, exact) != digest_with(depth, geforce3()));
+
+    pipeline::DeviceProfile cut = geforce3();
+    cut.blend_rounding = pipeline::BlendRounding::truncate;
+    const Row blend = first_of("Blend_tests");
+    CHECK(digest_with(blend, cut) != blend.digest);
+}
+
+TEST_CASE("a difference is counted, sized, placed and held against the bound") {
+    const Drawing drawing = find_suite("Front_face")->draw("FrontFace_CW_CF_B", geforce3());
+    REQUIRE(drawing.picture);
+    Picture picture = *drawing.picture;
+    picture.reading = Reading::color;
+    pipeline::Image capture = picture.image;
+    capture.codes[capture.index(7, 9, 2)] += 5;
+    capture.codes[capture.index(3, 11, 0)] += 2;
+    const std::size_t label = capture.index(600, 11);
+    for (std::size_t c = 0; c < 4; ++c) capture.codes[label + c] = c == 3 ? 0 : 255;
+    const Comparison found = compare(picture, capture, "capture.png");
+    CHECK(found.compared == 640 * 480 - 1);
+    CHECK(found.differing == 2);
+    CHECK(found.largest == 5);
+    CHECK(found.first == std::array{7, 9});
+    CHECK(found.histogram == std::map<std::int64_t, std::uint64_t>{{2, 1}, {5, 1}});
+    CHECK_FALSE(found.within_bound);
+    picture.bound = {2, 5};
+    CHECK(compare(picture, capture, "capture.png").within_bound);
+    picture.bound = {2, 4};
+    CHECK_FALSE(compare(picture, capture, "capture.png").within_bound);
+    CHECK(label_box(picture, capture) == rasterizer::Rect{600, 11, 601, 12});
+}
+
+TEST_CASE("names that no test has are unknown, and what is not understood says why") {
+    CHECK(find_suite("Fog") == nullptr);
+    for (const char* name : {"", "Nonsense", "FrontFace_CW_CF_X", "FrontFace_", "TopLeftRaster_"})
+        CHECK(find_suite("Front_face")->draw(name, geforce3()).reason == unknown_name_reason);
+    for (const Suite& suite : suites())
+        for (const char* name : {"", "_", "_ZB", "C_Depth_y", "z24_", "#spot_", "W_", "AlphaFunc_Enabled", "x-1y", "ZPassPointSize-0x"}) {
+            const Drawing drawing = suite.draw(name, geforce3());
+            CHECK((drawing.picture || !drawing.reason.empty()));
+        }
+    const Drawing fixed = find_suite("Shade_model")->draw("W_Fixed_Quad_Smooth_First", geforce3());
+    CHECK_FALSE(fixed.picture);
+    CHECK(fixed.reason != unknown_name_reason);
+}
+
+TEST_CASE("occlusion queries answer what the chip answered: 40960, then 49152") {
+    const Drawing drawing = find_suite("ZPass_pixel_count")->draw("ZPass", geforce3());
+    REQUIRE(drawing.picture);
+    CHECK(drawing.picture->reports == std::vector<std::uint64_t>{40960, 49152});
+}

@@ -1,0 +1,100 @@
+// Captures made here: the clear of suite Clear is a uniform picture whatever was drawn before it (nv2a-fragment.md 6).
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scenes/image_io.h"
+#include "tests/tools/program.h"
+
+using namespace strata;
+using namespace strata::test;
+using nlohmann::ordered_json;
+
+namespace {
+
+// SUITE/NAME.png, grey 7F7F7F7F but for `wrong` pixels of the third row, whose red is `red`.
+void write_capture(const Folder& folder, const std::string& suite, const std::string& name, int wrong = 0, std::uint32_t red = 0,
+                   int width = 640) {
+    std::filesystem::create_directories(folder / suite);
+    pipeline::Image image{pipeline::Format::rgba8, width, 480};
+    std::fill(image.codes.begin(), image.codes.end(), 0x7fu);
+    for (int x = 0; x < wrong; ++x) image.codes[image.index(x, 2)] = red;
+    scenes::write_image(folder / (suite + "/" + name + ".png"), {.color = image});
+}
+
+}  // namespace
+
+TEST_CASE("a capture that comes out equal is accepted; a differing one ends with status 1, counted, sized and placed") {
+    const Folder folder;
+    write_capture(folder, "captures/Clear", "C00000000_Depth_y");
+    CHECK(run_strata(folder, {"hardware-check", "captures"}).status == 0);
+    write_capture(folder, "captures/Clear", "C01010101_Depth_n", 3, 0x7d);
+    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--json"});
+    CHECK(ended.status == 1);
+    const auto pictures = ordered_json::parse(ended.out).at("pictures");
+    REQUIRE(pictures.size() == 2);
+    CHECK(pictures[0].at("outcome") == "equal");
+    CHECK(pictures[0].at("compared") == 640 * 480);
+    CHECK(pictures[1].at("outcome") == "DIFFERS");
+    CHECK(pictures[1].at("differing") == 3);
+    CHECK(pictures[1].at("largest") == 2);
+    CHECK(pictures[1].at("first") == ordered_json::array({0, 2}));
+}
+
+TEST_CASE("unknown suites and names, and what is not modelled, are listed and do not count") {
+    const Folder folder;
+    write_capture(folder, "captures/Fog", "FogExp");
+    write_capture(folder, "captures/Clear", "Nonsense");
+    write_capture(folder, "captures/Shade_model", "W_Fixed_Quad_Smooth_First");
+    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--json"});
+    CHECK(ended.status == 0);
+    std::vector<std::string> outcomes;
+    for (const auto& picture : ordered_json::parse(ended.out).at("pictures")) outcomes.push_back(picture.at("outcome"));
+    CHECK(outcomes == std::vector<std::string>{"unknown", "unknown", "not modelled"});
+}
+
+TEST_CASE("the report folder holds one page, and a picture of every difference") {
+    const Folder folder;
+    write_capture(folder, "captures/Clear", "C00000000_Depth_y");
+    write_capture(folder, "captures/Clear", "C01010101_Depth_n", 3, 0x7d);
+    CHECK(run_strata(folder, {"hardware-check", "captures", "-o", "report"}).status == 1);
+    CHECK(std::filesystem::exists(folder / "report/report.md"));
+    CHECK(std::filesystem::exists(folder / "report/Clear-C01010101_Depth_n.png"));
+    CHECK_FALSE(std::filesystem::exists(folder / "report/Clear-C00000000_Depth_y.png"));
+    CHECK(content_of(folder / "report/report.md").find("3 of 307200 pixels off") != std::string::npos);
+}
+
+TEST_CASE("hardware-check says in one sentence what is wrong with its input") {
+    const Folder folder;
+    const auto sentence = [&](const std::vector<std::string>& words) {
+        const Ended ended = run_strata(folder, words);
+        CHECK(ended.status == 2);
+        CHECK(lines_of(ended.err).size() == 1);
+        return ended.err;
+    };
+    CHECK(sentence({"hardware-check", "nowhere"}).find("nowhere") != std::string::npos);
+    std::filesystem::create_directories(folder / "empty");
+    CHECK(sentence({"hardware-check", "empty"}).find("SUITE/NAME.png") != std::string::npos);
+    CHECK(sentence({"hardware-check", "empty", "--suite", "Claer"}).find("did you mean 'Clear'") != std::string::npos);
+    write_capture(folder, "narrow/Clear", "C00000000_Depth_y", 0, 0, 320);
+    CHECK(sentence({"hardware-check", "narrow"}).find("640 x 480") != std::string::npos);
+    std::filesystem::create_directories(folder / "broken/Clear");
+    std::ofstream(folder / "broken/Clear/C00000000_Depth_y.png") << "no picture";
+    CHECK(sentence({"hardware-check", "broken"}).find("C00000000_Depth_y.png") != std::string::npos);
+}
+
+TEST_CASE("the captures of silicon, where they are at hand, are within their bounds") {
+    const std::string captures = STRATA_CAPTURES_DIR;
+    if (!std::filesystem::is_directory(captures)) {
+        WARN("SKIPPED: no captures in " << captures << "; tests/scenes/hardware_digests.txt stands for them");
+        return;
+    }
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"hardware-check", captures, "--json"});
+    INFO(ended.err);
+    CHECK(ended.status == 0);
+    int equal = 0;
+    for (const auto& picture : ordered_json::parse(ended.out).at("pictures")) equal += picture.at("outcome") == "equal";
+    CHECK(equal >= 140);
+}

@@ -1,0 +1,117 @@
+// tools/strata/hardware_check.cpp - strata hardware-check: a profile against pictures that a real chip drew.
+//
+// Rule     DIR/<suite>/<name>.png as the public captures are named. Every picture is drawn from its name and compared outside of
+//          its labels. What is not modelled is listed, and never counted as passed. Exit status 1 if a picture is outside its bound.
+// Tests    tests/tools/hardware_check_test.cpp, tests/scenes/hardware_check_test.cpp
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "rasterizer/input_error.h"
+#include "scenes/profile_json.h"
+#include "tools/strata/command.h"
+#include "tools/strata/hardware_report.h"
+#include "tools/strata/names.h"
+#include "tools/strata/progress.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+namespace hc = scenes::hardware_check;
+namespace fs = std::filesystem;
+
+struct Options {
+    std::string folder, suite, profile = "geforce3", report;
+    bool json = false, hypotheses = false, digests = false;
+};
+
+std::vector<std::string> sorted_names(const fs::path& folder, auto&& is_wanted) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (is_wanted(entry)) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// Every capture in the folder, suite by suite; unknown suites too.
+std::vector<Capture> find_captures(const Options& options) {
+    if (!fs::is_directory(options.folder))
+        throw InputError{options.folder, "captures", "a folder with one folder a suite", "none"};
+    std::vector<std::string> known;
+    for (const hc::Suite& suite : hc::suites()) known.emplace_back(suite.name);
+    if (!options.suite.empty() && hc::find_suite(options.suite) == nullptr)
+        throw InputError{"strata", "--suite", one_of(known), found_but_near(options.suite, known)};
+    std::vector<Capture> captures;
+    for (const std::string& suite : sorted_names(options.folder, [](const auto& e) { return e.is_directory(); })) {
+        if (!options.suite.empty() && suite != options.suite) continue;
+        const fs::path folder = fs::path(options.folder) / suite;
+        for (const std::string& file : sorted_names(folder, [](const auto& e) { return e.path().extension() == ".png"; }))
+            captures.push_back({suite, fs::path(file).stem().string(), (folder / file).string()});
+    }
+    if (captures.empty()) throw InputError{options.folder, "captures", "SUITE/NAME.png", "none"};
+    return captures;
+}
+
+std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile) {
+    Progress progress("checking");
+    std::vector<CheckedPicture> checked;
+    for (const Capture& capture : captures) {
+        checked.push_back(check(capture, profile));
+        progress.show(static_cast<double>(checked.size()) / static_cast<double>(captures.size()));
+    }
+    return checked;
+}
+
+// The score of every hypothesis that the profile names: differing pixels over all pictures.
+std::string scores(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile) {
+    const auto hypotheses = rasterizer::depth_hypotheses(profile.raster);
+    Progress progress("checking");
+    Table table{{{"hypothesis"}, {"equal", Align::right}, {"within bound", Align::right}, {"pixels off", Align::right}, {"largest", Align::right}}, {}};
+    for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+        pipeline::DeviceProfile varied = profile;
+        varied.raster = hypotheses[h].rules;
+        Score score;
+        for (const Capture& capture : captures) add(score, check(capture, varied));
+        table.rows.push_back({hypotheses[h].name, std::to_string(score.equal), std::to_string(score.within_bound),
+                              std::to_string(score.differing), std::to_string(score.largest)});
+        progress.show(static_cast<double>(h + 1) / static_cast<double>(hypotheses.size()));
+    }
+    return to_text(table);
+}
+
+int hardware_check(const Options& options) {
+    const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
+    const std::vector<Capture> captures = find_captures(options);
+    if (options.hypotheses) {
+        print(scores(captures, profile));
+        return 0;
+    }
+    const std::vector<CheckedPicture> checked = check_all(captures, profile);
+    if (options.digests) print(digest_rows(checked));
+    else print(options.json ? to_json(checked, profile) : to_text(checked, profile));
+    if (!options.report.empty()) write_report(options.report, checked, profile);
+    return std::all_of(checked.begin(), checked.end(), [](const auto& c) { return c.is_accepted(); }) ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_hardware_check(CLI::App& root) {
+    auto* app = root.add_subcommand("hardware-check", "compare a profile with pictures that a real chip drew");
+    const auto options = std::make_shared<Options>();
+    app->add_option("DIR", options->folder, "captures: DIR/SUITE/NAME.png, named as upstream names them")->required()->type_name("");
+    app->add_option("--suite", options->suite, "this suite alone")->type_name("NAME");
+    app->add_option("--profile", options->profile, "a built-in profile or a JSON file")->capture_default_str()->type_name("NAME|FILE");
+    app->add_option("-o,--output", options->report, "folder for difference pictures and one page")->type_name("DIR");
+    app->add_flag("--json", options->json, "one JSON document instead of the tables");
+    app->add_flag("--hypotheses", options->hypotheses, "the score of each hypothesis that the profile names");
+    app->add_flag("--digests", options->digests, "the rows of tests/scenes/hardware_digests.txt");
+    app->footer(footer("  strata hardware-check captures\n"
+                       "  strata hardware-check captures --suite Depth_buffer --hypotheses\n"
+                       "  strata hardware-check captures -o report\n") +
+                " 1 a picture is outside its bound.");
+    return {app, [options] { return hardware_check(*options); }};
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,44 @@
+// tools/strata/hardware_report.h - what a hardware check found: a line a suite, a line a picture, JSON, and a page with pictures.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/hardware_check/compare.h"
+
+namespace strata::tools {
+
+struct Capture {
+    std::string suite, name, path;
+};
+
+struct CheckedPicture {
+    Capture capture;
+    bool is_known = false;    // the suite, and the name in it
+    std::string unmodelled;   // the reason; empty: it was compared
+    scenes::hardware_check::Bound bound{};
+    scenes::hardware_check::Comparison comparison{};
+    std::vector<std::uint64_t> reports{};
+    rasterizer::Rect labels{};
+    std::string digest{};  // of the capture outside its labels
+    [[nodiscard]] bool is_compared() const { return is_known && unmodelled.empty(); }
+    [[nodiscard]] bool is_accepted() const { return !is_compared() || comparison.within_bound; }
+};
+
+// Draws the picture and compares. InputError for a file that is no such capture.
+[[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile);
+
+struct Score {
+    std::uint64_t equal = 0, within_bound = 0, differing = 0;
+    std::uint32_t largest = 0;
+};
+void add(Score& score, const CheckedPicture& picture);
+
+[[nodiscard]] std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
+[[nodiscard]] std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
+// Suite, picture, label box, digest: of every capture that came out equal.
+[[nodiscard]] std::string digest_rows(const std::vector<CheckedPicture>& checked);
+// report.md, and a difference picture of whatever is not equal, in `folder`, which is made.
+void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
+
+}  // namespace strata::tools
