@@ -395,14 +395,3 @@ TEST_CASE("r and q are clipped with their vertex and drop a triangle over whose 
     soup.vertices[0].x = soup.vertices[0].y = 0;
     CHECK(set_up(soup, state, {}, 1).counters.non_finite == 1);
 }
-
-TEST_CASE("every hypothesis has a name of its own and differs from the given rules in one constant") {
-    const RasterRules given = buffer_rules();
-    const auto all = depth_hypotheses(given);
-    CHECK(all.size() == 1 + 9 + 2 + 2 + 6 + 5 + 1 + 1 + 1);
-    CHECK(all[0].rules == given);
-    for (std::size_t i = 1; i < all.size(); ++i) {
-        CHECK(all[i].rules != given);
-        for (std::size_t k = 0; k < i; ++k) CHECK((all[k].name != all[i].name && all[k].rules != all[i].rules));
-    }
-}
