@@ -123,7 +123,7 @@ struct Tally {
 // Fragments whose compared R is not the model's.
 [[nodiscard]] Tally compare_quotients(std::uint64_t seed, const DepthHypothesis& hypothesis, DepthFormat format) {
     Tally tally;
-    const int count = hypothesis == DepthHypothesis{} ? 60 : 15;
+    const int count = hypothesis == DepthHypothesis{} ? 30 : 10;
     for (const Triangle& t : random_triangles(seed, count, 4, max_code(format)))
         for (const Fragment& f :
              draw(geometry_of({t}, buffer_rules(hypothesis), format), {DepthPath::perspective_rq, format}, depths)
@@ -144,7 +144,7 @@ struct Tally {
 TEST_CASE("the compared depth is comparison (4): planes of r/w, q/w and 1/w and three divides, each rounded once") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         const Tally tally = compare_quotients(901, {}, format);
-        CHECK(tally.fragments > 1500);
+        CHECK(tally.fragments > 500);
         CHECK(tally.wrong == 0);
     }
 }
@@ -176,7 +176,7 @@ TEST_CASE("with full double interpolants R is the true quotient of the vertex pr
             ++fragments;
         }
     }
-    CHECK(fragments > 300);
+    CHECK(fragments > 150);
     CHECK(far == 0);
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("depth replace stores the depth that perspective_rq compares, and drop
          {Case{DepthFormat::d16, buffer_rules(), 65535.0}, Case{DepthFormat::d24, buffer_rules(), 16777215.0},
           Case{DepthFormat::d32f, {.subpixel_bits = 4}, 1.0}, Case{DepthFormat::d24, {.subpixel_bits = 4}, 1.0}}) {
         std::uint64_t kept = 0, dropped = 0, wrong = 0;
-        for (const Triangle& t : random_triangles(906, 60, 4, units)) {
+        for (const Triangle& t : random_triangles(906, 30, 4, units)) {
             const Geometry geometry = geometry_of({t}, rules, format);
             const DepthRequest replaced{DepthPath::depth_replace, format, DepthPath::perspective_rq};
             const auto stored = draw(geometry, replaced, depths).fragments;
@@ -206,8 +206,8 @@ TEST_CASE("depth replace stores the depth that perspective_rq compares, and drop
             kept += inside;
             dropped += all.size() - inside;
         }
-        CHECK(kept > 600);
-        CHECK(dropped > 20);
+        CHECK(kept > 300);
+        CHECK(dropped > 10);
         CHECK(wrong == 0);
     }
 }
@@ -260,7 +260,7 @@ TEST_CASE("float32_plane rounds its slopes and every step from its anchor to bin
             RasterRules rules{.subpixel_bits = bits};
             rules.hypothesis.plane_anchor = anchor;
             std::uint64_t fragments = 0, wrong = 0;
-            for (const Triangle& t : random_triangles(908, 20, bits, 1.0))
+            for (const Triangle& t : random_triangles(908, 10, bits, 1.0))
                 for (const Fragment& f : draw(geometry_of({t}, rules, DepthFormat::d32f),
                                               {DepthPath::float32_plane, DepthFormat::d32f}, depths)
                                              .fragments) {
@@ -269,7 +269,7 @@ TEST_CASE("float32_plane rounds its slopes and every step from its anchor to bin
                     wrong += f.reference_z != double{*z} || f.code != to_depth_code(*z, DepthFormat::d32f, {}) ? 1 : 0;
                     ++fragments;
                 }
-            CHECK(fragments > 300);
+            CHECK(fragments > 150);
             CHECK(wrong == 0);
         }
 }
@@ -369,7 +369,7 @@ TEST_CASE("window_z from the exact plane is path exact, and from binary32 the pl
             ++fragments;
         }
     }
-    CHECK(fragments > 300);
+    CHECK(fragments > 150);
     CHECK(wrong == 0);
 }
 
@@ -394,15 +394,4 @@ TEST_CASE("r and q are clipped with their vertex and drop a triangle over whose 
     soup.vertices[0].w = 0x1p-20f;
     soup.vertices[0].x = soup.vertices[0].y = 0;
     CHECK(set_up(soup, state, {}, 1).counters.non_finite == 1);
-}
-
-TEST_CASE("every hypothesis has a name of its own and differs from the given rules in one constant") {
-    const RasterRules given = buffer_rules();
-    const auto all = depth_hypotheses(given);
-    CHECK(all.size() == 1 + 9 + 2 + 2 + 6 + 5 + 1 + 1 + 1);
-    CHECK(all[0].rules == given);
-    for (std::size_t i = 1; i < all.size(); ++i) {
-        CHECK(all[i].rules != given);
-        for (std::size_t k = 0; k < i; ++k) CHECK((all[k].name != all[i].name && all[k].rules != all[i].rules));
-    }
 }
