@@ -44,15 +44,6 @@ Drawn peel(Region& region, const Buffers& to) {
     });
 }
 
-// A region without a fragment left keeps none: R and the stored depth are one quotient.
-[[nodiscard]] Idle promise_of(const Frame& frame) noexcept {
-    using rasterizer::DepthPath;
-    const rasterizer::DepthRequest depth = frame.key_request();
-    const bool is_one_quotient = depth.path == DepthPath::depth_replace && depth.reference == DepthPath::perspective_rq;
-    const bool is_plain = frame.second == nullptr && frame.quantize_reference && frame.epsilon == CompareEpsilon{};
-    return is_one_quotient && is_plain ? Idle::when_zero : promise(frame, Idle::when_zero);
-}
-
 // glCopyTexSubImage2D of the whole buffer.
 [[nodiscard]] Target copied(Region& region, Target from, Target to) {
     region.copy(from, to);
@@ -72,7 +63,7 @@ void shadow_map(Region& region) {
         buffers.map = copied(region, buffers.depth, region.make_depth());
         layers.depth.push_back(buffers.map);
         layers.color.push_back(copied(region, buffers.color, region.make_color()));
-        if (!region.any(drawn.passed, promise_of(region.frame()))) break;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
         region.keep_layer(layers.color.back(), layers.depth.back());
     }
     const Target result = region.make_color();
