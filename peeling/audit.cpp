@@ -1,15 +1,13 @@
 #include "peeling/audit.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <tuple>
 
 #include "peeling/composite.h"
 #include "peeling/fragment_lists.h"
+#include "peeling/image_error.h"
 #include "pipeline/alpha_test.h"
-#include "pipeline/half.h"
-#include "pipeline/unorm8.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/parallel.h"
 
@@ -61,18 +59,6 @@ void add(PixelCount& count, const PixelCount& other) {
     const std::uint64_t pixels = count.pixels + other.pixels;
     add(count, other.first_x, other.first_y);
     count.pixels = pixels;
-}
-
-double channel_value(const Image& image, int x, int y, int channel) {
-    const std::uint32_t code = image.codes[image.index(x, y, channel)];
-    switch (info(image.format).type) {
-        case ChannelType::unorm8: return static_cast<double>(code) / 255.0;
-        case ChannelType::half: return double{half_to_float(static_cast<std::uint16_t>(code))};
-        case ChannelType::single: return double{std::bit_cast<float>(code)};
-        case ChannelType::depth:
-        case ChannelType::stencil: break;
-    }
-    return 0;
 }
 
 class RegionAudit {

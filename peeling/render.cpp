@@ -304,16 +304,18 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     return result;
 }
 
-std::vector<CapturedFragment> Renderer::fragments(const Algorithm& algorithm) {
+FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
-    std::vector<CapturedFragment> all;
+    FrameFragments found;
     const Body capture = [&](Region& region) {
-        all = region.capture(Bookkeeping::counted);
+        found.all = region.capture(Bookkeeping::counted);
+        const std::uint32_t* opaque = region.storage(region.opaque_depth()).depth(0);
+        found.opaque.assign(opaque, opaque + region.rect().area());
         region.publish(region.opaque_color());
     };
     static_cast<void>(run(frame, capture, Execution::literal, 1));
-    return all;
+    return found;
 }
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }

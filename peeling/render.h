@@ -70,6 +70,11 @@ struct RenderResult {
     Seconds seconds;
 };
 
+struct FrameFragments {
+    std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
+    std::vector<std::uint32_t> opaque;            // of each pixel: the opaque surface's depth in the algorithm's key
+};
+
 // Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
 class Renderer {
   public:
@@ -85,7 +90,7 @@ class Renderer {
     [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {});
 
     // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused.
-    [[nodiscard]] std::vector<pipeline::CapturedFragment> fragments(const Algorithm& algorithm);
+    [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;
     [[nodiscard]] pipeline::Format color_format() const noexcept;

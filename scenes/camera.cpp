@@ -79,7 +79,7 @@ pipeline::View look_at(const LookAt& camera, double aspect) noexcept {
             perspective(radians(camera.fovy_degrees) / 2, aspect, camera.near, camera.far)};
 }
 
-pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees, double aspect) {
+LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevation_degrees) {
     const FloatEnvironment environment;
     check_angle("azimuth", azimuth_degrees, 1e6, "degrees from -1000000 to 1000000");
     check_angle("elevation", elevation_degrees, 90, "degrees from -90 to 90");
@@ -92,7 +92,11 @@ pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double e
         const double sign = outward[1] > 0 ? -1 : 1;
         camera.up = {sign * sin(azimuth), 0, sign * cos(azimuth)};
     }
-    return look_at(camera, aspect);
+    return camera;
+}
+
+pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees, double aspect) {
+    return look_at(orbit_camera(bounds, azimuth_degrees, elevation_degrees), aspect);
 }
 
 pipeline::View camera_view(const SceneCamera& camera, double image_aspect) {

@@ -18,9 +18,10 @@ struct LookAt {  // what a camera file of the first form says
 
 [[nodiscard]] pipeline::View look_at(const LookAt& camera, double aspect) noexcept;
 
-// Sees the whole bounding sphere of the box. |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and
+// Sees the whole bounding sphere of the box: its near and far planes are 1.4 and 3.6 of the sphere's radii away. |elevation| <= 90, |azimuth| <= 10^6, else InputError. Straight above and
 // below, up is the limit. A box without extent is framed as if its radius were 1, an empty one as if it stood at the
 // origin.
+[[nodiscard]] LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevation_degrees);
 [[nodiscard]] pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees,
                                         double aspect);
 

@@ -7,6 +7,7 @@
 #include "rasterizer/input_error.h"
 #include "scenes/nearest_name.h"
 #include "scenes/parameters.h"
+#include "scenes/plane_stack.h"
 #include "scenes/random_soup.h"
 #include "scenes/shadow_demo.h"
 #include "scenes/teapot.h"
@@ -35,6 +36,13 @@ Scene random_soup(const std::string& spec, const SceneOptions& options) {
     return make_random_soup(options, parameters.integer("seed", 0, UINT64_MAX, 1), triangles);
 }
 
+Scene plane_stack(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"count", "gap", "cells"}};
+    return make_plane_stack(options, {.count = static_cast<int>(parameters.integer("count", 1, 64, 6)),
+                                      .cells = static_cast<int>(parameters.integer("cells", 1, 256, 8)),
+                                      .gap = static_cast<double>(parameters.integer("gap", 0, 1u << 20, 1u << 16))});
+}
+
 Scene shadow_demo(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{}};
     return make_shadow_demo(options);
@@ -44,7 +52,11 @@ struct Maker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
 };
-constexpr Maker makers[] = {{"teapot", teapot}, {"volume-beam", volume_beam}, {"random", random_soup}, {"shadow-demo", shadow_demo}};
+constexpr Maker makers[] = {{"teapot", teapot},
+                            {"volume-beam", volume_beam},
+                            {"random", random_soup},
+                            {"planes", plane_stack},
+                            {"shadow-demo", shadow_demo}};
 
 Keys names() {
     Keys result;
@@ -70,6 +82,9 @@ const std::vector<ProceduralScene>& procedural_scenes() {
          "end"},
         {"random", "seed=S,triangles=N",
          "triangle soup with exact ties for tests (0 to 10000000, default 1000; seed default 1)"},
+        {"planes", "count=N,gap=G,cells=C",
+         "N parallel planes, G / 2^20 apart, each cut into a grid of its own (1 to 64, default 6; 0 to 1048576, default "
+         "65536; 1 to 256, default 8)"},
         {"shadow-demo", "", "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
     };
     return scenes;

@@ -222,7 +222,7 @@ TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits
             const RenderResult found = renderer.render(*strata::peeling::find_algorithm(machine.algorithm));
             const bool kept_by_render = environment.is_in_force();
             const std::size_t fragments =
-                renderer.fragments(*strata::peeling::find_algorithm(machine.algorithm)).size();
+                renderer.fragments(*strata::peeling::find_algorithm(machine.algorithm)).all.size();
             INFO(machine.algorithm << ", host " << std::hex << host);
             CHECK(kept_by_constructor);
             CHECK(kept_by_render);

@@ -194,7 +194,7 @@ TEST_CASE("a reversed depth range is refused by name, and depth clamping where t
 TEST_CASE("fragments of a refused run are refused with the same sentence") {
     const DrawList list = draw_list(one_fragment());
     strata::peeling::Renderer renderer{list, {}, *find_profile("geforce3"), options_for(one_fragment())};
-    CHECK(renderer.fragments(*strata::peeling::find_algorithm("unsorted")).size() == 1);
+    CHECK(renderer.fragments(*strata::peeling::find_algorithm("unsorted")).all.size() == 1);
     CHECK_THROWS_WITH(renderer.fragments(*strata::peeling::find_algorithm("dual")), no_float);
 }
 

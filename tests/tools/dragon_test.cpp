@@ -38,7 +38,7 @@ std::size_t wrong_channels(const scenes::Scene& scene, const Case& c, const peel
     peeling::Renderer renderer{scene.list, view, *pipeline::find_profile(c.profile), options};
     const pipeline::Image color = renderer.render(algorithm).frame.color;
     std::vector<DepthGroups> pixels(color.codes.size() / 4);
-    for (const pipeline::CapturedFragment& f : renderer.fragments(algorithm))
+    for (const pipeline::CapturedFragment& f : renderer.fragments(algorithm).all)
         if (f.shader_z < 1.0f) pixels[f.pixel][f.shader_z].push_back(f.color);  // D32F: the code is the shader's depth
     std::size_t wrong = 0;
     for (std::size_t p = 0; p < pixels.size(); ++p) {

@@ -22,7 +22,7 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (render, layers, bench, effects, reproduce, scene, digest, algorithms, profiles or scenes), found 'rendr' "
+         "strata: expected a command (render, layers, bench, effects, invariance, reproduce, scene, digest, algorithms, profiles or scenes), found 'rendr' "
          "(did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},
          "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
@@ -42,7 +42,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
-         "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, found 'teapt' "
+         "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, planes, shadow-demo, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},
          "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd24'?)"},

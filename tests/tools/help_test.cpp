@@ -25,7 +25,7 @@ std::vector<std::string> examples_of(const std::string& help) {
 
 TEST_CASE("every example of every --help runs as printed") {
     const auto verb =
-        GENERATE(as<std::string>{}, "render", "layers", "bench", "effects", "reproduce", "scene", "digest", "algorithms", "profiles", "scenes");
+        GENERATE(as<std::string>{}, "render", "layers", "bench", "effects", "invariance", "reproduce", "scene", "digest", "algorithms", "profiles", "scenes");
     const Folder folder;
     const Ended help = run_strata(folder, {verb, "--help"});
     CHECK(help.status == 0);

@@ -15,6 +15,7 @@ struct Command {
 [[nodiscard]] Command add_layers(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
 [[nodiscard]] Command add_effects(CLI::App& root);
+[[nodiscard]] Command add_invariance(CLI::App& root);
 [[nodiscard]] Command add_reproduce(CLI::App& root);
 [[nodiscard]] Command add_scene(CLI::App& root);
 [[nodiscard]] Command add_digest(CLI::App& root);

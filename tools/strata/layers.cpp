@@ -50,7 +50,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
     }
     if (!options.deep.empty()) {
         scenes::write_deep(path_for(options.deep, options.run, finished.algorithm),
-                           as_deep(finished.renderer.fragments(finished.algorithm), options.run), attributes);
+                           as_deep(finished.renderer.fragments(finished.algorithm).all, options.run), attributes);
     }
 }
 

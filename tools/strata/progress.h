@@ -2,15 +2,18 @@
 // codes.
 #pragma once
 #include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <string>
 
 namespace strata::tools {
 
+enum class Remaining : std::uint8_t { hidden, shown };  // how much longer, if the rest goes like the part done
+
 // Shows nothing unless standard error is a terminal and a second has passed; wipes its line when it goes.
 class Progress {
   public:
-    explicit Progress(std::string label);
+    explicit Progress(std::string label, Remaining remaining = Remaining::hidden);
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     ~Progress();
@@ -19,6 +22,7 @@ class Progress {
 
   private:
     std::string label_;
+    Remaining remaining_;
     bool is_terminal_;
     std::chrono::steady_clock::time_point start_;
     std::mutex mutex_;

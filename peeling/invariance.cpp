@@ -1,0 +1,174 @@
+#include "peeling/invariance.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "peeling/programs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+using rasterizer::DepthPath;
+
+struct Machine {
+    const DrawList& list;
+    const View& view;
+    const DeviceProfile& profile;
+
+    [[nodiscard]] FrameFragments fragments(const RenderOptions& options, const Algorithm& algorithm) const {
+        Renderer renderer(list, view, profile, options);
+        return renderer.fragments(algorithm);
+    }
+};
+
+// Only what is drawn, by one depth path.
+RenderOptions bare(RenderOptions options, DepthPath path) {
+    options.depth_path = path;
+    options.raster.polygon_offset = {};
+    options.compare_epsilon = {};
+    options.quantize_reference = true;
+    return options;
+}
+
+bool draws_twice(const RenderOptions& options) {
+    return options.second_list != nullptr || options.second_depth_clamp || options.vertex_paths.second;
+}
+
+// The oracle's picture: what a device can store does not limit it.
+Image true_picture(const Machine& machine, RenderOptions options) {
+    DeviceProfile profile = machine.profile;
+    profile.has_float_targets = true;
+    options.color_format = Format::rgba32f;
+    options.audit = options.keep_layers = options.nearest_depth = false;
+    Renderer renderer(machine.list, machine.view, profile, options);
+    return renderer.render(*find_algorithm("a_buffer")).frame.color;
+}
+
+// The fragments of the first pass and of further ones. Their codes are in the algorithm's key.
+struct Passes {
+    const Machine& machine;
+    const Experiment& e;
+
+    [[nodiscard]] FrameFragments first(const RenderOptions& options, const Algorithm& algorithm) const {
+        return keyed(machine.fragments(options, algorithm), algorithm.key);
+    }
+    // As if what further passes draw were all.
+    [[nodiscard]] FrameFragments further(RenderOptions options, const Algorithm& algorithm) const {
+        const DrawList& list = options.second_list != nullptr ? *options.second_list : machine.list;
+        if (options.vertex_paths.second) options.vertex_paths.first = options.vertex_paths.second;
+        options.raster.depth_clamp = options.second_depth_clamp.value_or(options.raster.depth_clamp);
+        options.second_list = nullptr;
+        options.second_depth_clamp.reset();
+        options.vertex_paths.second.reset();
+        options.window_origin = e.moved_window;
+        return keyed(Machine{list, machine.view, machine.profile}.fragments(options, algorithm), algorithm.key);
+    }
+
+  private:
+    [[nodiscard]] static FrameFragments keyed(FrameFragments fragments, DepthKey key) {
+        if (key == DepthKey::stored_code) return fragments;
+        for (CapturedFragment& f : fragments.all) f.code = ordered_code(f.shader_z);
+        for (std::uint32_t& opaque : fragments.opaque) opaque = ordered_code(std::bit_cast<float>(opaque));
+        return fragments;
+    }
+};
+
+const Algorithm& unsorted_algorithm() {
+    return *find_algorithm("unsorted");
+}  // by the stored code; every profile runs it
+
+// `truth` says which layer a fragment is, `drawn` what the peel's trace calls it.
+void add_layer_fragments(std::vector<LayerFragment>& all, const FrameFragments& truth, const FrameFragments& drawn,
+                         Match match) {
+    for (const PathPair& pair : pair_up(truth.all, drawn.all, match).pairs)
+        if (pair.stored < truth.opaque[pair.pixel])
+            all.push_back({pair.pixel, pair.primitive, pair.stored, pair.reference});
+}
+
+// The layers, each fragment with the depth that the peel gives it; two of them where further passes draw another one.
+std::vector<LayerFragment> layer_fragments(const Passes& passes) {
+    const Experiment& e = passes.e;
+    const FrameFragments truth = passes.first(bare(e.render, e.write), *e.algorithm);
+    RenderOptions options = e.render;
+    options.depth_path = e.write;
+    std::vector<LayerFragment> all;
+    add_layer_fragments(all, truth, options.raster.polygon_offset.enabled ? passes.first(options, *e.algorithm) : truth,
+                        Match::triangle);
+    if (!draws_twice(options)) return all;
+    add_layer_fragments(all, truth, passes.further(options, *e.algorithm), e.match);
+    std::stable_sort(all.begin(), all.end(),
+                     [](const LayerFragment& a, const LayerFragment& b) { return a.pixel < b.pixel; });
+    return all;
+}
+
+RenderOptions peel_options(const Experiment& e, int layers) {
+    RenderOptions options = e.render;
+    options.depth_path = e.write;
+    options.reference_path = e.compare;
+    options.max_passes = e.max_passes > 0 ? e.max_passes : 2 * (layers + 1);
+    options.audit = true;                  // for its trace
+    options.execution = Execution::tiled;  // every pass is rasterized, so that seconds are the passes'
+    options.keep_layers = options.nearest_depth = false;
+    return options;
+}
+
+void run_peel(Measurement& m, const Passes& passes) {
+    const Experiment& e = passes.e;
+    const std::vector<LayerFragment> fragments = layer_fragments(passes);
+    const int layers = peel_errors(fragments, {}, e.render.width, e.render.height).layers_max;
+    const RenderOptions options = peel_options(e, layers);
+    Renderer renderer(passes.machine.list, passes.machine.view, passes.machine.profile, options);
+    RenderResult result = renderer.render(*e.algorithm);
+    if (result.refusal) throw Refused{passes.machine.profile, *std::move(result.refusal)};
+    m.errors = peel_errors(fragments, result.frame.traces, options.width, options.height);
+    m.passes = result.frame.passes.geometry;
+    m.ended = m.passes < options.max_passes;
+    m.seconds = result.seconds.passes;
+    m.picture = std::move(result.frame.color);
+}
+
+bool is_quotient(DepthPath path) { return path == DepthPath::perspective_rq || path == DepthPath::depth_replace; }
+
+Advice advice_for(const Experiment& e, const std::vector<PathPair>& pairs, const std::vector<std::uint32_t>& opaque) {
+    Advice advice;
+    if (draws_twice(e.render) || !e.render.quantize_reference || e.algorithm->key != DepthKey::stored_code)
+        return advice;
+    const DepthFormat format = *e.render.depth;
+    advice.epsilon_ulps = safe_epsilon(pairs, opaque);
+    advice.epsilon = safe_absolute(pairs, opaque, format);
+    if (format != DepthFormat::d32f && is_quotient(e.compare) && !is_quotient(e.write))
+        advice.bias = safe_bias(pairs, opaque);
+    return advice;
+}
+
+}  // namespace
+
+Measurement measure(const DrawList& list, const View& view, const DeviceProfile& profile, const Experiment& e) {
+    const Machine machine{list, view, profile};
+    const Passes passes{machine, e};
+    Measurement m;
+    try {
+        const FrameFragments written = passes.first(bare(e.render, e.write), unsorted_algorithm());
+        DeviceProfile writes_anything = profile;  // whatever depth is compared, here it is stored to be looked at
+        writes_anything.has_fragment_programs = true;
+        const Machine meter{list, view, writes_anything};
+        const FrameFragments compared = Passes{meter, e}.further(bare(e.render, e.compare), unsorted_algorithm());
+        const PairedFragments pairs = pair_up(written.all, compared.all, e.match);
+        m.paths = compare(pairs);
+        m.peeled = e.moved_window == std::array{0, 0};
+        if (!m.peeled) return m;
+        m.advice = advice_for(e, pairs.pairs, written.opaque);
+        run_peel(m, passes);
+        m.truth = true_picture(machine, bare(e.render, e.write));
+        m.image = image_error(m.picture, m.truth);
+    } catch (const Refused& refused) {
+        m = {};
+        m.refusal = refused.refusal;
+    }
+    return m;
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,94 @@
+// Model: the cells of small plans, written down one by one; messages typed a second time.
+#include "tools/strata/invariance_plan.h"
+
+#include <catch2/catch.hpp>
+
+#include "rasterizer/input_error.h"
+
+using namespace strata::tools;
+
+namespace {
+
+using Cells = std::vector<std::string>;
+
+// What tells the cells of these tests apart.
+Cells names(const std::vector<Cell>& cells) {
+    Cells names;
+    for (const Cell& c : cells)
+        names.push_back(c.scene + " " + std::to_string(c.width) + " d" + std::to_string(int(c.format)) + " " +
+                        name_of(c.remedy));
+    return names;
+}
+
+std::string message(const std::string& plan) {
+    try {
+        static_cast<void>(parse_plan(plan, "p.json", {}));
+    } catch (const strata::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("a grid stands for all combinations of its values, the last key fastest, whatever the order in the file") {
+    const Cells expected{"teapot 8 d0 none", "teapot 8 d0 bias:2", "teapot 8 d2 none", "teapot 8 d2 bias:2",
+                         "random 8 d0 none", "random 8 d0 bias:2", "random 8 d2 none", "random 8 d2 bias:2"};
+    CHECK(names(parse_plan(R"({"grids": [{"scene": ["teapot", "random"], "size": "8x4", "depth_format": ["d16", "d32f"],
+                               "remedy": ["none", "bias:2"]}]})",
+                           "p.json", {})) == expected);
+    CHECK(names(parse_plan(R"({"grids": [{"remedy": ["none", "bias:2"], "depth_format": ["d16", "d32f"], "size": "8x4",
+                               "scene": ["teapot", "random"]}]})",
+                           "p.json", {})) == expected);
+}
+
+TEST_CASE("a grid's own value comes before common, common before options, options before the default") {
+    const KeyValues options{{"scene", {"given"}}, {"size", {"5x5"}}, {"depth_format", {"d32f"}}};
+    const auto cells = parse_plan(R"({"common": {"size": "6x6", "depth_format": "d16"},
+                                      "grids": [{"depth_format": "d24"}, {"scene": "own"}]})",
+                                  "p.json", options);
+    CHECK(names(cells) == Cells{"given 6 d1 none", "own 6 d0 none"});
+    CHECK(cells[0].profile == "geforce3");
+}
+
+TEST_CASE("a cell that comes twice is kept once, at its first place") {
+    CHECK(names(parse_plan(R"({"common": {"scene": "s", "size": "1x1", "depth_format": "d24"},
+                               "grids": [{"remedy": ["bias:1", "none"]}, {"remedy": ["none", "slope:1", "bias:1"]}]})",
+                           "p.json", {})) == Cells{"s 1 d1 bias:1", "s 1 d1 none", "s 1 d1 slope:1"});
+}
+
+TEST_CASE("numbers may stand for their text, and a remedy may have parts") {
+    const auto cells =
+        parse_plan(R"({"grids": [{"scene": "s", "alpha": 0.25, "subpixel_bits": [8], "depth_format": "d24",
+                                      "remedy": "slope:0.5+bias:3+epsilon:2ulp+unquantized"}]})",
+                   "p.json", {});
+    REQUIRE(cells.size() == 1);
+    CHECK(cells[0].alpha == 0.25f);
+    CHECK(cells[0].subpixel_bits == 8);
+    CHECK(name_of(cells[0].remedy) == "bias:3+slope:0.5+epsilon:2ulp+unquantized");
+}
+
+TEST_CASE("every fault of a plan is one sentence with its place") {
+    CHECK_THAT(message("{"), Catch::StartsWith("p.json: byte 2: expected JSON"));
+    CHECK(message("[]") == "p.json: /: expected an object with \"grids\", found []");
+    CHECK(message(R"({"grid": []})") ==
+          "p.json: /: expected keys about, common or grids, found 'grid' (did you mean 'grids'?)");
+    CHECK(message(R"({"grids": []})") == "p.json: /grids: expected a list of at least one grid, found []");
+    CHECK(message(R"({"grids": [{}]})") ==
+          "p.json: /grids/0: expected a scene, here, in /common or on the command line, found none");
+    CHECK_THAT(message(R"({"grids": [{"scene": "s"}, {"depth": "d16"}]})"),
+               Catch::StartsWith("p.json: /grids/1: expected keys scene, "));
+    CHECK(message(R"({"grids": [{"depth_format": ["d16", "d17"]}]})") ==
+          "p.json: /grids/0/depth_format/1: expected d16, d24 or d32f, found 'd17'");
+    CHECK_THAT(message(R"({"common": {"near_far": "ratio:1"}, "grids": [{}]})"),
+               Catch::StartsWith("p.json: /common/near_far: expected orbit, ratio:R with R from 2.6"));
+    CHECK_THAT(message(R"({"grids": [{"alpha": true}]})"),
+               Catch::Equals("p.json: /grids/0/alpha: expected a string, a number, or a list of them, found true"));
+    CHECK_THAT(message(R"({"grids": [{"size": []}]})"),
+               Catch::EndsWith("expected at least one value, found an empty list"));
+    for (const char* bad : {"bias", "bias:x", "epsilon:2", "epsilon:-1ulp", "slope:nan", "none+", "biass:1"}) {
+        INFO(bad);
+        CHECK_THAT(message(R"({"grids": [{"remedy": ")" + std::string(bad) + "\"}]}"),
+                   Catch::Contains("/grids/0/remedy: expected none, bias:UNITS"));
+    }
+}

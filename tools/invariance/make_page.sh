@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Makes RESULTS.md and its plots anew: the sweep of results.json, and the dragon of MODELS where it is there.
+#   tools/invariance/make_page.sh [MODELS]     (default ../shared/models) Needs a release build and gnuplot-nox.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+trap 'echo "tools/invariance/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
+
+models=${1:-../shared/models} out=build/invariance
+strata=$(realpath "${STRATA:-build/release/strata}")
+mkdir -p "$out"
+folders=("$out/built-in")
+"$strata" invariance --plan tools/invariance/results.json -o "$out/built-in"
+if [ -r "$models/dragon.glb" ]; then
+    plan=$(realpath tools/invariance/dragon.json) to=$(realpath -m "$out/dragon")
+    (cd "$models" && "$strata" invariance --plan "$plan" -o "$to")
+    folders+=("$out/dragon")
+fi
+rm -f tools/invariance/RESULTS.*.svg
+tools/invariance/report.py "${folders[@]}" --title "Invariance: what two depths do to a peel" --markdown tools/invariance/RESULTS.md
+tools/invariance/report.py "${folders[@]}" --title "Invariance: what two depths do to a peel"
+echo "tools/invariance/RESULTS.md, and with pictures ${folders[0]}/index.html"

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""Plots and one page from the results of `strata invariance`.
+
+    tools/invariance/report.py FOLDER...                     # index.html in the first, everything inside it
+    tools/invariance/report.py FOLDER... --markdown PAGE.md  # PAGE.md, and its plots as PAGE.NAME.svg beside it
+
+Standard library and gnuplot alone. The page depends on results.jsonl, and on timings.jsonl for ratios of times.
+"""
+import argparse
+import base64
+import html
+import json
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+import sections  # noqa: E402
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", type=pathlib.Path, nargs="+", help="what `strata invariance -o` wrote; a page goes to the first")
+    parser.add_argument("--markdown", type=pathlib.Path, help="a page to keep instead of FOLDER/index.html")
+    parser.add_argument("--title", default="Invariance")
+    return parser.parse_args()
+
+
+def load(path):
+    if not path.exists():
+        sys.exit(f"report.py: {path}: expected results, found no such file")
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+def results(folder):
+    """Rows with what the page needs besides: seconds of the peel, and where the cell's pictures would be."""
+    timings = folder / "timings.jsonl"
+    seconds = {line["cell"]: line["peel_seconds"] for line in load(timings)} if timings.exists() else {}
+    rows = load(folder / "results.jsonl")
+    for row in rows:
+        row["seconds"] = seconds.get(row["cell"])
+        row["pictures"] = folder / "images" / f"{row['cell']:04}"
+    return rows
+
+
+def markdown_of(blocks, page):
+    """A block is (kind, ...): title, heading, text, list, table, plot, picture. Pictures stay out of a page that is kept."""
+    lines = []
+    for kind, *content in blocks:
+        if kind == "title":
+            lines += [f"# {content[0]}", ""]
+        elif kind == "heading":
+            lines += [f"## {content[0]}", ""]
+        elif kind == "text":
+            lines += [content[0], ""]
+        elif kind == "list":
+            lines += [f"- {item}" for item in content[0]] + [""]
+        elif kind == "table":
+            header, rows = content
+            lines += ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+            lines += ["| " + " | ".join(row) + " |" for row in rows] + [""]
+        elif kind == "plot":
+            name, caption, svg = content
+            file = page.with_suffix(f".{name}.svg")
+            file.write_text(svg)
+            lines += [f"![{caption}]({file.name})", ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+STYLE = """body{font:16px/1.5 sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}
+table{border-collapse:collapse;font-size:14px;display:block;overflow-x:auto}td,th{padding:2px 9px;border-bottom:1px solid #ddd;text-align:right}
+td:first-child,th:first-child{text-align:left}figure{margin:1em 0}figcaption{font-size:14px;color:#555}
+img{image-rendering:pixelated;max-width:100%;min-width:320px}code{background:#f3f3f3}"""
+
+
+def inline(text):
+    """Markdown's `code` to HTML; everything else is text."""
+    parts = html.escape(text).split("`")
+    return "".join(f"<code>{part}</code>" if index % 2 else part for index, part in enumerate(parts))
+
+
+def html_of(blocks):
+    body = []
+    for kind, *content in blocks:
+        if kind in ("title", "heading"):
+            tag = "h1" if kind == "title" else "h2"
+            body.append(f"<{tag}>{inline(content[0])}</{tag}>")
+        elif kind == "text":
+            body.append(f"<p>{inline(content[0])}</p>")
+        elif kind == "list":
+            body.append("<ul>" + "".join(f"<li>{inline(item)}</li>" for item in content[0]) + "</ul>")
+        elif kind == "table":
+            header, rows = content
+            cells = ["<tr>" + "".join(f"<th>{inline(c)}</th>" for c in header) + "</tr>"]
+            cells += ["<tr>" + "".join(f"<td>{inline(c)}</td>" for c in row) + "</tr>" for row in rows]
+            body.append("<table>" + "\n".join(cells) + "</table>")
+        elif kind == "plot":
+            _, caption, svg = content
+            body.append(f"<figure>{svg[svg.index('<svg'):]}<figcaption>{inline(caption)}</figcaption></figure>")
+        elif kind == "picture":
+            path, caption = content
+            data = base64.b64encode(path.read_bytes()).decode()
+            body.append(f'<figure><img alt="" src="data:image/png;base64,{data}"><figcaption>{inline(caption)}</figcaption></figure>')
+    title = html.escape(blocks[0][1])
+    return f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style>\n' + "\n".join(body) + "</html>\n"
+
+
+def main():
+    arguments = parse_arguments()
+    rows = [row for folder in arguments.folders for row in results(folder)]
+    blocks = sections.page(arguments.title, rows)
+    if arguments.markdown:
+        arguments.markdown.write_text(markdown_of(blocks, arguments.markdown))
+    else:
+        (arguments.folders[0] / "index.html").write_text(html_of(blocks))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,265 @@
+"""The page's sections: what is said of the rows of a sweep. Each function gives blocks, or none where its rows are missing."""
+import figures
+
+WHAT = ("scene", "profile", "algorithm", "write_path", "compare_path", "depth_format")
+
+
+MOST_PICTURES = 24  # cells, in the order of the plan
+
+
+def pair(row):
+    return f"{row['write_path']} : {row['compare_path']}"
+
+
+def share(row):
+    return row["differing"] / row["fragments"] if row["fragments"] else 0.0
+
+
+def percent(value):
+    return f"{100 * value:.1f} %" if value == 0 or value >= 0.001 else f"{100 * value:.2g} %"
+
+
+def decibels(row):
+    return "-" if row["psnr"] is None else f"{row['psnr']:.1f}"
+
+
+def ratio(row):
+    return row["far"] / row["near"]
+
+
+def groups(rows, *keys):
+    """[(values of the keys, rows)] in order of first appearance."""
+    found = {}
+    for row in rows:
+        found.setdefault(tuple(row[key] for key in keys), []).append(row)
+    return list(found.items())
+
+
+def measured(rows):
+    return [row for row in rows if row["outcome"] != "refused"]
+
+
+def plain(rows):
+    """Rows that compare paths as they are: no remedy, one way of drawing, the profile's own hypothesis. Each once."""
+    found = {}
+    for r in alike(rows):
+        if r["remedy"] == "none":
+            found.setdefault((r["scene"], r["profile"], pair(r), r["depth_format"], r["near"], r["far"]), r)
+    return list(found.values())
+
+
+def alike(rows):
+    """Rows whose passes draw the same vertices, of the profile's own hypothesis."""
+    return [r for r in measured(rows) if r["split"] == "none" and "+" not in r["vertex_path"] and r["hypothesis"] == "profile"]
+
+
+def answers(rows):
+    """What the page says in a few sentences, each from the rows themselves."""
+    said = []
+    for (profile, write, compare, depth), own in groups(plain(rows), "profile", "write_path", "compare_path", "depth_format"):
+        fragments, differing = sum(r["fragments"] for r in own), sum(r["differing"] for r in own)
+        name = f"{profile}, `{write}` written and `{compare}` compared, `{depth}`"
+        if write == compare:
+            continue
+        if differing == 0:
+            said.append(f"{name}: 0 of {fragments:,} fragments differ, whatever the depth range.")
+        else:
+            low, high = min(own, key=share), max(own, key=share)
+            said.append(f"{name}: {percent(share(low))} (far/near {ratio(low):.4g}) to {percent(share(high))} (far/near {ratio(high):.4g}) differ, by "
+                        f"{max(r['ulp_max'] for r in own):,} ulp at most.")
+    judged = [r for r in plain(rows) if r["safe_bias"] and total(r) > 0]
+    for (scene, profile, depth), own in groups(judged, "scene", "profile", "depth_format"):
+        for r in [min(own, key=lambda row: abs(ratio(row) - 100))]:
+            safe = r["safe_bias"]
+            if safe["safe"]:
+                said.append(f"{scene} on {profile}, `{depth}`, far/near {ratio(r):.4g}: every constant bias from {safe['lowest']} to {safe['highest']} codes peels without error.")
+            else:
+                said.append(f"{scene} on {profile}, `{depth}`, far/near {ratio(r):.4g}: no constant bias peels without error.")
+    return [("heading", "In short"), ("list", said)] if said else []
+
+
+def differences(rows):
+    rows = [r for r in plain(rows) if r["differing"] > 0]
+    if not rows:
+        return []
+    header = ["scene", "profile", "writes : compares", "depth", "far/near", "fragments", "differ", "largest, ulp", "at pixel"]
+    table = []
+    for r in rows:
+        place = "-" if r["ulp_max_at"] is None else f"{r['ulp_max_at']['x']},{r['ulp_max_at']['y']}"
+        table.append([r["scene"], r["profile"], pair(r), r["depth_format"], f"{ratio(r):.4g}", f"{r['fragments']:,}",
+                      percent(share(r)), f"{r['ulp_max']:,}", place])
+    blocks = [("heading", "How often the two depths differ, and by how much"),
+              ("text", "Every fragment of the frame by both paths, paired by pixel and triangle. An ulp is a code of `d16` and "
+                       "`d24`, and the step to the next float of `d32f`. Pairs that never differ are left out.")]
+    return blocks + difference_plots(rows) + [("table", header, table)]
+
+
+def difference_plots(rows):
+    blocks = []
+    for (scene, profile), own in groups(rows, "scene", "profile"):
+        if len({ratio(r) for r in own}) < 2:
+            continue
+        by_pair = {}
+        for r in own:
+            by_pair.setdefault(f"{pair(r)} {r['depth_format']}", []).append(r)
+        name = "".join(c if c.isalnum() else "-" for c in f"{scene}-{profile}")
+        shares = {key: sorted((ratio(r), 100 * share(r)) for r in values) for key, values in by_pair.items()}
+        blocks.append(("plot", f"share-{name}", f"{scene} on {profile}: share of fragments whose two depths differ",
+                       figures.lines_plot(f"{scene}, {profile}", "far / near", "fragments that differ, %", shares, log_x=True)))
+        largest = {key: sorted((ratio(r), r["ulp_max"]) for r in values) for key, values in by_pair.items()}
+        blocks.append(("plot", f"ulp-{name}", f"{scene} on {profile}: the largest difference",
+                       figures.lines_plot(f"{scene}, {profile}", "far / near", "largest difference, ulp", largest, log_x=True)))
+    return blocks
+
+
+def histogram(rows):
+    rows = [r for r in plain(rows) if r["differing"] > 0]
+    if not rows:
+        return []
+    table = []
+    for (scene, profile, write, compare, depth), own in groups(rows, "scene", "profile", "write_path", "compare_path", "depth_format"):
+        bins = {}
+        for r in own[:1]:
+            for low, high, count in r["histogram"]:
+                name = "0" if low == high == 0 else "-1" if high == -1 else "+1" if low == 1 else "<= -2" if high < 0 else ">= +2"
+                bins[name] = bins.get(name, 0) + count / r["fragments"]
+        table.append([scene, profile, f"{write} : {compare}", depth, *(percent(bins.get(k, 0)) for k in ("<= -2", "-1", "0", "+1", ">= +2"))])
+    return [("text", "Signed: positive where the compared depth lies behind the stored one, so that a fragment survives its own peel. "
+                     "The first depth range of each row above."),
+            ("table", ["scene", "profile", "writes : compares", "depth", "<= -2", "-1", "0", "+1", ">= +2"], table)]
+
+
+def total(row):
+    return row["duplicated"] + row["lost"]
+
+
+def remedies(rows):
+    blocks = []
+    for key, own in groups(alike(rows), *WHAT[:3], "compare_path", "depth_format", "near", "far"):
+        if len(own) < 3:
+            continue
+        scene, profile, algorithm, _, depth, near, far = key
+        base = next((r for r in own if r["remedy"] == "none"), own[0])
+        best = min(own, key=lambda r: (total(r), r["rmse"]))
+        table = []
+        for r in own:
+            time = f"{r['seconds'] / base['seconds']:.2f}" if base["seconds"] else "-"
+            mark = " (least)" if total(r) == total(best) else ""
+            table.append([f"`{r['remedy']}`", pair(r), f"{r['passes']}" + (" of its limit" if r["outcome"] == "never_ends" else ""),
+                          f"{r['layers_true']}", f"{r['duplicated']:,}", f"{r['lost']:,}", f"{total(r):,}{mark}",
+                          f"{r['pixels_touched']:,}", f"{r['max_difference']:.1f}", f"{r['rmse']:.2f}", decibels(r), time])
+        blocks += [("text", f"{scene}, {algorithm} on {profile}, `{depth}`, far/near {far / near:.4g}, {own[0]['layers']:,} layers in all. "
+                            f"Least total error: `{best['remedy']}` ({pair(best)}), {total(best):,}.")]
+        blocks += bias_plot(key, own)
+        blocks.append(("table", ["remedy", "writes : compares", "passes", "N", "twice", "lost", "total", "pixels", "max diff", "rmse", "PSNR", "time"], table))
+        blocks += advice(own)
+    if not blocks:
+        return []
+    return [("heading", "What it does to a peel, and what each remedy costs"),
+            ("text", "A layer counts as twice if a pixel composited it more than once, as lost if never. N is the deepest pixel's number of layers; a right "
+                     "peel takes N + 1 passes, and one that still finds fragments after 2 (N + 1) never ends. Differences are against "
+                     "the exact A-buffer in 1/255 (where no layer is twice or lost they are ties: fragments of equal depth are one layer to any peel); time is "
+                     "the passes' of the emulator, every pass rasterized anew, as a ratio to the first line's in the same run.")] + blocks
+
+
+def bias_plot(key, own):
+    constant = {r["bias_constant"]: r for r in own if r["remedy"] == "none" or r["remedy"] == f"bias:{r['bias_constant']:g}"}
+    if len(constant) < 3:
+        return []
+    scene, profile, _, _, depth, near, far = key
+    series = {"twice": [], "lost": [], "total": []}
+    for bias in sorted(constant):
+        for name, value in (("twice", constant[bias]["duplicated"]), ("lost", constant[bias]["lost"]), ("total", total(constant[bias]))):
+            series[name].append((bias, value))
+    safe = own[0]["safe_bias"]
+    shaded = None
+    if safe and safe["safe"] and safe["highest"] is not None:
+        shaded = (max(safe["lowest"], 0), min(safe["highest"], max(constant)))
+        shaded = shaded if shaded[0] < shaded[1] else None
+    name = "".join(c if c.isalnum() else "-" for c in f"{scene}-{profile}-{depth}-{far / near:.4g}")
+    caption = f"{scene}, {depth}: layers composited twice, and lost, against a constant bias" + ("; the safe interval is green" if shaded else "")
+    return [("plot", f"bias-{name}", caption, figures.zero_and_powers_plot(f"{scene}, {profile}, {depth}", "polygon offset units", "layers", series, shaded))]
+
+
+def place(witness):
+    return f"pixel {witness['x']},{witness['y']}, triangle {witness['primitive']} (stored {witness['stored']}, compared {witness['reference']})"
+
+
+def interval(name, range_):
+    if range_ is None or range_["lowest"] is None:
+        return ""
+    highest = "without end" if range_["highest"] is None else f"to {range_['highest']}"
+    if range_["safe"]:
+        return f"Safe {name}: {range_['lowest']} {highest}. "
+    return (f"No {name} is safe: below {range_['lowest']} the fragment at {place(range_['repeated_below'])} is peeled twice, above "
+            f"{range_['highest']} the one at {place(range_['lost_above'])} is lost. ")
+
+
+def advice(own):
+    text = interval("epsilon in ulps", own[0]["safe_epsilon_ulps"]) + interval("constant bias in codes", own[0]["safe_bias"])
+    return [("text", "The adviser, from the exact fragments: " + text.strip())] if text else []
+
+
+def vertex_paths(rows):
+    rows = [r for r in measured(rows) if "+" in r["vertex_path"]]
+    if not rows:
+        return []
+    table = [[r["scene"], r["profile"], pair(r), r["depth_format"], *r["vertex_path"].split("+"), percent(share(r)), f"{r['ulp_max']:,}", f"{r['unmatched']:,}",
+              str(r["passes"]), str(r["layers_true"]), f"{r['duplicated']:,}", f"{r['lost']:,}"] for r in rows]
+    return [("heading", "Passes that transform a vertex differently"),
+            ("text", "One depth path, but the first pass computes positions in one way and all others in another: the commonest mistake of a port. "
+                     "Where a vertex snaps to another grid point, coverage differs too."),
+            ("table", ["scene", "profile", "writes : compares", "depth", "first pass", "further", "differ", "largest, ulp", "only in one", "passes", "N", "twice", "lost"], table)]
+
+
+def splits(rows):
+    rows = [r for r in measured(rows) if r["split"] != "none"]
+    if not rows:
+        return []
+    table = []
+    for r in rows:
+        behind = sum(count for low, _, count in r["histogram"] if low > 0)
+        path = r["write_path"] + ("" if r["hypothesis"] == "profile" else f", {r['hypothesis']}")
+        table.append([r["scene"], r["profile"], path, r["depth_format"], r["split"], f"{r['fragments']:,}", percent(share(r)),
+                      percent(behind / r["fragments"] if r["fragments"] else 0), f"{r['ulp_max']:,}", f"{r['unmatched']:,}"])
+    return [("heading", "The same surface, split otherwise"),
+            ("text", "A decal in the plane of a surface fights with it wherever its depth is another one. Here the second pass draws the same surface, but its triangles "
+                     "begin at another vertex, its squares are cut along the other diagonal, the viewport is moved by a pixel, or the near "
+                     "plane clamps instead of clipping. `hidden` is the share where the decal lies behind, and LEQUAL drops it. Even the exact plane "
+                     "changes with the diagonal: corners are snapped to subpixels and their depths rounded, so four corners lie in no plane."),
+            ("table", ["scene", "profile", "path", "depth", "split", "fragments", "differ", "hidden", "largest, ulp", "only in one"], table)]
+
+
+def hypotheses(rows):
+    rows = [r for r in measured(rows) if r["hypothesis"] != "profile" and r["split"] == "none"]
+    if not rows:
+        return []
+    table = [[r["hypothesis"], r["scene"], pair(r), r["depth_format"], percent(share(r)), f"{r['ulp_max']:,}", f"{r['duplicated']:,}", f"{r['lost']:,}"]
+             for r in rows]
+    return [("heading", "What rests on assumptions about the chip"),
+            ("text", "Each line changes one constant of the device that no capture has settled; the spread is what the numbers above are worth."),
+            ("table", ["hypothesis", "scene", "writes : compares", "depth", "differ", "largest, ulp", "twice", "lost"], table)]
+
+
+def refusals(rows):
+    told = {row["refusal"] for row in rows if row["outcome"] == "refused"}
+    return [("heading", "Refused"), ("text", "; ".join(sorted(told)) + ".")] if told else []
+
+
+def pictures(rows):
+    blocks = []
+    for row in [r for r in plain(rows) if total(r) > 0][:MOST_PICTURES]:
+        for ending, caption in (("errors", "red: twice, blue: lost, magenta: both"), ("difference", "4 x the difference from the exact A-buffer")):
+            path = row["pictures"].with_name(f"{row['pictures'].name}.{ending}.png")
+            if path.exists():
+                blocks.append(("picture", path, f"{row['scene']}, {pair(row)}, {row['depth_format']}, {row['remedy']}: {caption}"))
+    return [("heading", "Where")] + blocks if blocks else []
+
+
+def page(title, rows):
+    intro = (f"{len(rows)} cells of `strata invariance`. A peel in several passes compares a fragment's depth with one that an earlier pass stored. If the two are "
+             "computed in different ways, they differ in the last places: a fragment that seems to lie behind itself is peeled again, "
+             "one that seems to lie before what is behind it is lost. Unless a line names another, everything rests on the profiles' own "
+             "constants, which `strata profiles` lists with their sources.")
+    return [("title", title), ("text", intro), *answers(rows), *differences(rows), *histogram(rows), *remedies(rows), *vertex_paths(rows), *splits(rows),
+            *hypotheses(rows), *refusals(rows), *pictures(rows)]
