@@ -31,14 +31,14 @@ Scene make_shadow_demo(const SceneOptions& options) {
     scene.list.meshes = {std::move(make_teapot(options, 16).list.meshes[0]),
                          quad("ground", {{{-4.3f, -0.01f, 4.5f}, {4.7f, -0.01f, 4.5f}, {4.7f, -0.01f, -4.5f}, {-4.3f, -0.01f, -4.5f}}},
                               {0, 1, 0}),
-                         quad("pane", {{{-3.6f, 0.0f, 1.8f}, {-0.4f, 0.0f, 3.4f}, {-0.4f, 2.4f, 3.4f}, {-3.6f, 2.4f, 1.8f}}},
-                              {-0.447f, 0, 0.894f})};
+                         quad("pane", {{{2.2f, 0.0f, 3.4f}, {4.2f, 0.0f, 0.6f}, {4.2f, 2.2f, 0.6f}, {2.2f, 2.2f, 3.4f}}},
+                              {0.814f, 0, 0.581f})};
     scene.list.materials = {material("teapot", {0.85f, 0.35f, 0.15f, 1}, AlphaMode::opaque, options),
                             material("ground", {0.75f, 0.75f, 0.7f, 1}, AlphaMode::opaque, options),
                             material("pane", {0.2f, 0.5f, 0.9f, 0.4f}, AlphaMode::blend, options)};
     scene.list.instances = {{.mesh = 1, .material = 1}, {.mesh = 0, .material = 0}, {.mesh = 2, .material = 2}};
     const pipeline::View light =
-        look_at({.eye = {5, 8, 3}, .center = {0.2, 0.8, 0}, .fovy_degrees = 45, .near = 5, .far = 16}, 1);
+        look_at({.eye = {-5.5, 6.5, 3}, .center = {0.2, 0.8, 0}, .fovy_degrees = 75, .near = 2, .far = 18}, 1);
     scene.list.light = pipeline::ShadowLight{.view = light.view,
                                              .projection = light.projection,
                                              .size_px = 1024,
