@@ -2,7 +2,7 @@
 // writes several depths and a flag at every sample. Carr, Mech and Miller 2008, Algorithm 2; algorithms.md 12, errata E23, E25.
 //
 // Needs      STRATA_ordered_rmw: targets that a program reads and writes, fragment after fragment.
-// Passes     2 an iteration, 1 less in the last; ascending 3 for any n, descending 2 n + 1. Equal depths: all, first arrival in front.
+// Passes     2 an iteration, 1 less in the last; ascending 3 for any n, descending 2 n + 1. Equal depths: all, the first in front.
 // Invariant  before pass 1 of an iteration everything before `peel` is composited, and nothing behind it; what lies exactly
 //            there is composited by that pass.
 #include "peeling/depth_float.h"

@@ -2,6 +2,7 @@
 // peeling, whose input is two sets.
 #include <catch2/catch.hpp>
 
+#include "disordered_sequences.h"
 #include "rendering.h"
 #include "short_sequences.h"
 #include "tests/support/partial_order_model.h"
@@ -104,6 +105,39 @@ TEST_CASE("hybrid composites an ordered and an unordered set, depths shared or n
             wrong += result.frame.color.codes[4 * p + c] != target.code(expected[c]) ? 1 : 0;
     }
     CHECK(wrong == 0);
+}
+
+// Ordered sets of up to `longest` fragments over unordered ones of up to an eighth of that.
+void check_two_deep_sets(std::uint64_t seed, int side, int longest) {
+    const FragmentScene unordered = disordered(seed, side, side, longest / 8);
+    FragmentScene ordered = disordered(seed + 1, side, side, longest);
+    for (GivenPixel& pixel : ordered.pixels) {
+        pixel.opaque.reset();
+        std::stable_sort(pixel.fragments.begin(), pixel.fragments.end(),
+                         [](auto& a, auto& b) { return a.depth < b.depth; });
+    }
+    const RenderResult result = run(two_sets(unordered, ordered), unordered, hybrid, Formulation::resolved);
+    CHECK(result.audit.order_errors == 0u);
+    CHECK(result.frame.iterations <= longest / 8 + 1);
+    const TargetModel target{Format::rgba32f};
+    const Differences wrong = differences(result.frame.color, [&](std::size_t p) {
+        const auto& surface = unordered.pixels[p].opaque;
+        const Rgba expected = under_model(target, hybrid_order(unordered.pixels[p], ordered.pixels[p]),
+                                          surface ? surface->color : background);
+        return std::array{target.code(expected[0]), target.code(expected[1]), target.code(expected[2]),
+                          target.code(1.0f)};
+    });
+    INFO(wrong.first);
+    CHECK(wrong.pixels == 0);
+}
+
+TEST_CASE("deep ordered sets over unordered ones are composited in order by hybrid") {
+    check_two_deep_sets(20241140, 16, 120);
+}
+
+TEST_CASE("10 times 1,024 pairs of sets, the ordered one of up to 400 fragments, are composited in order by hybrid",
+          "[exhaustive]") {
+    for (std::uint64_t seed = 0; seed < 10; ++seed) check_two_deep_sets(20241160 + 2 * seed, 32, 400);
 }
 
 TEST_CASE("an ordered set that does not arrive front to back shows as it comes, and hybrid says so") {

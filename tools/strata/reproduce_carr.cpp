@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <map>
 
 #include "scenes/camera.h"
 #include "tools/strata/reproduce_page.h"
@@ -46,6 +45,22 @@ peeling::RenderOptions options_for(const ReproduceOptions& options, int size) {
 constexpr int beam_size = 32;
 const std::array beam_algorithms{"layer_peel", "hybrid", "coherent_stencil", "coherent_blend", "coherent_ideal"};
 
+// What the paper tells of a row, and why ours differs.
+struct Printed {
+    std::string figure, why;
+};
+
+Printed printed_of(int slices, const std::string& algorithm, int iterations) {
+    constexpr auto other_times = "times are this machine's, not a GeForce 8800's; passes and fragments are counted";
+    if (slices != 256) return {};
+    if (algorithm == "layer_peel")
+        return {"257 iterations",
+                iterations == 257 ? "" : "256 slices, two layers of the cone, and an empty iteration"};
+    if (algorithm == "hybrid") return {"3 iterations, 62 or 52 times faster", other_times};
+    if (algorithm == "coherent_stencil") return {"about 6 times slower than hybrid", other_times};
+    return {};
+}
+
 Section beam(const ReproduceOptions& options) {
     Section section{"Figures 1 and 3: slices of a volume and a cone",
                     fmt::format("volume-beam:slices=N,order=near at {0}x{0}; slices arrive front to back, the cone of "
@@ -68,26 +83,11 @@ Section beam(const ReproduceOptions& options) {
         for (const std::string algorithm : beam_algorithms) {
             const Run r = run(scene, view, algorithm, options_for(options, beam_size), false);
             if (algorithm == "layer_peel") baseline = r;
-            std::string paper, why;
-            if (slices == 256 && algorithm == "layer_peel") {
-                paper = "257 iterations";
-                if (r.iterations != 257)
-                    why =
-                        "the deepest pixel meets all slices and as much of the cone as its ray does; the last "
-                        "iteration is empty";
-            }
-            if (slices == 256 && algorithm == "hybrid") {
-                paper = "3 iterations, 62 or 52 times faster";
-                why = "times are this machine's, not a GeForce 8800's";
-            }
-            if (slices == 256 && algorithm.starts_with("coherent_s")) {
-                paper = "about 6 times slower than hybrid";
-                why = "times are this machine's; passes and fragments are counted";
-            }
+            const Printed printed = printed_of(slices, algorithm, r.iterations);
             section.sheet.rows.push_back({std::to_string(slices), algorithm, std::to_string(r.iterations),
                                           std::to_string(r.passes), std::to_string(r.fragments),
                                           ratio(double(r.fragments), double(baseline.fragments)),
-                                          ratio(baseline.seconds, r.seconds), paper, why});
+                                          ratio(baseline.seconds, r.seconds), printed.figure, printed.why});
         }
     }
     const scenes::Scene scene = scenes::load_scene("volume-beam:slices=64,order=near", {});
@@ -148,9 +148,9 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
                 why = "the last iteration, which finds nothing, is counted here";
             else if (is_paper && r.iterations != iterations)
                 why = order == "as listed" ? "triangles as the file has them; the paper sorts" : paper.why;
-            section.sheet.rows.push_back({model.name, paper.view, order, algorithm, is_paper ? counts(iterations, passes) : "",
-                                          counts(r.iterations, r.passes), is_paper ? ratio(fps, paper.layer_fps) : "",
-                                          ratio(layer.seconds, r.seconds),
+            section.sheet.rows.push_back({model.name, paper.view, order, algorithm,
+                                          is_paper ? counts(iterations, passes) : "", counts(r.iterations, r.passes),
+                                          is_paper ? ratio(fps, paper.layer_fps) : "", ratio(layer.seconds, r.seconds),
                                           ratio(double(r.fragments), double(layer.fragments)), why});
         };
         row("layer_peel", layer, paper.layers, 2 * paper.layers, paper.layer_fps);
