@@ -46,6 +46,11 @@ class HalfPlanes {
     std::array<std::span<std::uint16_t>, 4> planes_;
 };
 
+// What the materials of a region's triangles call for; mostly nothing, and then no triangle is looked at.
+MaterialNeeds needs_in(const PreparedDraw& list, std::size_t tile) {
+    return list.needs == MaterialNeeds{} ? list.needs : needs_of(list, list.geometry.bin(tile));
+}
+
 }  // namespace
 
 // Whether nothing stands between the rasterizer and the tests of this pass.
@@ -53,7 +58,8 @@ bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const 
     if (extent_ != Extent::tile || frame_.effects != Effects::needed || frame_.once_more != Effect::none) return false;
     const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
                           (state.sample_mask & 1u) != 0 && state.primitives.empty() && !state.needs.reference &&
-                          !needs_of(list, list.geometry.bin(tile_)).color;
+                          !state.replaces_depth && std::ranges::none_of(state.reads, &Target::exists) &&
+                          std::ranges::none_of(state.textures, &Target::exists) && !needs_in(list, tile_).color;
     const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
     return is_plain && !is_recalled && row_walk_suits(list.geometry, frame_.key_request(), rect_);
 }
@@ -93,7 +99,7 @@ bool Region::sums_suit_rows(const PassState& state) const {
     return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
            (!counts || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
            profile().raster.color == rasterizer::ColorInterpolation::exact_plane &&
-           draws_rows(state, list) && list.needs.shadow == 0 && !needs_of(list, list.geometry.bin(tile_)).texcoord;
+           draws_rows(state, list) && list.needs.shadow == 0 && !needs_in(list, tile_).texcoord;
 }
 
 Drawn Region::draw_sum_rows(const PassState& state) {
