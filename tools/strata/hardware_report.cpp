@@ -99,7 +99,8 @@ std::string file_name(const CheckedPicture& p) { return p.capture.suite + "-" + 
 }  // namespace
 
 CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile) {
-    CheckedPicture result{.capture = capture};
+    CheckedPicture result;
+    result.capture = capture;
     const hc::Suite* const suite = hc::find_suite(capture.suite);
     if (suite == nullptr) {
         result.unmodelled = "no suite of this name is known";
