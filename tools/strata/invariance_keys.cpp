@@ -50,7 +50,8 @@ bool set_orbit(Cell& cell, const std::string& text) {
 
 bool set_algorithm(Cell& cell, const std::string& text) {
     cell.algorithm = peeling::find_algorithm(text);
-    return cell.algorithm != nullptr && cell.algorithm->exact && !cell.algorithm->is_oracle;
+    return cell.algorithm != nullptr && !cell.algorithm->is_oracle &&
+           (cell.algorithm->exact || cell.algorithm->makes_layers);
 }
 
 bool set_pair(Cell& cell, const std::string& text) {
