@@ -82,7 +82,7 @@ TEST_CASE("every row of the statistics has every key with its type, and a refuse
     const auto rows = rows_of(
         folder, {"render", "volume-beam:slices=4", "--size", "24x16", "--algorithm", "all", "--profile", profile});
     REQUIRE(rows.is_array());
-    CHECK(rows.size() == peeling::algorithms().size());
+    CHECK(rows.size() == strata::peeling::algorithms().size());
     for (const auto& row : rows) {
         INFO(row.dump());
         check_types(row);
