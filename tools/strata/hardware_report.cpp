@@ -173,9 +173,12 @@ void write_report(const std::string& folder, const std::vector<CheckedPicture>& 
     std::string page = fmt::format("# The profile {} against captures\n\n{}\n", profile.name, markdown(suite_table(checked)));
     for (const CheckedPicture& p : checked) {
         if (outcome(p) == "equal" || !p.is_known) continue;
-        page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}. {}\n", p.capture.suite, p.capture.name, outcome(p),
+        if (!p.is_compared()) {
+            page += fmt::format("- {}/{}: not modelled: {}\n", p.capture.suite, p.capture.name, p.unmodelled);
+            continue;
+        }
+        page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}; {}\n", p.capture.suite, p.capture.name, outcome(p),
                             p.comparison.differing, p.comparison.compared, p.comparison.largest, detail(p));
-        if (!p.is_compared()) continue;
         const hc::Drawing drawing = hc::find_suite(p.capture.suite)->draw(p.capture.name, profile);
         scenes::write_image((std::filesystem::path(folder) / file_name(p)).string(),
                             {.color = hc::difference_picture(*drawing.picture, read_capture(p.capture.path))});

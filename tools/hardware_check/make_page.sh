@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Makes scenes/hardware_check/RESULTS.md anew: tools/hardware_check/make_page.sh CAPTURES [STRATA]
+# CAPTURES holds SUITE/NAME.png of abaire/nxdk_pgraph_tests_golden_results (CC0 1.0), or a part of them.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+trap 'echo "tools/hardware_check/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
+[ $# -ge 1 ] || { echo "usage: tools/hardware_check/make_page.sh CAPTURES [STRATA]" >&2; exit 2; }
+captures=$1 strata=${2:-build/release/strata}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+status=0
+"$strata" hardware-check "$captures" -o "$work/report" >/dev/null || status=$?
+[ "$status" -le 1 ] || exit "$status"  # 1: a picture is outside its bound, and the page says so
+"$strata" hardware-check "$captures" --suite Depth_buffer --hypotheses >"$work/hypotheses.txt"
+{
+    cat tools/hardware_check/introduction.md
+    sed -e '1,2d' -e '/!\[difference\]/d' "$work/report/report.md" | cat -s
+    echo "## Hypotheses of depth, scored on suite Depth_buffer"
+    echo
+    echo '```'
+    cat "$work/hypotheses.txt"
+    echo '```'
+    echo
+    cat tools/hardware_check/open_questions.md
+} >scenes/hardware_check/RESULTS.md
