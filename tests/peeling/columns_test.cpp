@@ -163,7 +163,7 @@ struct Fragment {
 };
 
 struct Fragments {
-    static constexpr std::size_t pixels = 45, blocks = 3;
+    static constexpr std::size_t pixels = 45;  // three blocks
     std::vector<std::vector<Fragment>> batches;
     std::vector<std::uint32_t> opaque;
 
