@@ -181,3 +181,27 @@ TEST_CASE("a linear lookup gives the share of its four texels that pass, in step
     CHECK(compare_one(edge, state, floors, 0.5f + 0x1p-10f, 0.5f)[0] == 0.5f);
     CHECK(compare_one(edge, state, floors, 0.5f + 0x1p-9f, 0.5f)[0] == 0.5f + 0x1p-8f);
 }
+
+TEST_CASE("eight-bit depth texels compare R rounded to 255 steps, Heidrich's limited form, for all texels and half steps") {
+    Image image{Format::d16, 256, 1};
+    for (std::uint32_t k = 0; k < 256; ++k) image.codes[k] = k;
+    DepthTexels texels{image};
+    texels.is_eight_bit = true;
+    const auto rounding = GENERATE(DepthRounding::floor, DepthRounding::nearest);
+    const DeviceProfile profile = device(rounding, TextureFilterPrecision::single);
+    Lanes<float> s, t, r;
+    std::array<Lanes<float>, 4> rgba;
+    for (int step = 0; step <= 510; ++step) {
+        const Rational exact = Rational{static_cast<float>(step) / 510.0f} * 255 +
+                               (rounding == DepthRounding::nearest ? Rational{1, 2} : Rational{0});
+        for (std::size_t k = 0; k < 256; ++k) {
+            s[k] = static_cast<float>(k) + 0.5f;
+            t[k] = 0.5f;
+            r[k] = static_cast<float>(step) / 510.0f;
+        }
+        shadow_compare(texels, {.func = CompareFunc::lequal, .target = TextureTarget::rectangle}, profile, {s, t, r}, rgba, 256);
+        int lit = 0;
+        for (std::size_t k = 0; k < 256; ++k) lit += rgba[0][k] == 1.0f;
+        REQUIRE(lit == 256 - static_cast<int>(model::floor(exact)));
+    }
+}
