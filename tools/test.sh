@@ -35,7 +35,9 @@ quietly() {
 # The fast tests under the sanitizers, and a minute of fuzzing: one build by clang++, or by g++ without the fuzzing.
 sanitized() {
     local preset=asan targets=(rasterizer_test pipeline_test peeling_test scenes_test core_digests)
-    local slow='NOT_BUILT|all 19,531 sequences|19,531 short|hybrid composites an|as printed, a listing|a partial order execute|tiles, threads, effects and mistrust|coverage equals three|that an NV2A gave'  # half a minute and more each
+    local slow='NOT_BUILT|all 19,531 sequences|19,531 short|hybrid composites an|as printed, a listing|a partial order execute'
+    slow+='|tiles, threads, effects and mistrust|coverage equals three|that an NV2A gave|whatever depth they compare|wherever max_passes cuts'
+    slow+='|every tile size, region and number|opaque surfaces alone execute alike|the adviser calls it safe|on every shared model'  # ten seconds and more each
     if command -v clang++ >/dev/null; then
         preset=fuzz
         targets+=(make_corpus load_render_fuzz differential_seeds differential_fuzz)
