@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/depth_rows.h"
+#include "pipeline/quotient_rows.h"
 #include "pipeline/matrix.h"
 #include "pipeline/shadow_stage.h"
 #include "pipeline/vertex_transform.h"
@@ -128,7 +128,7 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
     for (const Instance& instance : list.instances) {
         if (extras.stride == 0 || !is_selected(list.materials[instance.material], options.selection)) continue;
         const Mesh& mesh = list.meshes[instance.mesh];
-        const VertexTransform rows = depth_rows(view, instance.model, state, rules);
+        const VertexTransform rows = quotient_rows(view, instance.model, state, rules);
         const VertexCoordinates coordinates{options.units, view, instance.model};
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const std::array<float, 4> rq = rows(mesh.positions[i]);

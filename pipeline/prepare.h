@@ -65,7 +65,7 @@ using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>
 struct PrepareOptions {
     Selection selection = Selection::all;
     float alpha_scale = 1.0f;     // --alpha: every alpha times this, at the vertex; a MASK material's after its test
-    bool depth_quotient = false;  // also r and q of every vertex, for perspective_rq and depth_replace (depth_rows.h)
+    bool depth_quotient = false;  // also r and q of every vertex, for perspective_rq and depth_replace (quotient_rows.h)
     Ordering order{};  // none: as listed
     int tile_size = 32;
     int threads = 0;

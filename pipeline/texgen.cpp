@@ -26,7 +26,7 @@ Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
     return rows;
 }
 
-// Behind the product, as depth_rows.h scales its row r: the same bits from the same matrices.
+// Behind the product, as quotient_rows.h scales its row r: the same bits from the same matrices.
 Matrix in_depth_units(const CoordinateUnit& unit, Matrix m) {
     for (std::size_t i = 0; i < m.size(); ++i)
         if (i % 4 != 3) m[i] *= unit.depth_units[i % 4];

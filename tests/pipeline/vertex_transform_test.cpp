@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "pipeline/depth_rows.h"
+#include "pipeline/quotient_rows.h"
 #include "pipeline/matrix.h"
 #include "pipeline/prepare.h"
 #include "rasterizer/nv20_arithmetic.h"
@@ -194,7 +194,7 @@ TEST_CASE("the rows of r and q are Listing 2's matrices multiplied out, row r ti
     strata::rasterizer::RasterState state;
     state.depth_format = DepthFormat::d16;
     const View view{.view = v, .projection = p};
-    const VertexTransform rows = depth_rows(view, m, state, find_profile("geforce3")->raster);
+    const VertexTransform rows = quotient_rows(view, m, state, find_profile("geforce3")->raster);
     const auto entry = [&](const Matrix& a, std::size_t row, std::size_t column) {
         return Rational{a[4 * column + row]};
     };

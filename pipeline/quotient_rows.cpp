@@ -1,4 +1,4 @@
-#include "pipeline/depth_rows.h"
+#include "pipeline/quotient_rows.h"
 
 #include "pipeline/matrix.h"
 #include "rasterizer/window.h"
@@ -27,7 +27,7 @@ Matrix depth_texture_matrix(const Matrix& projection, const rasterizer::RasterSt
     return product(product(translate, scale), projection);
 }
 
-VertexTransform depth_rows(const View& view, const Matrix& model, const rasterizer::RasterState& state,
+VertexTransform quotient_rows(const View& view, const Matrix& model, const rasterizer::RasterState& state,
                            const rasterizer::RasterRules& rules) {
     const double units = rasterizer::z_units(state, rules);
     const Matrix texture = depth_texture_matrix(view.projection, state);

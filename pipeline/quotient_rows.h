@@ -1,4 +1,4 @@
-// pipeline/depth_rows.h - r and q of every vertex: the texture coordinates whose quotient is a fragment's depth.
+// pipeline/quotient_rows.h - r and q of every vertex: the texture coordinates whose quotient is a fragment's depth.
 //
 // Rule     As Listing 2 sets its texture matrices up: T(0, 0, n0) S(0, 0, s0) P with s0 = (f - n)/2, n0 = (f + n)/2 of the
 //          depth range (z from 0 in clip space: f - n and n), times (view * model), all in binary64; row r then takes the
@@ -19,7 +19,7 @@ namespace strata::pipeline {
 [[nodiscard]] Matrix depth_texture_matrix(const Matrix& projection, const rasterizer::RasterState& state);
 
 // Object space to (0, 0, r, q), r in the units of vertex z.
-[[nodiscard]] VertexTransform depth_rows(const View& view, const Matrix& model, const rasterizer::RasterState& state,
+[[nodiscard]] VertexTransform quotient_rows(const View& view, const Matrix& model, const rasterizer::RasterState& state,
                                          const rasterizer::RasterRules& rules);
 
 }  // namespace strata::pipeline
