@@ -169,13 +169,6 @@ struct VectorRows {
             hn::StoreU(hn::Max(x, y), Wide{}, b + lane);
         }
     }
-    static void swap(std::uint64_t* a, std::uint64_t* b) {
-        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
-            const auto x = hn::LoadU(Wide{}, a + lane), y = hn::LoadU(Wide{}, b + lane);
-            hn::StoreU(y, Wide{}, a + lane);
-            hn::StoreU(x, Wide{}, b + lane);
-        }
-    }
     static bool in_order(const std::uint64_t* a, const std::uint64_t* b) {
         for (std::size_t lane = 0; lane < block_lanes; lane += step)
             if (!hn::AllFalse(Wide{}, hn::Lt(hn::LoadU(Wide{}, b + lane), hn::LoadU(Wide{}, a + lane)))) return false;
@@ -186,6 +179,22 @@ struct VectorRows {
             const auto height = hn::PromoteTo(Wide{}, hn::LoadU(hn::Rebind<std::uint32_t, Wide>{}, &visible[lane]));
             const auto is_in = hn::Lt(hn::Set(Wide{}, k), height);
             hn::StoreU(hn::IfThenElse(is_in, hn::LoadU(Wide{}, words + lane), hn::Set(Wide{}, ~std::uint64_t{0})), Wide{}, row + lane);
+        }
+    }
+    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth, std::uint64_t* rows) {
+        using Index = hn::RebindToSigned<Wide>;
+        const auto least = hn::Set(Index{}, static_cast<std::int64_t>(pixel)), none = hn::Set(Index{}, -1);
+        const auto stride = hn::Set(Index{}, static_cast<std::int64_t>(from.stride));
+        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
+            HWY_ALIGN std::int64_t last[step];
+            for (std::size_t i = 0; i < step; ++i)
+                last[i] = (std::int64_t{visible[lane + i]} - 1) * static_cast<std::int64_t>(from.stride) + static_cast<std::int64_t>(pixel + lane + i);
+            auto index = hn::Load(Index{}, last);
+            for (std::size_t k = 0; k < depth; ++k, index = hn::Sub(index, stride)) {
+                const auto is_in = hn::RebindMask(Wide{}, hn::Lt(none, hn::Sub(index, least)));
+                const auto word = hn::GatherIndex(Wide{}, from.word, hn::Max(index, least));
+                hn::StoreU(hn::IfThenElse(is_in, word, hn::Set(Wide{}, ~std::uint64_t{0})), Wide{}, rows + k * block_lanes + lane);
+            }
         }
     }
     static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) {
@@ -204,10 +213,8 @@ struct VectorRows {
 };
 
 [[gnu::flatten]] void sort_arrivals(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) {
-    sort_words<VectorRows>(from, pixel, block, rows);
+    sort_rows<VectorRows>(from, pixel, block, rows);
 }
-
-[[gnu::flatten]] void sort(std::uint64_t* rows, std::size_t depth) { sort_rows<VectorRows>(rows, depth); }
 
 }  // namespace
 }  // namespace strata::peeling::HWY_NAMESPACE
@@ -217,7 +224,6 @@ HWY_AFTER_NAMESPACE();
 namespace strata::peeling {
 HWY_EXPORT(append_batch);
 HWY_EXPORT(sort_arrivals);
-HWY_EXPORT(sort);
 HWY_EXPORT(arrived_before);
 
 bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
@@ -227,18 +233,13 @@ bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t
 }
 
 void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
-    if (simd_is_scalar()) return sort_words<scalar::Rows>(from, pixel, block, rows);
+    if (simd_is_scalar()) return sort_rows<scalar::Rows>(from, pixel, block, rows);
     HWY_DYNAMIC_DISPATCH(sort_arrivals)(from, pixel, block, rows);
 }
 
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {
     if (simd_is_scalar()) return scalar::find_arrived_before(block, before);
     HWY_DYNAMIC_DISPATCH(arrived_before)(block, before);
-}
-
-void sort_columns(std::uint64_t* rows, std::size_t depth) noexcept {
-    if (simd_is_scalar()) return sort_rows<scalar::Rows>(rows, depth);
-    HWY_DYNAMIC_DISPATCH(sort)(rows, depth);
 }
 
 }  // namespace strata::peeling
