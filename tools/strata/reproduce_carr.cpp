@@ -5,6 +5,7 @@
 #include <array>
 
 #include "scenes/camera.h"
+#include "tools/strata/progress.h"
 #include "tools/strata/reproduce_chart.h"
 
 namespace strata::tools {
@@ -88,7 +89,9 @@ struct Measured {
 
 std::vector<Measured> run_beams(const ReproduceOptions& options) {
     std::vector<Measured> runs;
+    Progress progress("slices");
     for (const int slices : {16, 32, 64, 128, 256, 512, 1024}) {
+        progress.show(slices / 1024.0);
         const scenes::Scene scene = scenes::load_scene(fmt::format("volume-beam:slices={},order=near", slices), {});
         const auto view = scenes::orbit_view(scene.bounds, 30, 20, 1.0);
         for (const std::string algorithm : beam_algorithms)
@@ -227,7 +230,9 @@ Section table(const ReproduceOptions& options, const std::vector<Model>& models)
                      {"model", "view", "order of triangles", "algorithm", "paper", "ours", "paper: speed to layer_peel",
                       "ours: speed", "fragments to layer_peel's", "why they differ"},
                      {}};
+    Progress progress("models");
     for (const Model& model : models) {
+        progress.show(static_cast<double>(&model - models.data()) / static_cast<double>(models.size()));
         bool in_paper = false;
         for (const PaperRow& row : paper_rows)
             if (model.name.starts_with(row.model)) {
