@@ -7,6 +7,7 @@
 
 #include "pipeline/check.h"
 #include "scenes/hardware_check/compare.h"
+#include "scenes/hardware_check/fixed_pipeline.h"
 
 using namespace strata;
 using namespace strata::scenes::hardware_check;
@@ -73,6 +74,19 @@ TEST_CASE("a profile that rounds positions, depth or blending otherwise is caugh
     cut.blend_rounding = pipeline::BlendRounding::truncate;
     const Row blend = first_of("Blend_tests");
     CHECK(digest_with(blend, cut) != blend.digest);
+}
+
+// Words at the left column of quads whose weights are exact there, as captures of the NV2A hold them, and world z as the test
+// suite steps it. Exact arithmetic gives 4 for the first, and 16633061, 16726379, 16746512 where the reciprocal's last bits show.
+TEST_CASE("window depths of the fixed pipeline are the words that the chip stored") {
+    constexpr std::pair<float, int> at_24_bits[] = {{-6.0f, 8},
+                                                    {-5.393292427062988f, 6367072},
+                                                    {0.06707406044006348f, 14475595},
+                                                    {66.80491638183594f, 16633057},
+                                                    {117.76811218261719f, 16726374},
+                                                    {139.60948181152344f, 16746509},
+                                                    {193.0f, 16777210}};
+    for (const auto& [z, word] : at_24_bits) CHECK(static_cast<int>(chip_window_z(z, 16777215.0f)) == word);
 }
 
 TEST_CASE("a difference is counted, sized, placed and held against the bound") {
