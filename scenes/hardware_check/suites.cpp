@@ -16,9 +16,11 @@ std::span<const Suite> suites() {
                                     Suite{"Depth_buffer_fixed_function", draw_depth_buffer_fixed_function},
                                     Suite{"Depth_function", draw_depth_function},
                                     Suite{"Front_face", draw_front_face},
+                                    Suite{"Pixel_shader", draw_pixel_shader, draw_pixel_shader_with},
                                     Suite{"Shade_model", draw_shade_model},
                                     Suite{"Stencil", draw_stencil},
                                     Suite{"Stencil_func", draw_stencil_func},
+                                    Suite{"Texture_shadow_comparator", draw_texture_shadow_comparator},
                                     Suite{"Vertex_shader_rounding_tests", draw_vertex_shader_rounding},
                                     Suite{"Window_clip", draw_window_clip},
                                     Suite{"ZPass_pixel_count", draw_zpass_pixel_count}};
