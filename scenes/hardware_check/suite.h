@@ -11,6 +11,7 @@ Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile&
 Drawing draw_blend_tests(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_clear(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_color_mask_blend(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_combiner(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile);

@@ -11,6 +11,7 @@ std::span<const Suite> suites() {
                                     Suite{"Blend_tests", draw_blend_tests},
                                     Suite{"Clear", draw_clear},
                                     Suite{"Color_mask_blend", draw_color_mask_blend},
+                                    Suite{"Combiner", draw_combiner},
                                     Suite{"Depth_Clamp", draw_depth_clamp},
                                     Suite{"Depth_buffer", draw_depth_buffer},
                                     Suite{"Depth_buffer_fixed_function", draw_depth_buffer_fixed_function},
