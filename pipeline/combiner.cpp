@@ -44,6 +44,11 @@ constexpr std::int32_t one = 255, half = 128;
     return std::clamp(x, -one, one);
 }
 
+// Which of the two products a choice takes.
+[[nodiscard]] constexpr bool takes_cd(CombinerSum rule, std::int32_t alpha) noexcept {
+    return rule == CombinerSum::mux_low_bit ? (alpha & 1) != 0 : alpha >= half;
+}
+
 [[nodiscard]] constexpr bool holds_value(Reg r) noexcept { return static_cast<std::size_t>(r) < combiner_registers; }
 [[nodiscard]] constexpr bool is_written(Reg r) noexcept {
     return r >= Reg::primary_color && r <= Reg::spare1;
@@ -124,8 +129,9 @@ void CombinerUnit::run_portion(const CombinerPortion& p, bool is_alpha, std::siz
     for (std::size_t ch = first; ch < end; ++ch)
         for (std::size_t i = 0; i < count; ++i) {
             const std::int32_t ab = product(a, b, p.ab_product, ch, i), cd = product(c, d, p.cd_product, ch, i);
-            const bool takes_cd = at(Reg::spare0)[3][i] >= half;
-            const std::int32_t sum = p.sum_rule == CombinerSum::add ? ab + cd : takes_cd ? cd : ab;
+            const std::int32_t sum = p.sum_rule == CombinerSum::add                      ? ab + cd
+                                     : takes_cd(p.sum_rule, at(Reg::spare0)[3][i]) ? cd
+                                                                                   : ab;
             result_[0][ch][i] = scaled(p, rounded(ab));
             result_[1][ch][i] = scaled(p, rounded(cd));
             result_[2][ch][i] = scaled(p, rounded(sum));

@@ -47,12 +47,16 @@ struct CombinerInput {
 };
 
 enum class CombinerProduct : std::uint8_t { component_wise, dot };
-enum class CombinerSum : std::uint8_t { add, mux };  // mux: C D where alpha of spare0 is at least 128/255, else A B
+enum class CombinerSum : std::uint8_t {
+    add,
+    mux,         // C D where alpha of spare0 is at least 128/255, else A B
+    mux_low_bit  // C D where that alpha's bit 0 is set: the chip's other mode, not OpenGL's
+};
 enum class CombinerScale : std::uint8_t { by_one, by_two, by_four, by_half };
 enum class CombinerBias : std::uint8_t { none, by_negative_half };
 
 struct CombinerPortion {
-    CombinerInput a, b, c, d;
+    CombinerInput a{}, b{}, c{}, d{};
     CombinerRegister ab = CombinerRegister::discard, cd = CombinerRegister::discard, sum = CombinerRegister::discard;
     CombinerProduct ab_product = CombinerProduct::component_wise, cd_product = CombinerProduct::component_wise;
     CombinerSum sum_rule = CombinerSum::add;
@@ -62,13 +66,13 @@ struct CombinerPortion {
 };
 
 struct CombinerStage {
-    CombinerPortion rgb, alpha;
+    CombinerPortion rgb{}, alpha{};
     std::array<std::array<float, 4>, 2> constant{};  // per stage, as NV_register_combiners2 has them
     friend bool operator==(const CombinerStage&, const CombinerStage&) = default;
 };
 
 struct FinalCombiner {
-    CombinerInput a, b, c, d, e, f, g;  // unsigned mappings only
+    CombinerInput a{}, b{}, c{}, d{}, e{}, f{}, g{};  // unsigned mappings only
     bool clamps_color_sum = false;
     bool inverts_spare0 = false, inverts_secondary_color = false;  // in their sum; flags of the chip, not of OpenGL
     std::array<std::array<float, 4>, 2> constant{};

@@ -37,21 +37,33 @@ void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail,
     }
 }
 
-// What R is multiplied with to be in codes.
+[[nodiscard]] bool has(const DepthTexels& depth, DepthFormat format) noexcept {
+    return depth.format == format && !depth.is_eight_bit;
+}
+// A fixed-point or D16F texel in buffer units.
+[[nodiscard]] double value_of(const DepthTexels& depth, std::uint32_t code) noexcept {
+    return has(depth, DepthFormat::d16f) ? double{rasterizer::d16f_value(code)} : static_cast<double>(code);
+}
+// What R is multiplied with to be in buffer units.
 [[nodiscard]] double units_of(const DepthTexels& depth, const rasterizer::RasterRules& rules) noexcept {
-    return rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : depth.max();
+    return rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : value_of(depth, depth.max());
 }
 
 // R as the texels' format would store it; binary32 bits, unclamped, for D32F. A product of [0,1] with 2^n - 1 is exact in
 // binary64.
 void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, const Lanes<float>& r,
               Lanes<std::uint32_t>& codes, std::size_t count) noexcept {
-    if (depth.format == DepthFormat::d32f && !depth.is_eight_bit) {
+    if (has(depth, DepthFormat::d32f)) {
         for (std::size_t i = 0; i < count; ++i) codes[i] = std::bit_cast<std::uint32_t>(r[i]);
         return;
     }
     const double max = depth.max(), half = rules.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
     const double units = units_of(depth, rules);
+    if (has(depth, DepthFormat::d16f)) {
+        for (std::size_t i = 0; i < count; ++i)
+            codes[i] = rasterizer::to_d16f_code(r[i] * static_cast<float>(units));
+        return;
+    }
     for (std::size_t i = 0; i < count; ++i) {
         const double scaled = r[i] > 0.0f ? double{r[i]} * units : 0.0;  // 0 for NaN
         codes[i] = static_cast<std::uint32_t>(scaled < max ? scaled + half : max);
@@ -72,7 +84,7 @@ void route(DepthTextureMode mode, const Lanes<float>& result, std::array<Lanes<f
 void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const DeviceProfile& profile,
                     const ShadowCoordinates& at, std::array<Lanes<float>, 4>& rgba, int count) {
     const TexelAxis s_axis{state.target, state.wrap_s, depth.width}, t_axis{state.target, state.wrap_t, depth.height};
-    const bool is_float = depth.format == DepthFormat::d32f && !depth.is_eight_bit;
+    const bool is_float = has(depth, DepthFormat::d32f);
     const auto n = static_cast<std::size_t>(count);
     Lookup lookup{depth, {}, {}};
     Lanes<std::uint32_t> r;
@@ -95,10 +107,10 @@ void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const 
         constexpr CompareFunc func = chosen();
         if (!is_float && !quantizes) {
             for (std::size_t i = 0; i < n; ++i) r[i] = std::bit_cast<std::uint32_t>(at.r[i]);
-            const double max = depth.max();
-            compare([units, max](std::uint32_t a, std::uint32_t b) {
+            const double max = value_of(depth, depth.max());
+            compare([units, max, &depth](std::uint32_t a, std::uint32_t b) {
                 const double scaled = double{std::bit_cast<float>(a)} * units;
-                return passes<func>(scaled > 0.0 ? std::min(scaled, max) : 0.0, static_cast<double>(b));
+                return passes<func>(scaled > 0.0 ? std::min(scaled, max) : 0.0, value_of(depth, b));
             });
         } else if (is_float) {
             compare([](std::uint32_t a, std::uint32_t b) {

@@ -3,15 +3,15 @@
 #include <algorithm>
 
 #include "pipeline/check.h"
+#include "pipeline/fragment_path.h"
 #include "pipeline/narrow.h"
-#include "pipeline/region.h"
 #include "rasterizer/float_environment.h"
 
 namespace strata::pipeline {
 
 struct Surface::State {
     State(const DeviceProfile& p, const SurfaceLayout& l)
-        : profile{p}, layout{l}, nothing{empty(l)}, frame{make_frame(p, l, nothing)},
+        : profile{p}, layout{l}, list{empty(l)}, frame{make_frame(p, l, list)},
           region{frame, frame.rect(), 0, Extent::frame}, color{region.make(l.color)}, depth{region.make_depth()},
           stencil{region.make(Format::s8)} {}
 
@@ -31,7 +31,7 @@ struct Surface::State {
 
     DeviceProfile profile;
     SurfaceLayout layout;
-    PreparedDraw nothing;
+    PreparedDraw list;  // what is drawn
     Frame frame;
     Region region;
     Target color, depth, stencil;
@@ -116,7 +116,7 @@ void Surface::fill(const std::function<PixelCode(int x, int y)>& value) {
 std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup soup) {
     const FloatEnvironment ours;
     State& s = *state_;
-    const PreparedDraw list = prepared(s.profile, s.layout, state, std::move(soup));
+    s.list = prepared(s.profile, s.layout, state, std::move(soup));
     PassState pass;
     pass.alpha = state.alpha;
     pass.stencil = state.stencil;
@@ -129,9 +129,15 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
     pass.needs.shader_z = false;
     pass.needs.code = false;
     const std::uint64_t before = s.region.records().front().counters.blended;
-    static_cast<void>(s.region.draw(pass, list, [](const FragmentBatch& in, const Loads&, Outputs& out) {
-        for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), in.count, out.color[0][c].begin());
-    }));
+    if (state.path != nullptr) {
+        FragmentPathProgram program{s.region, *state.path};
+        program.apply(pass);
+        static_cast<void>(s.region.draw(pass, program));
+    } else {
+        static_cast<void>(s.region.draw(pass, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+            for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), in.count, out.color[0][c].begin());
+        }));
+    }
     return s.region.records().front().counters.blended - before;
 }
 

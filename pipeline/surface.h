@@ -2,8 +2,9 @@
 // the other, as a driver's calls do. For scenes that are no peel: hardware checks, render to texture.
 //
 // Rule     A draw is set up, rasterized and finished before the next one begins, by the stages of region_stages.cpp. A
-//          surface is one region, the whole of itself.
-// Tests    tests/scenes/hardware_check_test.cpp: 149 pictures of silicon
+//          surface is one region, the whole of itself. What one surface holds, another one samples: `color` and `depth` are
+//          finished images.
+// Tests    tests/scenes/hardware_check_test.cpp: pictures of silicon
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -14,6 +15,8 @@
 #include "pipeline/state.h"
 
 namespace strata::pipeline {
+
+struct FragmentPath;  // pipeline/fragment_path.h
 
 struct SurfaceLayout {
     Format color = Format::rgba8;
@@ -34,6 +37,8 @@ struct DrawState {
     float depth_near = 0.0f, depth_far = 1.0f;  // fragments outside are dropped, or clamped
     bool depth_clamp = false;
     const Texture* texture = nullptr;  // multiplies the vertex colour; rectangle textures take texels
+    // Texture shader and combiners instead; the soup's extras bring the units' coordinates. Depth textures are images.
+    const FragmentPath* path = nullptr;
 };
 
 using PixelCode = std::array<std::uint8_t, 4>;  // r g b a

@@ -92,14 +92,18 @@ void projective_lookup(const StageRun& run) {
     look_up(run, s, t);
 }
 
-// Cut, not rounded: nv2a-geometry.md 5.3.
+// [0, 1] to 8 bits as the chip does it: 12 bits, of which 255/256 by a shift, all cut. 1 is 255.
+[[nodiscard]] constexpr std::uint8_t pass_through_code(float x) noexcept {
+    const auto fixed = static_cast<std::uint32_t>(x * 4096.0f);  // exact before the cut
+    return static_cast<std::uint8_t>((fixed - (fixed >> 8)) >> 4);
+}
+
 void pass_through(const StageRun& run) {
     const bool is_unorm8 = run.machine.profile->texture_filter == TextureFilterPrecision::unorm8;
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < run.count; ++i) {
             const float x = run.coordinate[c][i] > 0.0f ? std::min(run.coordinate[c][i], 1.0f) : 0.0f;
-            const auto code = static_cast<std::uint8_t>(double{x} * 255.0);
-            run.own().rgba[c][i] = is_unorm8 ? from_unorm8(code) : x;
+            run.own().rgba[c][i] = is_unorm8 ? from_unorm8(pass_through_code(x)) : x;
         }
 }
 

@@ -2,7 +2,8 @@
 // a culled fragment, or another depth.
 //
 // Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q clamped to
-//          [0,1] and cut to 8 bits where the device's colours have 8. CULL_FRAGMENT: see CullMode. DOT_PRODUCT: (s x + t y)
+//          [0,1]; where the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our own fit, every one
+//          of 65,536 pixels of the chip's capture Passthru; floor(255 x) gives 9,656 others]. CULL_FRAGMENT: see CullMode. DOT_PRODUCT: (s x + t y)
 //          + r z with (x, y, z) of the previous texture input, not divided by q; _TEXTURE_2D, _TEXTURE_RECTANGLE look up at
 //          (dot of the stage before, own dot); _DEPTH_REPLACE: the stage's depth is dot of the stage before / own dot, one
 //          divide, floored or rounded like a depth write; outside the depth range, NaN and zero divisors among it, the

@@ -55,13 +55,16 @@ std::uint32_t their_word(const Picture& drawn, const Image& capture, int x, int 
     return 0;  // unreachable: the enum is closed
 }
 
+bool is_hidden(const Picture& drawn, int x, int y) {
+    return std::any_of(drawn.hidden.begin(), drawn.hidden.end(), [&](const rasterizer::Rect& r) { return contains(r, x, y); });
+}
+
 bool is_label(const Picture& drawn, const Image& capture, int x, int y) {
     return reads_color(drawn.reading) && packed(pixel_of(capture, x, y)) == label;
 }
 
 bool is_compared(const Picture& drawn, const Image& capture, int x, int y) {
-    return !is_label(drawn, capture, x, y) && std::none_of(drawn.hidden.begin(), drawn.hidden.end(),
-                                                           [&](const rasterizer::Rect& r) { return contains(r, x, y); });
+    return !is_label(drawn, capture, x, y) && !is_hidden(drawn, x, y);
 }
 
 // Theirs minus ours, in the reading's units.
@@ -77,9 +80,11 @@ std::int64_t difference(Reading reading, std::uint32_t ours, std::uint32_t their
 }
 
 template <class Word>
-std::string digest_of(const rasterizer::Rect& box, Word&& word) {
+std::string digest_of(const Picture& drawn, const rasterizer::Rect& box, Word&& word) {
     Image words{Format::r32f, picture_width, picture_height};
-    for_each_pixel([&](int x, int y) { words.codes[words.index(x, y)] = contains(box, x, y) ? 0 : word(x, y); });
+    for_each_pixel([&](int x, int y) {
+        words.codes[words.index(x, y)] = contains(box, x, y) || is_hidden(drawn, x, y) ? 0 : word(x, y);
+    });
     return digest(words);
 }
 
@@ -133,10 +138,10 @@ rasterizer::Rect label_box(const Picture& drawn, const Image& capture) {
 }
 
 std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn) {
-    return digest_of(box, [&](int x, int y) { return our_word(drawn, x, y); });
+    return digest_of(drawn, box, [&](int x, int y) { return our_word(drawn, x, y); });
 }
 std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn, const Image& capture) {
-    return digest_of(box, [&](int x, int y) { return their_word(drawn, capture, x, y); });
+    return digest_of(drawn, box, [&](int x, int y) { return their_word(drawn, capture, x, y); });
 }
 
 }  // namespace strata::scenes::hardware_check

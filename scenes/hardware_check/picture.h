@@ -58,9 +58,15 @@ struct Drawing {
 struct Suite {
     std::string_view name;  // the folder's
     Drawing (*draw)(std::string_view picture, const pipeline::DeviceProfile& profile);
+    // Of a suite whose test loaded images: with `textures`, the folder that holds them. `draw` does without.
+    Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile, const std::string& textures) = nullptr;
 };
 
 [[nodiscard]] std::span<const Suite> suites();
 [[nodiscard]] const Suite* find_suite(std::string_view name);  // null if there is none
+[[nodiscard]] inline Drawing draw(const Suite& suite, std::string_view picture, const pipeline::DeviceProfile& profile,
+                                  const std::string& textures) {
+    return suite.draw_with != nullptr ? suite.draw_with(picture, profile, textures) : suite.draw(picture, profile);
+}
 
 }  // namespace strata::scenes::hardware_check

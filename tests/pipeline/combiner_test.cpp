@@ -207,16 +207,22 @@ TEST_CASE("bias, scale and their orders give what captures of the chip show") {
     CHECK(through(255, CombinerScale::by_half, CombinerBias::none) == 128);
 }
 
-TEST_CASE("the selector of a choice is the upper bit of spare0's alpha") {
-    for (const auto& [alpha, expected] : {std::pair{127, 10}, {128, 20}, {0, 10}, {255, 20}, {0x81, 20}}) {
+TEST_CASE("the selector of a choice is the upper bit of spare0's alpha, or the lowest one where the chip is told so") {
+    struct Case {
+        CombinerSum rule;
+        int alpha, expected;
+    };
+    constexpr auto high = CombinerSum::mux, low = CombinerSum::mux_low_bit;
+    for (const Case& c : {Case{high, 127, 10}, {high, 128, 20}, {high, 0, 10}, {high, 255, 20}, {high, 0x81, 20}, {high, 0x82, 20},
+                          {low, 0x82, 10}, {low, 0x81, 20}, {low, 0, 10}, {low, 1, 20}}) {
         CombinerStage stage;
         stage.rgb.a = {Reg::texture1};
         stage.rgb.c = {Reg::texture2};
         stage.rgb.b = stage.rgb.d = {Reg::zero, Map::unsigned_invert};
         stage.rgb.sum = Reg::spare1;
-        stage.rgb.sum_rule = CombinerSum::mux;
-        const Fragment f{.texture = {{{0, 0, 0, alpha}, {10, 10, 10, 0}, {20, 20, 20, 0}, {}}}};
-        CHECK(run({{stage}, show(Reg::spare1)}, f)[0] == expected);
+        stage.rgb.sum_rule = c.rule;
+        const Fragment f{.texture = {{{0, 0, 0, c.alpha}, {10, 10, 10, 0}, {20, 20, 20, 0}, {}}}};
+        CHECK(run({{stage}, show(Reg::spare1)}, f)[0] == c.expected);
     }
 }
 

@@ -122,7 +122,8 @@ TEST_CASE("pass-through cuts coordinates to 8 bits on a device with 8-bit textur
         }
         for (std::size_t k = 0; k < 4; ++k) {
             const float clamped = is_nan(c[k]) || c[k] < 0 ? 0.0f : std::min(c[k], 1.0f);
-            const auto code = static_cast<int>(model::floor(Rational{clamped} * 255));
+            const model::Integer fixed = model::floor(Rational{clamped} * 4096);
+            const auto code = static_cast<int>(model::floor(Rational{fixed - model::floor(Rational{fixed, 256}), 16}));
             tally.expect(cuts.rgba(1)[k] == static_cast<float>(code) / 255.0f && keeps.rgba(1)[k] == clamped,
                          [&] { return fmt::format("coordinate {:#010x}", bits_of(c[k])); });
         }

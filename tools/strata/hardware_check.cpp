@@ -1,6 +1,7 @@
 // tools/strata/hardware_check.cpp - strata hardware-check: a profile against pictures that a real chip drew.
 //
-// Rule     DIR/<suite>/<name>.png as the public captures are named. Every picture is drawn from its name and compared outside of
+// Rule     DIR/<suite>/<name>.png as the public captures are named; DIR/textures, if it is there, holds images that the tests
+//          loaded. Every picture is drawn from its name and compared outside of
 //          its labels. What is not modelled is listed, and never counted as passed. Exit status 1 if a picture is outside its bound.
 // Tests    tests/tools/hardware_check_test.cpp, tests/scenes/hardware_check_test.cpp
 #include <algorithm>
@@ -45,7 +46,7 @@ std::vector<Capture> find_captures(const Options& options) {
         throw InputError{"strata", "--suite", one_of(known), found_but_near(options.suite, known)};
     std::vector<Capture> captures;
     for (const std::string& suite : sorted_names(options.folder, [](const auto& e) { return e.is_directory(); })) {
-        if (!options.suite.empty() && suite != options.suite) continue;
+        if (suite == textures_folder || (!options.suite.empty() && suite != options.suite)) continue;
         const fs::path folder = fs::path(options.folder) / suite;
         for (const std::string& file : sorted_names(folder, [](const auto& e) { return e.path().extension() == ".png"; }))
             captures.push_back({suite, fs::path(file).stem().string(), (folder / file).string()});

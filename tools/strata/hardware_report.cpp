@@ -24,6 +24,11 @@ pipeline::Image read_capture(const std::string& path) {
     return std::move(images.front().image);
 }
 
+// DIR/textures beside DIR/SUITE/NAME.png.
+std::string textures_of(const Capture& capture) {
+    return (std::filesystem::path(capture.path).parent_path().parent_path() / textures_folder).string();
+}
+
 std::string outcome(const CheckedPicture& p) {
     if (!p.is_known) return "unknown";
     if (!p.unmodelled.empty()) return "not modelled";
@@ -106,7 +111,7 @@ CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& prof
         result.unmodelled = "no suite of this name is known";
         return result;
     }
-    const hc::Drawing drawing = suite->draw(capture.name, profile);
+    const hc::Drawing drawing = hc::draw(*suite, capture.name, profile, textures_of(capture));
     result.is_known = drawing.reason != hc::unknown_name_reason;
     result.unmodelled = drawing.reason;
     if (!drawing.picture) return result;
@@ -179,7 +184,7 @@ void write_report(const std::string& folder, const std::vector<CheckedPicture>& 
         }
         page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}; {}\n", p.capture.suite, p.capture.name, outcome(p),
                             p.comparison.differing, p.comparison.compared, p.comparison.largest, detail(p));
-        const hc::Drawing drawing = hc::find_suite(p.capture.suite)->draw(p.capture.name, profile);
+        const hc::Drawing drawing = hc::draw(*hc::find_suite(p.capture.suite), p.capture.name, profile, textures_of(p.capture));
         scenes::write_image((std::filesystem::path(folder) / file_name(p)).string(),
                             {.color = hc::difference_picture(*drawing.picture, read_capture(p.capture.path))});
         page += fmt::format("\n  ![difference]({})\n\n", file_name(p));

@@ -12,6 +12,9 @@ struct Capture {
     std::string suite, name, path;
 };
 
+// Beside the suites: images that tests loaded (Pixel_shader's). No suite.
+inline constexpr std::string_view textures_folder = "textures";
+
 struct CheckedPicture {
     Capture capture;
     bool is_known = false;    // the suite, and the name in it
