@@ -84,6 +84,17 @@ struct Rows {
     [[nodiscard]] static bool in_order(const std::uint64_t* a, const std::uint64_t* b) noexcept {
         return std::equal(a, a + block_lanes, b, [](std::uint64_t x, std::uint64_t y) { return x <= y; });
     }
+    // The columns' heights and what is hidden; false if there is neither.
+    [[nodiscard]] static bool find_heights(const Arrivals& from, std::size_t pixel, ColumnBlock& block) noexcept {
+        std::copy_n(from.count + pixel, block_lanes, block.visible.begin());
+        std::copy_n(from.hidden + pixel, block_lanes, block.hidden.begin());
+        std::copy_n(from.at_surface + pixel, block_lanes, block.at_surface.begin());
+        block.depth = *std::ranges::max_element(block.visible);
+        return block.depth > 0 || *std::ranges::max_element(block.hidden) > 0;
+    }
+    [[nodiscard]] static std::uint32_t nearest(const std::uint64_t* row) noexcept {
+        return static_cast<std::uint32_t>(*std::min_element(row, row + block_lanes) >> 32);
+    }
     // Row k: words where a column is that high, ~0 elsewhere.
     static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) noexcept {
         for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
@@ -152,17 +163,22 @@ template <class Rows>
 }
 
 template <class Rows>
-[[gnu::always_inline]] inline void sort_rows(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
+[[gnu::always_inline]] inline bool take_rows(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
+    if (!Rows::find_heights(from, pixel, block)) return false;
     sort_words<Rows>(from, pixel, block.visible, block.depth, rows);
     Rows::find_ties(rows, block.depth, block.has_ties);
+    block.nearest = block.depth > 0 ? Rows::nearest(rows) : ~0u;
+    block.rows = rows;
+    return true;
 }
 
 }  // namespace strict
 
 // Puts the living fragments of a batch down; false if there was no room for one of them: then `to` is of no more use.
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept;
-// The sixteen columns from `pixel` on into `rows`, of which there are block.depth, sorted; fills has_ties.
-void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept;
+// The sixteen columns from `pixel` on, sorted into `rows`, of which there is room for as many as the highest has; all of `block` but
+// where it lies and where its colours are. False if no fragment is there.
+[[nodiscard]] bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept;
 // before[row * block_lanes + lane] = how many rows there are up to the last one below `row` whose fragment came earlier; 0 if none did.
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept;
 

@@ -174,6 +174,25 @@ struct VectorRows {
             if (!hn::AllFalse(Wide{}, hn::Lt(hn::LoadU(Wide{}, b + lane), hn::LoadU(Wide{}, a + lane)))) return false;
         return true;
     }
+    static bool find_heights(const Arrivals& from, std::size_t pixel, ColumnBlock& block) {
+        const Words d;
+        WordVec highest = hn::Zero(d), hidden = hn::Zero(d);
+        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
+            const WordVec height = hn::LoadU(d, from.count + pixel + lane), behind = hn::LoadU(d, from.hidden + pixel + lane);
+            hn::StoreU(height, d, &block.visible[lane]);
+            hn::StoreU(behind, d, &block.hidden[lane]);
+            hn::StoreU(hn::LoadU(d, from.at_surface + pixel + lane), d, &block.at_surface[lane]);
+            highest = hn::Max(highest, height);
+            hidden = hn::Or(hidden, behind);
+        }
+        block.depth = hn::GetLane(hn::MaxOfLanes(d, highest));
+        return block.depth > 0 || !hn::AllTrue(d, hn::Eq(hidden, hn::Zero(d)));
+    }
+    static std::uint32_t nearest(const std::uint64_t* row) {
+        auto least = hn::LoadU(Wide{}, row);
+        for (std::size_t lane = step; lane < block_lanes; lane += step) least = hn::Min(least, hn::LoadU(Wide{}, row + lane));
+        return static_cast<std::uint32_t>(hn::GetLane(hn::MinOfLanes(Wide{}, least)) >> 32);
+    }
     static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) {
         for (std::size_t lane = 0; lane < block_lanes; lane += step) {
             const auto height = hn::PromoteTo(Wide{}, hn::LoadU(hn::Rebind<std::uint32_t, Wide>{}, &visible[lane]));
@@ -212,8 +231,8 @@ struct VectorRows {
     }
 };
 
-[[gnu::flatten]] void sort_arrivals(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) {
-    sort_rows<VectorRows>(from, pixel, block, rows);
+[[gnu::flatten]] bool take_sorted(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) {
+    return take_rows<VectorRows>(from, pixel, block, rows);
 }
 
 }  // namespace
@@ -223,7 +242,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace strata::peeling {
 HWY_EXPORT(append_batch);
-HWY_EXPORT(sort_arrivals);
+HWY_EXPORT(take_sorted);
 HWY_EXPORT(arrived_before);
 
 bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
@@ -232,9 +251,9 @@ bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t
     return to.by_shader_z ? scalar::append<true>(to, in, alive) : scalar::append<false>(to, in, alive);
 }
 
-void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
-    if (simd_is_scalar()) return sort_rows<scalar::Rows>(from, pixel, block, rows);
-    HWY_DYNAMIC_DISPATCH(sort_arrivals)(from, pixel, block, rows);
+bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
+    if (simd_is_scalar()) return take_rows<scalar::Rows>(from, pixel, block, rows);
+    return HWY_DYNAMIC_DISPATCH(take_sorted)(from, pixel, block, rows);
 }
 
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {

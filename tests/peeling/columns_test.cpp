@@ -61,7 +61,10 @@ struct Columns {
 
     [[nodiscard]] std::vector<std::uint64_t> sorted() {
         std::vector<std::uint64_t> rows(words.size());
-        sort_block(Arrivals{.stride = block_lanes, .ranks = block.depth, .word = words.data()}, 0, block, rows.data());
+        LaneWords heights = block.visible, none{};
+        const Arrivals from{.stride = block_lanes, .ranks = block.depth, .word = words.data(), .count = heights.data(),
+                            .hidden = none.data(), .at_surface = none.data()};
+        if (take_block(from, 0, block, rows.data()) != (block.depth > 0)) rows.clear();
         return rows;
     }
 };
@@ -77,7 +80,9 @@ TEST_CASE("columns of any height and order are sorted, each on its own, on every
             for (const Order order : {Order::any, Order::rising, Order::falling, Order::rising_but_for_two, Order::falling_but_for_two})
                 for (const Heights heights : {Heights::equal, Heights::any}) {
                     Columns columns{random, depth, order, heights};
-                    wrong += columns.sorted() == columns.sorted_one_by_one() ? 0 : 1;
+                    const std::vector<std::uint64_t> expected = columns.sorted_one_by_one();
+                    wrong += columns.sorted() == expected ? 0 : 1;
+                    wrong += depth == 0 || columns.block.nearest == *std::min_element(expected.begin(), expected.begin() + block_lanes) >> 32 ? 0 : 1;
                 }
     }
     REQUIRE(choose_simd(Simd::best));
@@ -266,10 +271,10 @@ TEST_CASE("fragments come up again sorted by depth and arrival, with their colou
                 wrong += memory.count[pixel] == expected.size() && memory.hidden[pixel] == hidden && memory.at_surface[pixel] == at_surface ? 0 : 1;
                 ColumnBlock block;
                 const std::size_t first = pixel / block_lanes * block_lanes, lane = pixel % block_lanes;
-                for (std::size_t i = 0; i < block_lanes; ++i) block.visible[i] = memory.count[first + i];
-                block.depth = *std::ranges::max_element(block.visible);
-                sort_block(memory.arrivals, first, block, memory.rows.data());
-                block.rows = memory.rows.data();
+                const bool is_there = take_block(memory.arrivals, first, block, memory.rows.data());
+                wrong += is_there || expected.empty() ? 0 : 1;
+                wrong += block.visible[lane] == expected.size() && block.hidden[lane] == hidden && block.at_surface[lane] == at_surface ? 0 : 1;
+                wrong += expected.empty() || block.nearest <= expected[0].key ? 0 : 1;
                 bool tied = false;
                 for (std::size_t k = 0; k < expected.size(); ++k) {
                     wrong += block.key(lane, k) == expected[k].key ? 0 : 1;
