@@ -201,6 +201,13 @@ struct VectorRows {
         }
     }
     static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth, std::uint64_t* rows) {
+        const bool is_full = std::ranges::all_of(visible, [depth](std::uint32_t height) { return height == depth; });
+        for (std::size_t k = 0; is_full && k < depth; ++k)
+            for (std::size_t lane = 0; lane < block_lanes; lane += step)
+                hn::StoreU(hn::LoadU(Wide{}, from.word + (depth - 1 - k) * from.stride + pixel + lane), Wide{}, rows + k * block_lanes + lane);
+        if (!is_full) gather_from_end(from, pixel, visible, depth, rows);
+    }
+    static void gather_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth, std::uint64_t* rows) {
         using Index = hn::RebindToSigned<Wide>;
         const auto least = hn::Set(Index{}, static_cast<std::int64_t>(pixel)), none = hn::Set(Index{}, -1);
         const auto stride = hn::Set(Index{}, static_cast<std::int64_t>(from.stride));
