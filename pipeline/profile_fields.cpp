@@ -23,6 +23,7 @@ constexpr std::string_view path_names[] = {"window_z", "perspective_rq", "depth_
 constexpr std::string_view depth_rounding_names[] = {"floor", "nearest"};
 constexpr std::string_view offset_names[] = {"format", "float_exponent"};
 constexpr std::string_view color_names[] = {"exact_plane", "weights_8bit"};
+constexpr std::string_view coordinate_names[] = {"exact_plane", "cut_weights"};
 constexpr std::string_view interpolant_names[] = {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"};
 constexpr std::string_view divide_names[] = {"exact", "cut_reciprocal", "low_reciprocal"};
 constexpr std::string_view window_z_rule_names[] = {"chip", "exact", "float32"};
@@ -146,6 +147,9 @@ constexpr std::array fields{
     choice<&Rules::color>(
         "raster.color", color_names,
         {"[M] nv2a-fragment.md R6: 489,784 of 489,788 pixels", "[A] 11: exact plane, one rounding", ours, unmeasured}),
+    choice<&Rules::coordinates>(
+        "raster.coordinates", coordinate_names,
+        {"[M] cut_coordinates.h: 41,274 coordinates, for equal w", "[A] 11: exact plane, one rounding", ours, unmeasured}),
     interpolant_bits("raster.interpolant_bits", {"[A] 5: binary32", "[A] decisions.md 1: binary32", ours, unmeasured}),
     choice<&Hypothesis::divide>("raster.divide", divide_names,
                                 {"[A] 5: rounded once; nv2a-geometry.md 2 knows no bit-exact rule",

@@ -1,9 +1,8 @@
 // rasterizer/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
 //
-// Rule     Vertex colours to 8 bits first (nearest, a half up). Weights b as in cut_weight.h; the vertex whose b has
-//          the largest exponent takes the remainder 1 - (the two others), exactly; ties {0,1} -> v0, {0,2} -> v2, {1,2}
-//          -> v1, all -> v2. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2
-//          c2 + 128) >> 8, over 255 in binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0
+// Rule     Vertex colours to 8 bits first (nearest, a half up). Weights b as in cut_weight.h; the vertex that takes
+//          the remainder has 1 - (the two others), exactly. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2;
+//          colour = (w0 c0 + w1 c1 + w2 c2 + 128) >> 8, over 255 in binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0
 //          + p1) + p2)) in binary64, cut to 24 bits.
 // Source   nv2a-fragment.md R5, R6; nv2a-depth.md section 3.
 // Tests    tests/rasterizer/color_weights_test.cpp
@@ -51,14 +50,6 @@ class ColorWeights {
         constexpr std::uint64_t upper_24_bits = ~std::uint64_t{0} << (53 - 24);
         for (double& b : p) b = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b * r) & upper_24_bits);
         return p;
-    }
-    [[nodiscard]] static std::size_t remainder_vertex(const Weights& b) noexcept {
-        const auto exponent = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(b[i]) >> 52; };
-        const auto k0 = exponent(0), k1 = exponent(1), k2 = exponent(2);
-        if (k2 >= k0 && k2 > k1) return 2;  // alone, or with v0
-        if (k1 > k0) return 1;              // alone, or with v2
-        if (k0 > k2) return 0;              // alone, or with v1
-        return 2;                           // all three
     }
     [[nodiscard]] static std::array<std::int32_t, 3> from(const Weights& b) noexcept {
         const std::size_t rest = remainder_vertex(b);

@@ -33,6 +33,8 @@ enum class WindowZ : std::uint8_t {
     buffer_units
 };  // vertex window z in [0,1], or scaled by 2^n - 1 at the vertex
 enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
+// Texture coordinates, also those of units, where w is equal at all corners (cut_coordinates.h).
+enum class CoordinateInterpolation : std::uint8_t { exact_plane, cut_weights };
 // Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), or 2^(e - 23)
 // always.
 enum class OffsetUnit : std::uint8_t { format, float_exponent };
@@ -55,6 +57,7 @@ struct RasterRules {
     DepthRounding depth_rounding = DepthRounding::nearest;
     OffsetUnit offset_unit = OffsetUnit::format;
     ColorInterpolation color = ColorInterpolation::exact_plane;
+    CoordinateInterpolation coordinates = CoordinateInterpolation::exact_plane;
     DepthHypothesis hypothesis{};  // what is assumed of the depth paths
     friend bool operator==(const RasterRules&, const RasterRules&) = default;
 };
