@@ -19,6 +19,7 @@ Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& pr
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_vertex_shader_rounding(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProfile& profile);
