@@ -22,7 +22,7 @@ DeviceProfile geforce3() {
                 .depth_path = DepthPath::window_z,
                 .depth_rounding = DepthRounding::floor,
                 .color = ColorInterpolation::weights_8bit,
-                .coordinates = CoordinateInterpolation::cut_weights};
+                .interpolation = {.texture_coordinates = CoordinateRule::cut_weights}};
     p.alpha_test = AlphaTestPrecision::unorm8;
     p.texture_filter = TextureFilterPrecision::unorm8;
     p.quantizes_vertex_color = true;

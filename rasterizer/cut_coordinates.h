@@ -17,7 +17,8 @@
 namespace strata::rasterizer {
 
 [[nodiscard]] constexpr bool cuts_coordinates(const RasterRules& rules, const auto& inverse_w) noexcept {
-    return rules.coordinates == CoordinateInterpolation::cut_weights && inverse_w[0] == inverse_w[1] && inverse_w[0] == inverse_w[2];
+    return rules.interpolation.texture_coordinates == CoordinateRule::cut_weights && inverse_w[0] == inverse_w[1] &&
+           inverse_w[0] == inverse_w[2];
 }
 
 // Of the lanes' fragments; `u` at the corners.

@@ -3,11 +3,10 @@
 // pipeline/profile.cpp.
 #pragma once
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "rasterizer/depth_code.h"
 #include "rasterizer/depth_hypothesis.h"
+#include "rasterizer/interpolation_hypothesis.h"
 
 namespace strata::rasterizer {
 
@@ -33,8 +32,6 @@ enum class WindowZ : std::uint8_t {
     buffer_units
 };  // vertex window z in [0,1], or scaled by 2^n - 1 at the vertex
 enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
-// Texture coordinates, also those of units, where w is equal at all corners (cut_coordinates.h).
-enum class CoordinateInterpolation : std::uint8_t { exact_plane, cut_weights };
 // Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), or 2^(e - 23)
 // always.
 enum class OffsetUnit : std::uint8_t { format, float_exponent };
@@ -57,18 +54,9 @@ struct RasterRules {
     DepthRounding depth_rounding = DepthRounding::nearest;
     OffsetUnit offset_unit = OffsetUnit::format;
     ColorInterpolation color = ColorInterpolation::exact_plane;
-    CoordinateInterpolation coordinates = CoordinateInterpolation::exact_plane;
-    DepthHypothesis hypothesis{};  // what is assumed of the depth paths
+    DepthHypothesis hypothesis{};              // what is assumed of the depth paths
+    InterpolationHypothesis interpolation{};  // and of colours and texture coordinates
     friend bool operator==(const RasterRules&, const RasterRules&) = default;
 };
-
-// Rules that differ from given ones in one constant of the depth paths.
-struct NamedHypothesis {
-    std::string name;  // "interpolant_bits=20"
-    RasterRules rules;
-};
-
-// The given rules first ("as given"), then with every other value of each constant, depth_rounding among them.
-[[nodiscard]] std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules);
 
 }  // namespace strata::rasterizer

@@ -100,7 +100,7 @@ TEST_CASE("a coordinate that all corners share comes out as it is, and nothing s
 }
 
 TEST_CASE("coordinates are summed so for equal w alone, and only where the rules say so") {
-    const RasterRules chip{.coordinates = CoordinateInterpolation::cut_weights};
+    const RasterRules chip{.interpolation = {.texture_coordinates = CoordinateRule::cut_weights}};
     CHECK(cuts_coordinates(chip, std::array{0.5f, 0.5f, 0.5f}));
     CHECK_FALSE(cuts_coordinates(chip, std::array{0.5f, 0.5f, 0.25f}));
     CHECK_FALSE(cuts_coordinates(chip, std::array{0.5f, 0.25f, 0.5f}));

@@ -7,6 +7,7 @@
 
 #include "pipeline/check.h"
 #include "scenes/hardware_check/compare.h"
+#include "scenes/hardware_check/fixed_pipeline.h"
 
 using namespace strata;
 using namespace strata::scenes::hardware_check;
@@ -81,7 +82,7 @@ TEST_CASE("a profile that rounds positions, depth, coordinates or blending other
     CHECK(digest_with(blend, cut) != blend.digest);
 
     pipeline::DeviceProfile planes = geforce3();
-    planes.raster.coordinates = rasterizer::CoordinateInterpolation::exact_plane;
+    planes.raster.interpolation.texture_coordinates = rasterizer::CoordinateRule::exact_plane;
     for (const Row& row : {Row{"Combiner", "CombinerOps", "", {}}, Row{"Pixel_shader", "ClipPlane", "", {}},
                            Row{"Texture_shadow_comparator", "3F16_10.00-20.00_15.0000_GT", "", {}}})
         CHECK(digest_with(row, planes) != digest_with(row, geforce3()));
@@ -90,6 +91,30 @@ TEST_CASE("a profile that rounds positions, depth, coordinates or blending other
     unquantized.raster.hypothesis.quantize_reference = false;
     const Row shadow{"Texture_shadow_comparator", "3P16_10.00-20.00_15.0000_EQ", "", {}};
     CHECK(digest_with(shadow, unquantized) != digest_with(shadow, geforce3()));
+}
+
+// Words at the left column of quads whose weights are exact there, as captures of the NV2A hold them, and world z as the test
+// suite steps it. Exact arithmetic gives 4 for the first, and 16633061, 16726379, 16746512 where the reciprocal's last bits show.
+TEST_CASE("window depths of the fixed pipeline are the words that the chip stored") {
+    constexpr std::pair<float, int> at_24_bits[] = {{-6.0f, 8},
+                                                    {-5.393292427062988f, 6367072},
+                                                    {0.06707406044006348f, 14475595},
+                                                    {66.80491638183594f, 16633057},
+                                                    {117.76811218261719f, 16726374},
+                                                    {139.60948181152344f, 16746509},
+                                                    {193.0f, 16777210}};
+    for (const auto& [z, word] : at_24_bits) CHECK(static_cast<int>(chip_window_z(z, 16777215.0f)) == word);
+}
+
+// Depth_buffer's greys at 14 bits: the digest of the capture, which the profile's own 24 do not give (28607 pixels, 1 unit).
+TEST_CASE("with 14 bits of a vertex colour the chip's colours come out, with all of them they do not") {
+    pipeline::DeviceProfile measured = geforce3();
+    measured.raster.interpolation.vertex_color_bits = 14;
+    for (const Row& row : {Row{"Depth_buffer", "DepthFmt_z16_Cn_FZn_M00ffff", "2459688bdfd015f99906187c18c29a3a", {20, 25, 107, 116}},
+                           Row{"Depth_buffer", "DepthFmt_z24_Cn_FZn_Mffffff", "e649f7b886e6a4918317c97fda427fc7", {20, 25, 127, 116}}}) {
+        CHECK(digest_with(row, measured) == row.digest);
+        CHECK(digest_with(row, geforce3()) != row.digest);
+    }
 }
 
 TEST_CASE("a difference is counted, sized, placed and held against the bound") {
