@@ -111,17 +111,19 @@ class Columns {
         return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.rows), hn::BitCast(Signed{}, word));
     }
 
-    // take_row: with gathers, or where the places follow each other, without.
+    // With gathers, or where the places are one or follow each other, without.
     HWY_INLINE Color take(WordVec place, WordMask has) const {
         const Words d;
         const Floats df;
         place = hn::IfThenElseZero(has, place);
         const std::uint32_t first = hn::GetLane(place);
         const bool is_run = hn::AllTrue(d, hn::Eq(place, hn::Add(hn::Set(d, first), hn::Iota(d, 0))));
+        const bool is_one = hn::AllTrue(d, hn::Eq(place, hn::Set(d, first)));
         Color color;
         for (std::size_t c = 0; c < 4; ++c) {
-            color.channel[c] = is_run ? hn::LoadU(df, block_.color[c] + first)
-                                      : hn::GatherIndex(df, block_.color[c], hn::BitCast(Signed{}, place));
+            color.channel[c] = is_one ? hn::Set(df, block_.color[c][first])
+                               : is_run ? hn::LoadU(df, block_.color[c] + first)
+                                        : hn::GatherIndex(df, block_.color[c], hn::BitCast(Signed{}, place));
             color.channel[c] = hn::IfThenElseZero(hn::RebindMask(df, has), color.channel[c]);
         }
         return color;

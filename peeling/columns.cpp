@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "peeling/arrival_rows.h"
 #include "peeling/arrivals.h"
 #include "pipeline/arena.h"
 
@@ -14,7 +15,9 @@ namespace {
 constexpr std::size_t word_bytes = sizeof(std::uint64_t), color_bytes = 4 * sizeof(float);
 constexpr std::size_t cached_bytes = std::size_t{1} << 20;    // what a second-level cache holds of them beside the targets
 constexpr std::uint32_t most_ranks = 0xffff;
-constexpr std::uint64_t most_places = 0xffffffff;  // a place has 32 bits
+constexpr std::uint64_t most_places = 0xffffff00;  // a place has 32 bits
+constexpr std::uint32_t first_place = block_lanes;  // what rows would write before it, and does not count
+static_assert(rasterizer::row_padding <= block_lanes);
 
 [[nodiscard]] std::size_t blocks_of(std::size_t pixels) noexcept { return (pixels + block_lanes - 1) / block_lanes; }
 
@@ -32,8 +35,8 @@ class RegionColumns {
   public:
     RegionColumns(Region& region, const std::function<void(const ColumnBlock&)>& visit)
         : region_{region}, visit_{visit}, bytes_{region.frame().replay.bytes},
-          by_shader_z_{region.frame().key == DepthKey::shader_z} {
-        const std::size_t pixels = blocks_of(region.rect().area()) * block_lanes;
+          by_shader_z_{region.frame().key == DepthKey::shader_z}, rows_of_{region.row_source()} {
+        const std::size_t pixels = (blocks_of(region.rect().area()) + 1) * block_lanes;  // a row may end behind the last
         for (auto* const counts : {&count_, &hidden_, &at_surface_}) *counts = region.arena().take<std::uint32_t>(pixels);
     }
 
@@ -75,15 +78,14 @@ class RegionColumns {
     [[nodiscard]] bool plan(std::vector<Band>& bands) {
         const rasterizer::Rect rect = region_.rect();
         const auto width = static_cast<std::size_t>(rect.width());
-        const auto coverage = region_.arena().take<std::uint32_t>(rect.area());
-        std::ranges::fill(coverage, 0u);
-        region_.count_coverage(coverage);
+        const auto coverage = region_.arena().take<std::uint32_t>(rect.area() + block_lanes);
+        const auto places = region_.arena().take<std::uint32_t>(static_cast<std::size_t>(rect.height()));
+        find_coverage(coverage, places);
         for (int y = rect.y0; y < rect.y1; ++y) {
             Band row{{rect.x0, y, rect.x1, y + 1}};
-            for (const std::uint32_t n : coverage.subspan(static_cast<std::size_t>(y - rect.y0) * width, width)) {
-                row.ranks = std::max<std::uint64_t>(row.ranks, n);
-                row.places += n;
-            }
+            const auto number = static_cast<std::size_t>(y - rect.y0);
+            row.ranks = std::ranges::max(coverage.subspan(number * width, width));
+            row.places = places[number];
             if (row.bytes() > bytes_ || row.ranks > most_ranks || row.places > most_places) return false;
             if (!bands.empty()) {
                 const Band& last = bands.back();
@@ -98,9 +100,21 @@ class RegionColumns {
         return true;
     }
 
+    // By pixel, and by row what its fragments take of places.
+    void find_coverage(std::span<std::uint32_t> coverage, std::span<std::uint32_t> places) {
+        std::ranges::fill(coverage, 0u);
+        std::ranges::fill(places, 0u);
+        if (rows_of_) return count_rows(*rows_of_, region_.rect(), coverage.data(), places.data());
+        region_.count_coverage(coverage);
+        const auto width = static_cast<std::size_t>(region_.rect().width());
+        for (std::size_t y = 0; y < places.size(); ++y)
+            for (const std::uint32_t n : coverage.subspan(y * width, width)) places[y] += n;
+    }
+
     // One piece of memory, cut anew for every band; another one where a single row needs more.
     void take_memory(const Band& band) {
-        const std::size_t words = band.ranks * band.stride(), rows = band.ranks * block_lanes, places = band.places + block_lanes;
+        const std::size_t words = band.ranks * band.stride(), rows = band.ranks * block_lanes;
+        const std::size_t places = first_place + band.places + block_lanes;
         const std::size_t needed = (words + rows) * word_bytes + places * color_bytes;
         if (memory_.size() < needed) memory_ = region_.arena().take<std::byte>(needed);
         word_ = reinterpret_cast<std::uint64_t*>(memory_.data());
@@ -111,18 +125,36 @@ class RegionColumns {
 
     [[nodiscard]] bool place(const Band& band) {
         for (const auto& counts : {count_, hidden_, at_surface_}) std::ranges::fill(counts, 0u);
-        arrivals_ = {.stride = band.stride(), .ranks = static_cast<std::uint32_t>(band.ranks), .places = 0,
-                     .most_places = static_cast<std::uint32_t>(band.places), .word = word_, .count = count_.data(),
+        arrivals_ = {.stride = band.stride(), .ranks = static_cast<std::uint32_t>(band.ranks), .places = first_place,
+                     .most_places = first_place + static_cast<std::uint32_t>(band.places), .word = word_, .count = count_.data(),
                      .hidden = hidden_.data(), .at_surface = at_surface_.data(),
                      .opaque = region_.storage(region_.opaque_depth()).depth(0) + first_of(band),
                      .same_opaque = region_.opaque_depth_is_cleared(), .by_shader_z = by_shader_z_};
         for (std::size_t c = 0; c < 4; ++c) arrivals_.color[c] = color_[c];
-        const bool fits = region_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
+        const bool fits = rows_of_ ? place_rows(band) : place_batches(band);
+        fragments_.has_denormals |= arrivals_.has_denormals;
+        return fits;
+    }
+
+    [[nodiscard]] bool place_batches(const Band& band) {
+        return region_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
             fragments_.rasterized += lanes(in);
             fragments_.masked += lanes(in) - Region::alive_count(out, in.count);
             return append(arrivals_, in, out.alive.data());
         });
-        fragments_.has_denormals |= arrivals_.has_denormals;
+    }
+
+    // Twice as many triangles each time: what does not fit is known soon.
+    [[nodiscard]] bool place_rows(const Band& band) {
+        const std::uint64_t before = fragments_.rasterized;
+        bool fits = true;
+        auto triangles = rows_of_->triangles;
+        for (std::size_t part = 64; fits && !triangles.empty(); part *= 2) {
+            part = std::min(part, triangles.size());
+            fits = append_rows(arrivals_, *rows_of_, triangles.first(part), band.rect, fragments_.rasterized);
+            triangles = triangles.subspan(part);
+        }
+        region_.looked_at(fragments_.rasterized - before);
         return fits;
     }
 
@@ -158,6 +190,7 @@ class RegionColumns {
     const std::function<void(const ColumnBlock&)>& visit_;
     std::uint64_t bytes_;  // the region's share of memory
     bool by_shader_z_;
+    std::optional<RowSource> rows_of_;  // empty: batches
     RegionFragments fragments_;
     Arrivals arrivals_;
     std::span<std::uint32_t> count_, hidden_, at_surface_;

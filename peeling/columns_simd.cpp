@@ -6,12 +6,12 @@
 #include "hwy/highway.h"
 
 #include "peeling/arrivals.h"
+#include "peeling/keys-inl.h"
 #include "rasterizer/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = hn::CappedTag<std::uint32_t, block_lanes>;
 using Floats = hn::RebindToFloat<Words>;
@@ -26,23 +26,6 @@ HWY_INLINE std::uint32_t bits_of(WordMask mask) {
     std::uint64_t bits = 0;
     hn::StoreMaskBits(Words{}, mask, reinterpret_cast<std::uint8_t*>(&bits));
     return static_cast<std::uint32_t>(bits);
-}
-
-// The keys of a vector of fragments, which of them are visible, and which are denormals.
-struct Keys {
-    WordVec key;
-    WordMask is_visible, is_denormal;
-};
-
-// ordered_code; no visible shader_z is NaN.
-HWY_INLINE Keys keys_of_z(hn::Vec<Floats> z, WordVec surface) {
-    const Words d;
-    const WordVec bits = hn::BitCast(d, hn::IfThenZeroElse(hn::Eq(z, hn::Zero(Floats{})), z));
-    const WordVec sign = hn::BitCast(d, hn::ShiftRight<31>(hn::BitCast(Signed{}, bits)));
-    const WordVec key = hn::Xor(bits, hn::Or(sign, hn::Set(d, 0x80000000u)));
-    const WordVec magnitude = hn::And(bits, hn::Set(d, 0x7fffffffu));
-    const WordMask is_denormal = hn::Lt(hn::Sub(magnitude, hn::Set(d, 1)), hn::Set(d, 0x007fffffu));
-    return {key, hn::RebindMask(d, hn::Lt(z, hn::BitCast(Floats{}, surface))), is_denormal};
 }
 
 // One batch on its way down.
@@ -66,7 +49,7 @@ class Appending {
         const WordMask lives = hn::And(in_batch, hn::Ne(hn::LoadU(d, alive_ + i), hn::Zero(d)));
         const WordVec pixel = hn::IfThenElseZero(in_batch, hn::LoadU(d, &in_.pixel[i]));
         const bool is_run = hn::AllTrue(d, hn::Eq(pixel, counting(in_.pixel[i])));
-        const Keys keys = keys_at(i, surface_at(pixel, in_.pixel[i], is_run));
+        const Keys<Words> keys = keys_at(i, surface_at(pixel, in_.pixel[i], is_run));
         const WordMask is_visible = hn::And(lives, keys.is_visible);
         if (by_shader_z && !hn::AllFalse(d, hn::And(is_visible, keys.is_denormal))) to_.has_denormals = true;
         if (is_run && hn::AllTrue(d, is_visible) && run_of(i, keys.key)) return true;
@@ -92,12 +75,11 @@ class Appending {
         return hn::GatherIndex(d, to_.opaque, hn::BitCast(Signed{}, pixel));
     }
 
-    HWY_INLINE Keys keys_at(std::size_t i, WordVec surface) const {
+    HWY_INLINE Keys<Words> keys_at(std::size_t i, WordVec surface) const {
         if constexpr (by_shader_z) {
-            return keys_of_z(hn::LoadU(Floats{}, &in_.shader_z[i]), surface);
+            return keys_of_z(Words{}, hn::LoadU(Floats{}, &in_.shader_z[i]), surface);
         } else {
-            const WordVec key = hn::LoadU(Words{}, &in_.code[i]);
-            return {key, hn::Lt(key, surface), hn::FirstN(Words{}, 0)};
+            return keys_of_code(Words{}, hn::LoadU(Words{}, &in_.code[i]), surface);
         }
     }
 

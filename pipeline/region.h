@@ -61,6 +61,13 @@ struct ScreenWords {
     std::size_t pixels = 0;
 };
 
+// What a walk over a region's fragments row by row needs (rasterizer/row_walk-inl.h).
+struct RowSource {
+    const rasterizer::Geometry& geometry;
+    std::span<const std::uint32_t> triangles;
+    rasterizer::DepthRequest depth;
+};
+
 enum class Extent : std::uint8_t { frame, tile };
 // Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
 enum class List : std::uint8_t { first, second };
@@ -165,6 +172,9 @@ class Region {
     // band's first. Not a pass. Once the program answers false it sees no more, and so does the caller.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
+    // The same fragments without batches, where rows have their depths and colours; whoever walks them says how many they were.
+    [[nodiscard]] std::optional<RowSource> row_source() const;
+    void looked_at(std::uint64_t fragments) noexcept { fragments_drawn_ += fragments; }
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
     [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
     [[nodiscard]] Arena& arena() noexcept;  // free again when the region is gone
@@ -213,6 +223,7 @@ class Region {
                         const bool& goes_on);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] FragmentStore& store() noexcept;
+    [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
     [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list) const;
     [[nodiscard]] bool sums_suit_rows(const PassState& state) const;
     Drawn draw_sum_rows(const PassState& state);

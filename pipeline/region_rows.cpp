@@ -53,15 +53,28 @@ MaterialNeeds needs_in(const PreparedDraw& list, std::size_t tile) {
 
 }  // namespace
 
+bool Region::may_walk_rows(const PreparedDraw& list) const {
+    return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.once_more == Effect::none &&
+           row_walk_suits(list.geometry, frame_.key_request(), rect_);
+}
+
+std::optional<RowSource> Region::row_source() const {
+    const PreparedDraw& list = *frame_.transparent;
+    if (!may_walk_rows(list) || profile().raster.color != rasterizer::ColorInterpolation::exact_plane ||
+        needs_in(list, tile_) != MaterialNeeds{})
+        return {};
+    return RowSource{list.geometry, list.geometry.bin(tile_), frame_.key_request()};
+}
+
 // Whether nothing stands between the rasterizer and the tests of this pass.
 bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const {
-    if (extent_ != Extent::tile || frame_.effects != Effects::needed || frame_.once_more != Effect::none) return false;
+    if (!may_walk_rows(list)) return false;
     const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
                           (state.sample_mask & 1u) != 0 && state.primitives.empty() && !state.needs.reference &&
                           !state.replaces_depth && std::ranges::none_of(state.reads, &Target::exists) &&
                           std::ranges::none_of(state.textures, &Target::exists) && !needs_in(list, tile_).color;
     const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
-    return is_plain && !is_recalled && row_walk_suits(list.geometry, frame_.key_request(), rect_);
+    return is_plain && !is_recalled;
 }
 
 // What batches would have counted, with the test against the depth target.

@@ -4,22 +4,12 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "pipeline/color_planes-inl.h"
 #include "pipeline/sum_rows.h"
-#include "rasterizer/row_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-namespace raster = rasterizer::HWY_NAMESPACE;
-using rasterizer::DrawnTriangle;
-using rasterizer::FilterPlane;
-using rasterizer::RationalPlane;
-using raster::F32;
-using raster::F64;
-using raster::U32;
-using raster::V32;
 
 struct SumState {
     SumPlanes planes;
@@ -73,80 +63,6 @@ HWY_INLINE void add(V32 (&source)[channels], raster::RowMask covered, std::uint1
     for (std::size_t c = 0; c < channels; ++c)
         hn::BlendedStore(hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, sum[c])), lanes, Code16{}, halves[c]);
 }
-
-// The colour of a triangle: planes before the division by the one of 1 / w, equal ones once, and constants.
-class ColorPlanes {
-  public:
-    HWY_INLINE explicit ColorPlanes(const DrawnTriangle& triangle) : geometry_{triangle.geometry}, index_{triangle.index} {
-        std::array<const rasterizer::ClipVertex*, 3> v;
-        for (std::size_t i = 0; i < 3; ++i) {
-            v[i] = &geometry_.vertices[triangle.record.vertex[i]];
-            w_[i] = geometry_.corners[triangle.record.vertex[i]].inverse_w;
-        }
-        has_w_ = !(w_[0] == 1.0f && w_[1] == 1.0f && w_[2] == 1.0f);
-        const bool exact = triangle.weights.is_exact();
-        inverse_w_ = FilterPlane{plane_of(w_), exact};
-        for (std::size_t c = 0; c < 4; ++c) {
-            const auto value = [&](std::size_t i) { return triangle.record.front_facing ? v[i]->front[c] : v[i]->back[c]; };
-            value_[c] = {value(0), value(1), value(2)};
-            source_[c] = source_of(c);
-            if (source_[c] != c || is_constant(c)) continue;
-            for (std::size_t i = 0; i < 3; ++i) product_[c][i] = value_[c][i] * w_[i];
-            plane_[c] = FilterPlane{plane_of(product_[c]), exact};
-        }
-    }
-
-    // r g b a, divided.
-    template <bool unsnapped>
-    HWY_INLINE void at(const raster::Row& row, const raster::Weights& b, V32 (&color)[4]) const {
-        const V32 inverse_w = has_w_ ? rounded<unsnapped>(row, b, inverse_w_, w_) : hn::Set(F32{}, 1.0f);
-        for (std::size_t c = 0; c < 4; ++c) {
-            if (source_[c] != c) {
-                color[c] = color[source_[c]];
-            } else if (is_constant(c)) {
-                color[c] = hn::Set(F32{}, value_[c][0]);
-            } else {
-                const V32 u = rounded<unsnapped>(row, b, plane_[c], product_[c]);
-                color[c] = has_w_ ? hn::Div(u, inverse_w) : u;
-            }
-        }
-    }
-
-  private:
-    using Corners = std::array<float, 3>;
-
-    HWY_INLINE static RationalPlane plane_of(const Corners& v) { return {{v[0], v[1], v[2]}}; }
-    HWY_INLINE static bool same(float a, float b) { return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b); }
-    HWY_INLINE bool is_constant(std::size_t c) const {
-        return same(value_[c][0], value_[c][1]) && same(value_[c][0], value_[c][2]);
-    }
-    // The first channel with the same values at all corners: greys have one plane.
-    HWY_INLINE std::size_t source_of(std::size_t c) const {
-        for (std::size_t other = 0; other < c; ++other)
-            if (same(value_[c][0], value_[other][0]) && same(value_[c][1], value_[other][1]) &&
-                same(value_[c][2], value_[other][2]))
-                return other;
-        return c;
-    }
-    template <bool unsnapped>
-    HWY_INLINE V32 rounded(const raster::Row& row, const raster::Weights& b, const FilterPlane& plane,
-                           const Corners& corners) const {
-        const auto v = raster::plane_at(plane, b);
-        if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
-        auto unsure = hn::Zero(U32{});
-        const V32 low = raster::rounded(v, hn::Set(F64{}, plane.error), unsure);
-        return raster::decided(low, unsure, plane_of(corners), geometry_, index_, row);
-    }
-
-    const rasterizer::Geometry& geometry_;
-    const std::uint32_t index_;
-    Corners w_;
-    std::array<Corners, 4> value_, product_;
-    std::array<std::size_t, 4> source_;
-    FilterPlane inverse_w_;
-    std::array<FilterPlane, 4> plane_;
-    bool has_w_;
-};
 
 template <bool is_tested, bool flushes>
 struct SumOf {

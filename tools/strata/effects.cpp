@@ -73,6 +73,9 @@ std::string to_text(const Explained& e, const BenchScene& scene) {
                                       row.seconds ? fmt::format("{:.2f}", *row.seconds * 1e3) : "-", row.why});
     const auto& t = e.plan.tiles;
     std::string text = to_text(table);
+    const peeling::ListOrder order = e.algorithm->order;
+    if (order == peeling::ListOrder::sets || order == peeling::ListOrder::objects)
+        text += "fragments: as if every pass drew the whole list; a pass over a part of it draws fewer\n";
     text += "ms: what an effect costs in the whole run, or what leaving it out saves; each pass rasterizes, medians of runs in turn\n";
     text += fmt::format(
         "{} tiles: {} empty, {} with opaque fragments alone, {} with one transparent fragment a pixel at most, {} that "

@@ -32,8 +32,8 @@ Section layers(const ReproduceOptions& options, const Teapot& teapot) {
     const peeling::RenderResult result = teapot.render(render);
     Section section{"Figure 3: simple depth peeling",
                     "Layer 0 holds the nearest depths, layer 1 the second nearest, and so on; red outside, green "
-                    "inside. The paper shows "
-                    "layers 0 to 3 of its teapot over a blue ground plane; ours is the same teapot without the plane."};
+                    "inside, and a blue plane underneath, as in the paper, which shows layers 0 to 3. Each layer has "
+                    "the scene's own alpha of 0.5."};
     section.sheet = {"figure3", {"layer", "pixels with a fragment"}, {}};
     for (std::size_t i = 0; i < result.frame.layers.size(); ++i) {
         const pipeline::Image& color = result.frame.layers[i].color;

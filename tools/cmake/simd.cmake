@@ -1,0 +1,13 @@
+# PkgConfig::HIGHWAY - the instruction sets that the kernels are compiled for: those that `--simd` names. A machine with none of them
+# runs the scalar twins, so Highway's own fallbacks would be compiled for nobody. Instrumented builds, where a kernel takes a minute
+# to compile, have one set.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  if(STRATA_SANITIZE)
+    target_compile_definitions(PkgConfig::HIGHWAY INTERFACE
+      HWY_BASELINE_TARGETS=HWY_AVX2 "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3)")
+  else()
+    target_compile_definitions(PkgConfig::HIGHWAY INTERFACE HWY_BASELINE_TARGETS=HWY_SSE4)
+  endif()
+endif()
