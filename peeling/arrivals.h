@@ -80,14 +80,32 @@ struct Rows {
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
             if (b[lane] < a[lane]) std::swap(a[lane], b[lane]);
     }
-    static void swap(std::uint64_t* a, std::uint64_t* b) noexcept { std::swap_ranges(a, a + block_lanes, b); }
     // a <= b in every column.
     [[nodiscard]] static bool in_order(const std::uint64_t* a, const std::uint64_t* b) noexcept {
         return std::equal(a, a + block_lanes, b, [](std::uint64_t x, std::uint64_t y) { return x <= y; });
     }
+    // The columns' heights and what is hidden; false if there is neither.
+    [[nodiscard]] static bool find_heights(const Arrivals& from, std::size_t pixel, ColumnBlock& block) noexcept {
+        std::copy_n(from.count + pixel, block_lanes, block.visible.begin());
+        std::copy_n(from.hidden + pixel, block_lanes, block.hidden.begin());
+        std::copy_n(from.at_surface + pixel, block_lanes, block.at_surface.begin());
+        block.depth = *std::ranges::max_element(block.visible);
+        return block.depth > 0 || *std::ranges::max_element(block.hidden) > 0;
+    }
+    [[nodiscard]] static std::uint32_t nearest(const std::uint64_t* row) noexcept {
+        return static_cast<std::uint32_t>(*std::min_element(row, row + block_lanes) >> 32);
+    }
     // Row k: words where a column is that high, ~0 elsewhere.
     static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) noexcept {
         for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
+    }
+    // The same for all rows, each column from its end.
+    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
+                              std::uint64_t* rows) noexcept {
+        for (std::size_t k = 0; k < depth; ++k)
+            for (std::size_t lane = 0; lane < block_lanes; ++lane)
+                rows[k * block_lanes + lane] =
+                    k < visible[lane] ? from.word[(visible[lane] - 1 - k) * from.stride + pixel + lane] : ~std::uint64_t{0};
     }
     static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) noexcept {
         has_ties = {};
@@ -118,52 +136,50 @@ template <class Rows>
     }
 }
 
-// How many rows from the first on rise (or fall) in every column.
+// Ascending. What was drawn in depth order, either way, but for a few fragments at a column's end, needs only those inserted. Far to
+// near it is loaded from the end, where columns of different heights begin together.
 template <class Rows>
-[[gnu::always_inline]] inline std::size_t rising_rows(const std::uint64_t* rows, std::size_t depth) noexcept {
-    std::size_t count = 1;
-    while (count < depth && Rows::in_order(rows + (count - 1) * block_lanes, rows + count * block_lanes)) ++count;
-    return count;
-}
-template <class Rows>
-[[gnu::always_inline]] inline std::size_t falling_rows(const std::uint64_t* rows, std::size_t depth) noexcept {
-    std::size_t count = 1;
-    while (count < depth && Rows::in_order(rows + count * block_lanes, rows + (count - 1) * block_lanes)) ++count;
-    return count;
-}
-
-// Ascending. What was drawn in depth order, but for a few rows at its end, needs only those inserted.
-template <class Rows>
-[[gnu::always_inline]] inline void sort_rows(std::uint64_t* rows, std::size_t depth) noexcept {
-    constexpr std::size_t few = 8;
-    if (depth < 2) return;
-    const std::size_t rising = rising_rows<Rows>(rows, depth), falling = rising > 1 ? 0 : falling_rows<Rows>(rows, depth);
-    const std::size_t ordered = std::max(rising, falling);
-    if (depth - ordered > few) return merge_exchange<Rows>(rows, depth);
-    for (std::size_t i = 0, j = falling; i + 1 < j; ++i) Rows::swap(rows + i * block_lanes, rows + --j * block_lanes);
-    for (std::size_t row = ordered; row < depth; ++row)
-        for (std::uint64_t* at = rows + row * block_lanes; at > rows && !Rows::in_order(at - block_lanes, at); at -= block_lanes)
-            Rows::exchange(at - block_lanes, at);
-}
-
-template <class Rows>
-[[gnu::always_inline]] inline void sort_words(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
+[[gnu::always_inline]] inline void sort_words(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
                                               std::uint64_t* rows) noexcept {
-    for (std::uint32_t k = 0; k < block.depth; ++k)
-        Rows::load(from.word + k * from.stride + pixel, block.visible, k, rows + k * block_lanes);
-    sort_rows<Rows>(rows, block.depth);
+    constexpr std::size_t few = 8;
+    const auto row = [rows](std::size_t k) { return rows + k * block_lanes; };
+    const auto rises = [row](std::size_t k) { return Rows::in_order(row(k), row(k + 1)); };
+    std::size_t rising = 0;
+    for (std::size_t k = 0; k < depth && k - rising <= few; ++k) {
+        Rows::load(from.word + k * from.stride + pixel, visible, static_cast<std::uint32_t>(k), row(k));
+        rising = k == rising && (k == 0 || rises(k - 1)) ? k + 1 : rising;
+    }
+    if (depth - rising <= few) {
+        for (std::size_t k = rising; k < depth; ++k)
+            for (std::size_t at = k; at > 0 && !rises(at - 1); --at) Rows::exchange(row(at - 1), row(at));
+        return;
+    }
+    Rows::load_from_end(from, pixel, visible, depth, rows);
+    std::size_t first = depth - 1;
+    while (first > 0 && rises(first - 1)) --first;
+    if (first > few) return merge_exchange<Rows>(rows, depth);
+    for (std::size_t k = first; k-- > 0;)
+        for (std::size_t at = k; at + 1 < depth && !rises(at); ++at) Rows::exchange(row(at), row(at + 1));
+}
+
+template <class Rows>
+[[gnu::always_inline]] inline bool take_rows(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
+    if (!Rows::find_heights(from, pixel, block)) return false;
+    sort_words<Rows>(from, pixel, block.visible, block.depth, rows);
     Rows::find_ties(rows, block.depth, block.has_ties);
+    block.nearest = block.depth > 0 ? Rows::nearest(rows) : ~0u;
+    block.rows = rows;
+    return true;
 }
 
 }  // namespace strict
 
 // Puts the living fragments of a batch down; false if there was no room for one of them: then `to` is of no more use.
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept;
-// The sixteen columns from `pixel` on into `rows`, of which there are block.depth, sorted; fills has_ties.
-void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept;
+// The sixteen columns from `pixel` on, sorted into `rows`, of which there is room for as many as the highest has; all of `block` but
+// where it lies and where its colours are. False if no fragment is there.
+[[nodiscard]] bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept;
 // before[row * block_lanes + lane] = how many rows there are up to the last one below `row` whose fragment came earlier; 0 if none did.
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept;
-// Sorts the first `depth` rows of sixteen columns, each on its own, ascending.
-void sort_columns(std::uint64_t* rows, std::size_t depth) noexcept;
 
 }  // namespace strata::peeling

@@ -164,24 +164,13 @@ class RegionColumns {
 
     void visit_blocks(const Band& band) {
         const std::size_t pixels = band.rect.area();
+        ColumnBlock block;
+        for (std::size_t c = 0; c < 4; ++c) block.color[c] = color_[c];
         for (std::size_t pixel = 0; pixel < pixels; pixel += block_lanes) {
-            ColumnBlock block;
-            std::uint32_t hidden = 0;
-            for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-                block.visible[lane] = count_[pixel + lane];
-                block.hidden[lane] = hidden_[pixel + lane];
-                block.at_surface[lane] = at_surface_[pixel + lane];
-                block.depth = std::max(block.depth, block.visible[lane]);
-                hidden |= block.hidden[lane];
-            }
-            if ((block.depth | hidden) == 0) continue;
+            if (!take_block(arrivals_, pixel, block, rows_)) continue;
             block.first = first_of(band) + pixel;
             block.count = static_cast<int>(std::min(pixels - pixel, block_lanes));
-            for (std::size_t c = 0; c < 4; ++c) block.color[c] = color_[c];
-            sort_block(arrivals_, pixel, block, rows_);
-            block.rows = rows_;
-            for (std::size_t lane = 0; lane < block_lanes && block.depth > 0; ++lane)
-                fragments_.nearest = std::min(fragments_.nearest, block.key(lane, 0));
+            fragments_.nearest = std::min(fragments_.nearest, block.nearest);
             visit_(block);
         }
     }

@@ -22,6 +22,7 @@ struct ColumnBlock {
     std::size_t first = 0;      // its first pixel in the region
     int count = 0;              // its pixels; the columns behind the region's last pixel are empty
     std::uint32_t depth = 0;    // rows: of the highest column
+    std::uint32_t nearest = ~0u;  // the least key
     LaneWords visible{};        // heights
     LaneWords hidden{};         // fragments at the opaque surface or behind it
     LaneWords at_surface{};     // of these, the ones exactly at it

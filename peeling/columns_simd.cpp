@@ -169,23 +169,58 @@ struct VectorRows {
             hn::StoreU(hn::Max(x, y), Wide{}, b + lane);
         }
     }
-    static void swap(std::uint64_t* a, std::uint64_t* b) {
-        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
-            const auto x = hn::LoadU(Wide{}, a + lane), y = hn::LoadU(Wide{}, b + lane);
-            hn::StoreU(y, Wide{}, a + lane);
-            hn::StoreU(x, Wide{}, b + lane);
-        }
-    }
     static bool in_order(const std::uint64_t* a, const std::uint64_t* b) {
         for (std::size_t lane = 0; lane < block_lanes; lane += step)
             if (!hn::AllFalse(Wide{}, hn::Lt(hn::LoadU(Wide{}, b + lane), hn::LoadU(Wide{}, a + lane)))) return false;
         return true;
+    }
+    static bool find_heights(const Arrivals& from, std::size_t pixel, ColumnBlock& block) {
+        const Words d;
+        WordVec highest = hn::Zero(d), hidden = hn::Zero(d);
+        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
+            const WordVec height = hn::LoadU(d, from.count + pixel + lane), behind = hn::LoadU(d, from.hidden + pixel + lane);
+            hn::StoreU(height, d, &block.visible[lane]);
+            hn::StoreU(behind, d, &block.hidden[lane]);
+            hn::StoreU(hn::LoadU(d, from.at_surface + pixel + lane), d, &block.at_surface[lane]);
+            highest = hn::Max(highest, height);
+            hidden = hn::Or(hidden, behind);
+        }
+        block.depth = hn::GetLane(hn::MaxOfLanes(d, highest));
+        return block.depth > 0 || !hn::AllTrue(d, hn::Eq(hidden, hn::Zero(d)));
+    }
+    static std::uint32_t nearest(const std::uint64_t* row) {
+        auto least = hn::LoadU(Wide{}, row);
+        for (std::size_t lane = step; lane < block_lanes; lane += step) least = hn::Min(least, hn::LoadU(Wide{}, row + lane));
+        return static_cast<std::uint32_t>(hn::GetLane(hn::MinOfLanes(Wide{}, least)) >> 32);
     }
     static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) {
         for (std::size_t lane = 0; lane < block_lanes; lane += step) {
             const auto height = hn::PromoteTo(Wide{}, hn::LoadU(hn::Rebind<std::uint32_t, Wide>{}, &visible[lane]));
             const auto is_in = hn::Lt(hn::Set(Wide{}, k), height);
             hn::StoreU(hn::IfThenElse(is_in, hn::LoadU(Wide{}, words + lane), hn::Set(Wide{}, ~std::uint64_t{0})), Wide{}, row + lane);
+        }
+    }
+    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth, std::uint64_t* rows) {
+        const bool is_full = std::ranges::all_of(visible, [depth](std::uint32_t height) { return height == depth; });
+        for (std::size_t k = 0; is_full && k < depth; ++k)
+            for (std::size_t lane = 0; lane < block_lanes; lane += step)
+                hn::StoreU(hn::LoadU(Wide{}, from.word + (depth - 1 - k) * from.stride + pixel + lane), Wide{}, rows + k * block_lanes + lane);
+        if (!is_full) gather_from_end(from, pixel, visible, depth, rows);
+    }
+    static void gather_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth, std::uint64_t* rows) {
+        using Index = hn::RebindToSigned<Wide>;
+        const auto least = hn::Set(Index{}, static_cast<std::int64_t>(pixel)), none = hn::Set(Index{}, -1);
+        const auto stride = hn::Set(Index{}, static_cast<std::int64_t>(from.stride));
+        for (std::size_t lane = 0; lane < block_lanes; lane += step) {
+            HWY_ALIGN std::int64_t last[step];
+            for (std::size_t i = 0; i < step; ++i)
+                last[i] = (std::int64_t{visible[lane + i]} - 1) * static_cast<std::int64_t>(from.stride) + static_cast<std::int64_t>(pixel + lane + i);
+            auto index = hn::Load(Index{}, last);
+            for (std::size_t k = 0; k < depth; ++k, index = hn::Sub(index, stride)) {
+                const auto is_in = hn::RebindMask(Wide{}, hn::Lt(none, hn::Sub(index, least)));
+                const auto word = hn::GatherIndex(Wide{}, from.word, hn::Max(index, least));
+                hn::StoreU(hn::IfThenElse(is_in, word, hn::Set(Wide{}, ~std::uint64_t{0})), Wide{}, rows + k * block_lanes + lane);
+            }
         }
     }
     static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) {
@@ -203,11 +238,9 @@ struct VectorRows {
     }
 };
 
-[[gnu::flatten]] void sort_arrivals(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) {
-    sort_words<VectorRows>(from, pixel, block, rows);
+[[gnu::flatten]] bool take_sorted(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) {
+    return take_rows<VectorRows>(from, pixel, block, rows);
 }
-
-[[gnu::flatten]] void sort(std::uint64_t* rows, std::size_t depth) { sort_rows<VectorRows>(rows, depth); }
 
 }  // namespace
 }  // namespace strata::peeling::HWY_NAMESPACE
@@ -216,8 +249,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace strata::peeling {
 HWY_EXPORT(append_batch);
-HWY_EXPORT(sort_arrivals);
-HWY_EXPORT(sort);
+HWY_EXPORT(take_sorted);
 HWY_EXPORT(arrived_before);
 
 bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
@@ -226,19 +258,14 @@ bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t
     return to.by_shader_z ? scalar::append<true>(to, in, alive) : scalar::append<false>(to, in, alive);
 }
 
-void sort_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
-    if (simd_is_scalar()) return sort_words<scalar::Rows>(from, pixel, block, rows);
-    HWY_DYNAMIC_DISPATCH(sort_arrivals)(from, pixel, block, rows);
+bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
+    if (simd_is_scalar()) return take_rows<scalar::Rows>(from, pixel, block, rows);
+    return HWY_DYNAMIC_DISPATCH(take_sorted)(from, pixel, block, rows);
 }
 
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {
     if (simd_is_scalar()) return scalar::find_arrived_before(block, before);
     HWY_DYNAMIC_DISPATCH(arrived_before)(block, before);
-}
-
-void sort_columns(std::uint64_t* rows, std::size_t depth) noexcept {
-    if (simd_is_scalar()) return sort_rows<scalar::Rows>(rows, depth);
-    HWY_DYNAMIC_DISPATCH(sort)(rows, depth);
 }
 
 }  // namespace strata::peeling

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cstring>
 #include <numeric>
 
 #include "pipeline/check.h"
 #include "pipeline/convert.h"
 #include "pipeline/half.h"
+#include "pipeline/image_words.h"
 #include "pipeline/narrow.h"
 #include "pipeline/region_scratch.h"
 #include "pipeline/unorm8.h"
@@ -34,18 +34,11 @@ std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, c
 // Neighbouring pixels of the two commonest layouts, whose words are nearly the image's codes; false for the others.
 bool read_words(const Texels& from, std::size_t first, std::size_t count, std::uint32_t* out) {
     const std::uint32_t* const words = from.plane(0).words + first;
-    if (from.channels == 1 && from.bits_per_channel == 32) {
-        std::copy_n(words, count, out);
-        return true;
-    }
-    if (from.channels != 4 || from.bits_per_channel != 8) return false;
-    std::array<std::uint8_t, 4 * batch_capacity> bytes;  // a loop that widens bytes is vectorised, one that shifts words is not
-    for (std::size_t done = 0; done < count; done += batch_capacity) {
-        const std::size_t part = std::min<std::size_t>(count - done, batch_capacity);
-        std::memcpy(bytes.data(), words + done, 4 * part);
-        for (std::size_t i = 0; i < 4 * part; ++i) out[4 * done + i] = bytes[i];
-    }
-    return std::endian::native == std::endian::little;
+    const bool is_bytes = from.channels == 4 && from.bits_per_channel == 8;
+    if (is_bytes) widen_words(words, count, out);
+    else if (from.channels == 1 && from.bits_per_channel == 32) std::copy_n(words, count, out);
+    else return false;
+    return true;
 }
 
 std::uint64_t bytes(const TargetStorage& s) {
@@ -238,6 +231,7 @@ Image Region::image(Target target) const {
     const TargetStorage& from = storage(target);
     Image image{from.format(), rect_.width(), rect_.height(), from.samples()};
     for (int y = 0; y < rect_.height(); ++y) read_row(from, y, &image.codes[image.index(0, y)]);
+    finish_words();
     return image;
 }
 
@@ -245,6 +239,7 @@ void Region::write_image(Target target, Image& frame) const {
     const rasterizer::Rect& whole = frame_.rect();
     for (int y = 0; y < rect_.height(); ++y)
         read_row(storage(target), y, &frame.codes[frame.index(rect_.x0 - whole.x0, rect_.y0 - whole.y0 + y)]);
+    finish_words();
 }
 
 // One row of the region as Image orders it: pixels, their samples, their channels.

@@ -94,6 +94,7 @@ class TileBlock {
     template <class Visit>
     void visit(std::size_t tiles_x, Visit&& visit) const {
         const std::size_t first = bits_ & tile_mask;
+        if (bits_ >> 24 == 1) return visit(first);  // as mostly
         for (const std::size_t corner : {0u, 1u, 2u, 3u})
             if ((bits_ >> (24 + corner) & 1u) != 0) visit(first + corner % 2 + corner / 2 * tiles_x);
     }

@@ -27,7 +27,13 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
     double greatest = -std::numeric_limits<double>::infinity(), size = 0.0;
     const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
     const double beyond = geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
-    for (const std::uint32_t i : triangles) {
+    constexpr std::size_t ahead = 16;  // what is on its way meanwhile: a list names triangles here and there
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const std::uint32_t i = triangles[k];
+        if (k + 2 * ahead < triangles.size()) {
+            __builtin_prefetch(&geometry.triangles[triangles[k + 2 * ahead]]);
+            for (const std::uint32_t v : geometry.triangles[triangles[k + ahead]].vertex) __builtin_prefetch(&geometry.corners[v]);
+        }
         const std::array<double, 3> z = geometry.depths(i);
         double most = larger(larger(z[0], z[1]), z[2]);
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped)

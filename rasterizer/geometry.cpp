@@ -82,10 +82,10 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
         const SetupChunk chunk = std::move(chunks[c]);
         const auto at = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
         const auto moved = static_cast<std::uint32_t>(place[c].vertex - given);
-        std::ranges::transform(chunk.triangles, at(geometry.triangles, place[c].triangle), [&](TriangleRecord t) {
-            for (std::uint32_t& v : t.vertex) v += v < given ? 0 : moved;
-            return t;
-        });
+        const auto triangles = at(geometry.triangles, place[c].triangle);
+        std::ranges::copy(chunk.triangles, triangles);
+        for (auto t = triangles; !chunk.vertices.empty() && t != triangles + std::ssize(chunk.triangles); ++t)
+            for (std::uint32_t& v : t->vertex) v += v < given ? 0 : moved;
         if (!chunk.offset_z.empty()) std::ranges::copy(chunk.offset_z, at(geometry.offset_z, place[c].triangle));
         std::ranges::copy(chunk.vertices, at(geometry.vertices, place[c].vertex));
         std::ranges::copy(chunk.corners, at(geometry.corners, place[c].vertex));

@@ -21,60 +21,75 @@ using strata::testing::Random;
 using strata::testing::random_channel;
 using strata::testing::random_int;
 
-using Rows = std::vector<std::uint64_t>;
+enum class Order { any, rising, falling, rising_but_for_two, falling_but_for_two };
+enum class Heights { equal, any };
 
-enum class Order { random, rising, falling, falling_but_for_two };
-
-Rows make_rows(Random& random, std::size_t depth, Order order) {
-    Rows rows(depth * block_lanes);
-    for (auto& value : rows) value = random();
-    const std::size_t sorted = order == Order::random ? 0 : order == Order::falling_but_for_two && depth > 2 ? depth - 2 : depth;
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        std::vector<std::uint64_t> column;
-        for (std::size_t k = 0; k < sorted; ++k) column.push_back(rows[k * block_lanes + lane]);
-        std::ranges::sort(column);
-        if (order != Order::rising) std::ranges::reverse(column);
-        for (std::size_t k = 0; k < sorted; ++k) rows[k * block_lanes + lane] = column[k];
-    }
-    return rows;
+std::uint32_t below(Random& random, std::uint32_t end) {
+    return static_cast<std::uint32_t>(random_int(random, 0, static_cast<int>(end) - 1));
 }
 
-Rows sorted_by_column(const Rows& rows) {
-    Rows result = rows;
-    const std::size_t depth = rows.size() / block_lanes;
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        std::vector<std::uint64_t> column;
-        for (std::size_t k = 0; k < depth; ++k) column.push_back(rows[k * block_lanes + lane]);
-        std::ranges::sort(column);
-        for (std::size_t k = 0; k < depth; ++k) result[k * block_lanes + lane] = column[k];
+// Sixteen columns of words as they arrived, and the block that is to be made of them.
+struct Columns {
+    std::vector<std::uint64_t> words;
+    ColumnBlock block;
+
+    Columns(Random& random, std::uint32_t depth, Order order, Heights heights) : words(depth * block_lanes) {
+        block.depth = depth;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            const std::uint32_t height = heights == Heights::equal || lane == 3 ? depth : below(random, depth + 1);
+            block.visible[lane] = height;
+            std::vector<std::uint64_t> column(height);
+            for (auto& word : column) word = random() >> 1;
+            const bool has_two = order == Order::rising_but_for_two || order == Order::falling_but_for_two;
+            const auto sorted = column.end() - (order == Order::any ? height : has_two ? std::min(height, 2u) : 0);
+            std::sort(column.begin(), sorted);
+            if (order == Order::falling || order == Order::falling_but_for_two) std::reverse(column.begin(), sorted);
+            for (std::size_t k = 0; k < height; ++k) words[k * block_lanes + lane] = column[k];
+        }
     }
-    return result;
-}
+
+    [[nodiscard]] std::vector<std::uint64_t> sorted_one_by_one() const {
+        std::vector<std::uint64_t> rows(words.size(), ~std::uint64_t{0});
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            std::vector<std::uint64_t> column;
+            for (std::size_t k = 0; k < block.visible[lane]; ++k) column.push_back(words[k * block_lanes + lane]);
+            std::ranges::sort(column);
+            for (std::size_t k = 0; k < column.size(); ++k) rows[k * block_lanes + lane] = column[k];
+        }
+        return rows;
+    }
+
+    [[nodiscard]] std::vector<std::uint64_t> sorted() {
+        std::vector<std::uint64_t> rows(words.size());
+        LaneWords heights = block.visible, none{};
+        const Arrivals from{.stride = block_lanes, .ranks = block.depth, .word = words.data(), .count = heights.data(),
+                            .hidden = none.data(), .at_surface = none.data()};
+        if (take_block(from, 0, block, rows.data()) != (block.depth > 0)) rows.clear();
+        return rows;
+    }
+};
 
 }  // namespace
 
-TEST_CASE("columns of any depth and order are sorted, each on its own, on every instruction set") {
+TEST_CASE("columns of any height and order are sorted, each on its own, on every instruction set") {
     Random random{91};
     std::uint64_t wrong = 0;
     for (const Simd simd : available_simd()) {
         REQUIRE(choose_simd(simd));
-        for (std::size_t depth = 0; depth <= 70; ++depth)
-            for (const Order order : {Order::random, Order::rising, Order::falling, Order::falling_but_for_two}) {
-                Rows rows = make_rows(random, depth, order);
-                const Rows expected = sorted_by_column(rows);
-                sort_columns(rows.data(), depth);
-                wrong += rows == expected ? 0 : 1;
-            }
+        for (std::uint32_t depth = 0; depth <= 70; ++depth)
+            for (const Order order : {Order::any, Order::rising, Order::falling, Order::rising_but_for_two, Order::falling_but_for_two})
+                for (const Heights heights : {Heights::equal, Heights::any}) {
+                    Columns columns{random, depth, order, heights};
+                    const std::vector<std::uint64_t> expected = columns.sorted_one_by_one();
+                    wrong += columns.sorted() == expected ? 0 : 1;
+                    wrong += depth == 0 || columns.block.nearest == *std::min_element(expected.begin(), expected.begin() + block_lanes) >> 32 ? 0 : 1;
+                }
     }
     REQUIRE(choose_simd(Simd::best));
     CHECK(wrong == 0);
 }
 
 namespace {
-
-std::uint32_t below(Random& random, std::uint32_t end) {
-    return static_cast<std::uint32_t>(random_int(random, 0, static_cast<int>(end) - 1));
-}
 
 std::uint32_t stored(float x) {
     const double clamped = std::clamp(double{x}, 0.0, 1.0);
@@ -256,10 +271,10 @@ TEST_CASE("fragments come up again sorted by depth and arrival, with their colou
                 wrong += memory.count[pixel] == expected.size() && memory.hidden[pixel] == hidden && memory.at_surface[pixel] == at_surface ? 0 : 1;
                 ColumnBlock block;
                 const std::size_t first = pixel / block_lanes * block_lanes, lane = pixel % block_lanes;
-                for (std::size_t i = 0; i < block_lanes; ++i) block.visible[i] = memory.count[first + i];
-                block.depth = *std::ranges::max_element(block.visible);
-                sort_block(memory.arrivals, first, block, memory.rows.data());
-                block.rows = memory.rows.data();
+                const bool is_there = take_block(memory.arrivals, first, block, memory.rows.data());
+                wrong += is_there || expected.empty() ? 0 : 1;
+                wrong += block.visible[lane] == expected.size() && block.hidden[lane] == hidden && block.at_surface[lane] == at_surface ? 0 : 1;
+                wrong += expected.empty() || block.nearest <= expected[0].key ? 0 : 1;
                 bool tied = false;
                 for (std::size_t k = 0; k < expected.size(); ++k) {
                     wrong += block.key(lane, k) == expected[k].key ? 0 : 1;
