@@ -21,7 +21,8 @@ DeviceProfile geforce3() {
                 .window_z = WindowZ::buffer_units,
                 .depth_path = DepthPath::window_z,
                 .depth_rounding = DepthRounding::floor,
-                .color = ColorInterpolation::weights_8bit};
+                .color = ColorInterpolation::weights_8bit,
+                .interpolation = {.texture_coordinates = CoordinateRule::cut_weights}};
     p.alpha_test = AlphaTestPrecision::unorm8;
     p.texture_filter = TextureFilterPrecision::unorm8;
     p.quantizes_vertex_color = true;

@@ -8,6 +8,7 @@ using Sources = std::array<std::string_view, 4>;
 using Profile = DeviceProfile;
 using Rules = rasterizer::RasterRules;
 using Hypothesis = rasterizer::DepthHypothesis;
+using Interpolation = rasterizer::InterpolationHypothesis;
 
 // In the order of the enums.
 constexpr std::string_view snap_names[] = {"toward_zero", "nearest_even"};
@@ -27,6 +28,8 @@ constexpr std::string_view interpolant_names[] = {"16", "17", "18", "19", "20", 
 constexpr std::string_view divide_names[] = {"exact", "cut_reciprocal", "low_reciprocal"};
 constexpr std::string_view window_z_rule_names[] = {"chip", "exact", "float32"};
 constexpr std::string_view anchor_names[] = {"first_vertex", "window_corner"};
+constexpr std::string_view perspective_color_names[] = {"edge_products", "weight_products"};
+constexpr std::string_view coordinate_names[] = {"exact_plane", "cut_weights"};
 constexpr std::string_view alpha_names[] = {"unorm8", "by_target"};
 constexpr std::string_view blend_names[] = {"nearest", "truncate"};
 constexpr std::string_view half_names[] = {"nearest_even", "toward_zero"};
@@ -38,13 +41,15 @@ constexpr std::string_view filter_names[] = {"unorm8", "single"};
 static_assert(std::size(tie_names) == static_cast<std::size_t>(rasterizer::TieRule::bottom_right) + 1);
 static_assert(std::size(path_names) == static_cast<std::size_t>(rasterizer::DepthPath::exact) + 1);
 
-// A member of DeviceProfile, of its RasterRules or of their DepthHypothesis.
+// A member of DeviceProfile, of its RasterRules or of their hypotheses.
 template <auto member>
 [[nodiscard]] constexpr auto& at(auto& profile) {
     if constexpr (requires { profile.*member; }) {
         return profile.*member;
     } else if constexpr (requires { profile.raster.hypothesis.*member; }) {
         return profile.raster.hypothesis.*member;
+    } else if constexpr (requires { profile.raster.interpolation.*member; }) {
+        return profile.raster.interpolation.*member;
     } else {
         return profile.raster.*member;
     }
@@ -106,6 +111,7 @@ constexpr std::string_view ours = "ideal: no device";
 constexpr std::string_view drawn = "[M] tools/bench/README.md: Mesa 22.3 draws the same fragments";
 constexpr std::string_view opengl = "[D] OpenGL 4.5, which Mesa 22.3 implements";
 constexpr std::string_view unused = "[A] of path window_z, which this profile lacks";
+constexpr std::string_view unweighted = "[A] of 8-bit colour weights, which this profile lacks";
 constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 
 // Sources: [D] documented, [M] measured by others, [A] our assumption; then the section of hardware.md.
@@ -161,6 +167,15 @@ constexpr std::array fields{
         {"[M] nv2a-geometry.md 3.2: R is cut like a depth write", "[D] 4: D3D 11.3 22.4.19", ours, unmeasured}),
     choice<&Hypothesis::plane_anchor>("raster.plane_anchor", anchor_names,
                                       {"[A] either is in use", "[A] either is in use", ours, "[A] either is in use"}),
+    integer<&Interpolation::vertex_color_bits>(
+        "raster.vertex_color_bits", {9, 24},
+        {"[A] all of them; suite Depth_buffer says 14, all of 3,944 greys", unweighted, unweighted, unweighted}),
+    choice<&Interpolation::perspective_color>("raster.perspective_color", perspective_color_names,
+                                              {"[A] nv2a-fragment.md 8: equal w alone is measured", unweighted,
+                                               unweighted, unweighted}),
+    choice<&Interpolation::texture_coordinates>(
+        "raster.texture_coordinates", coordinate_names,
+        {"[M] cut_coordinates.h: 41,274 coordinates, for equal w", "[D] 3: D3D 11.3 15.10", ours, unmeasured}),
     choice<&Profile::alpha_test>(
         "alpha_test", alpha_names,
         {"[M] 7: nv2a-fragment.md R7, 16 of 16", "[D] 7: ARB_color_buffer_float", ours, unmeasured}),

@@ -1,10 +1,11 @@
 // rasterizer/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
 //
-// Rule     Vertex colours to 8 bits first (nearest, a half up). Weights b as in cut_weight.h; the vertex whose b has
-//          the largest exponent takes the remainder 1 - (the two others), exactly; ties {0,1} -> v0, {0,2} -> v2, {1,2}
-//          -> v1, all -> v2. w0 = floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2
-//          c2 + 128) >> 8, over 255 in binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0
-//          + p1) + p2)) in binary64, cut to 24 bits.
+// Rule     Vertex colours to 8 bits first: their leading bits (InterpolationHypothesis), times 255, nearest, a half up.
+//          Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the two others), exactly. w0 =
+//          floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2 c2 + 128) >> 8, over 255 in
+//          binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64, cut
+//          to 24 bits; or of PerspectiveColor::weight_products p_i = b_i (1/w_i) cut to 24 bits, normalised with a
+//          reciprocal cut to 28.
 // Source   nv2a-fragment.md R5, R6; nv2a-depth.md section 3.
 // Tests    tests/rasterizer/color_weights_test.cpp
 #pragma once
@@ -15,20 +16,27 @@
 #include "rasterizer/coverage.h"
 #include "rasterizer/cut_weight.h"
 #include "rasterizer/exact_sum.h"
+#include "rasterizer/interpolation_hypothesis.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
 
-[[nodiscard]] constexpr std::int32_t to_color_code(float c) noexcept {
+// `bits` leading ones of c count, 1 to 24.
+[[nodiscard]] constexpr std::int32_t to_color_code(float c, int bits = 24) noexcept {
     if (!(c > 0.0f)) return 0;
-    return c >= 1.0f ? 255 : static_cast<std::int32_t>(double{c} * 255.0 + 0.5);
+    if (c >= 1.0f) return 255;
+    const std::uint32_t dropped = (1u << (24 - bits)) - 1;
+    const auto kept = std::bit_cast<float>(std::bit_cast<std::uint32_t>(c) & ~dropped);
+    return static_cast<std::int32_t>(double{kept} * 255.0 + 0.5);
 }
 
 class ColorWeights {
   public:
-    ColorWeights(const std::array<float, 3>& inverse_w, std::int64_t area) noexcept
+    ColorWeights(const std::array<float, 3>& inverse_w, std::int64_t area,
+                 PerspectiveColor rule = PerspectiveColor::edge_products) noexcept
         : reciprocal_{static_cast<std::uint64_t>(area)},
           inverse_w_{inverse_w},
+          rule_{rule},
           is_affine_{inverse_w[0] == inverse_w[1] && inverse_w[0] == inverse_w[2]} {}
 
     // w0, w1, w2 in 1/256 at a fragment with edge values `e`.
@@ -44,21 +52,18 @@ class ColorWeights {
         for (std::size_t i = 0; i < 3; ++i) b[i] = value(reciprocal_.weight(static_cast<std::uint64_t>(e[i])));
         return b;
     }
-    [[nodiscard]] Weights perspective(const EdgeValues& e) const noexcept {
-        Weights p{};
-        for (std::size_t i = 0; i < 3; ++i) p[i] = static_cast<double>(e[i]) * inverse_w_[i];
-        const double r = 1.0 / ((p[0] + p[1]) + p[2]);
-        constexpr std::uint64_t upper_24_bits = ~std::uint64_t{0} << (53 - 24);
-        for (double& b : p) b = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b * r) & upper_24_bits);
-        return p;
+    // v >= 0 without what is below its `bits` leading bits.
+    [[nodiscard]] static double cut(double v, int bits) noexcept {
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) & ~std::uint64_t{0} << (53 - bits));
     }
-    [[nodiscard]] static std::size_t remainder_vertex(const Weights& b) noexcept {
-        const auto exponent = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(b[i]) >> 52; };
-        const auto k0 = exponent(0), k1 = exponent(1), k2 = exponent(2);
-        if (k2 >= k0 && k2 > k1) return 2;  // alone, or with v0
-        if (k1 > k0) return 1;              // alone, or with v2
-        if (k0 > k2) return 0;              // alone, or with v1
-        return 2;                           // all three
+    [[nodiscard]] Weights perspective(const EdgeValues& e) const noexcept {
+        const bool by_weights = rule_ == PerspectiveColor::weight_products;
+        Weights p = by_weights ? affine(e) : Weights{};
+        for (std::size_t i = 0; i < 3; ++i)
+            p[i] = by_weights ? cut(p[i] * inverse_w_[i], 24) : static_cast<double>(e[i]) * inverse_w_[i];
+        const double r = 1.0 / ((p[0] + p[1]) + p[2]);
+        for (double& b : p) b = cut(b * (by_weights ? cut(r, 28) : r), 24);
+        return p;
     }
     [[nodiscard]] static std::array<std::int32_t, 3> from(const Weights& b) noexcept {
         const std::size_t rest = remainder_vertex(b);
@@ -77,6 +82,7 @@ class ColorWeights {
 
     CutReciprocal reciprocal_;
     std::array<float, 3> inverse_w_;
+    PerspectiveColor rule_;
     bool is_affine_;
 };
 

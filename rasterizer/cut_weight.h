@@ -7,6 +7,7 @@
 //          it 24 bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 9 stay.
 // Tests    tests/rasterizer/window_z_test.cpp
 #pragma once
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -26,6 +27,17 @@ struct CutWeight {
 }
 
 [[nodiscard]] constexpr double value(CutWeight b) noexcept { return b.mantissa * power_of_two(b.exponent); }
+
+// The vertex whose weight is 1 - (the two others) for colours and texture coordinates: that of the largest exponent; ties
+// {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all -> v2. nv2a-depth.md 3.
+[[nodiscard]] constexpr std::size_t remainder_vertex(const std::array<double, 3>& b) noexcept {
+    const auto exponent = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(b[i]) >> 52; };
+    const auto k0 = exponent(0), k1 = exponent(1), k2 = exponent(2);
+    if (k2 >= k0 && k2 > k1) return 2;  // alone, or with v0
+    if (k1 > k0) return 1;              // alone, or with v2
+    if (k0 > k2) return 0;              // alone, or with v1
+    return 2;                           // all three
+}
 
 class CutReciprocal {
   public:

@@ -1,7 +1,7 @@
 // rasterizer/depth_hypothesis.h - what is not known for certain about the depth paths, as values to vary.
 //
 // Rule     A default is what captures of silicon prove where they do ([M]), else our assumption ([A]). Everything that
-//          is computed from depths rests on one hypothesis, which is part of RasterRules; depth_hypotheses (rules.h)
+//          is computed from depths rests on one hypothesis, which is part of RasterRules; depth_hypotheses (hypotheses.h)
 //          names the others.
 // Source   hardware.md, "Silicon first", 4 and 5; nv2a-depth.md 1 and 4.
 // Tests    tests/rasterizer/depth_paths_test.cpp

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "rasterizer/color_weights.h"
+#include "rasterizer/cut_coordinates.h"
 #include "rasterizer/depth_paths.h"
 #include "rasterizer/window.h"
 #include "rasterizer/window_z.h"
@@ -55,11 +56,12 @@ void move_lane(std::size_t from, std::size_t to, FragmentBatch& batch, WeightLan
     weights.b2[to] = weights.b2[from];
 }
 
-void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, int first, FragmentBatch& batch) noexcept {
+void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, const InterpolationHypothesis& hypothesis,
+                        int first, FragmentBatch& batch) noexcept {
     std::array<std::array<std::int32_t, 3>, color_channels> codes{};
     for (std::size_t c = 0; c < color_channels; ++c)
-        for (std::size_t i = 0; i < 3; ++i) codes[c][i] = to_color_code(t.attribute[i][c]);
-    const ColorWeights weights{t.inverse_w, lanes.edges->area()};
+        for (std::size_t i = 0; i < 3; ++i) codes[c][i] = to_color_code(t.attribute[i][c], hypothesis.vertex_color_bits);
+    const ColorWeights weights{t.inverse_w, lanes.edges->area(), hypothesis.perspective_color};
     for (int i = 0; i < lanes.count; ++i) {
         const std::array<std::int32_t, 3> w = weights.at(lanes.edge_values(i));
         for (std::size_t c = 0; c < color_channels; ++c)
@@ -277,13 +279,14 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
     const auto f = static_cast<std::size_t>(first);
     const bool weighted = needs_.color && rules_.color == ColorInterpolation::weights_8bit;
     const std::size_t begin = needs_.color && !weighted ? 0 : color_channels;
-    const std::size_t end = needs_.texcoord ? attribute_count : color_channels;
     std::array<const ClipVertex*, 3> v;
     std::array<double, 3> w;
     for (std::size_t i = 0; i < 3; ++i) {
         v[i] = &geometry.vertices[triangle.record.vertex[i]];
         w[i] = geometry.corners[triangle.record.vertex[i]].inverse_w;
     }
+    const bool cut = needs_.texcoord && cuts_coordinates(rules_, w);
+    const std::size_t end = needs_.texcoord && !cut ? attribute_count : color_channels;
     AttributeLanes varying;
     varying.has_w = !(w[0] == 1.0 && w[1] == 1.0 && w[2] == 1.0);  // else the quotient is the dividend
     varying.inverse_w = {w};
@@ -302,7 +305,9 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
     }
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
-    if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, first, batch);
+    if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, rules_.interpolation, first, batch);
+    for (std::size_t a = 0; cut && a < texcoord_channels; ++a)
+        cut_coordinates({v[0]->texcoord[a], v[1]->texcoord[a], v[2]->texcoord[a]}, own, &batch.texcoord[a][f]);
     return fill_varying(varying, own);
 }
 

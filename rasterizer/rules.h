@@ -3,11 +3,10 @@
 // pipeline/profile.cpp.
 #pragma once
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "rasterizer/depth_code.h"
 #include "rasterizer/depth_hypothesis.h"
+#include "rasterizer/interpolation_hypothesis.h"
 
 namespace strata::rasterizer {
 
@@ -55,17 +54,9 @@ struct RasterRules {
     DepthRounding depth_rounding = DepthRounding::nearest;
     OffsetUnit offset_unit = OffsetUnit::format;
     ColorInterpolation color = ColorInterpolation::exact_plane;
-    DepthHypothesis hypothesis{};  // what is assumed of the depth paths
+    DepthHypothesis hypothesis{};              // what is assumed of the depth paths
+    InterpolationHypothesis interpolation{};  // and of colours and texture coordinates
     friend bool operator==(const RasterRules&, const RasterRules&) = default;
 };
-
-// Rules that differ from given ones in one constant of the depth paths.
-struct NamedHypothesis {
-    std::string name;  // "interpolant_bits=20"
-    RasterRules rules;
-};
-
-// The given rules first ("as given"), then with every other value of each constant, depth_rounding among them.
-[[nodiscard]] std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules);
 
 }  // namespace strata::rasterizer

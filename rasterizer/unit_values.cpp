@@ -2,12 +2,14 @@
 //
 // Rule     Each of s, t, r, q as fragment_values.h says of every attribute: u (1/w) rounded to binary32 at the vertex,
 //          exact plane rounded once, over the plane of 1/w rounded once; under another DepthHypothesis as depth_paths.h
-//          interpolates r and q. Nothing is divided by q here: which operation does, and which does not, is the texture
+//          interpolates r and q; where cut_coordinates.h applies, by its
+//          rule. Nothing is divided by q here: which operation does, and which does not, is the texture
 //          shader's affair.
 // Source   decisions.md 1; hardware.md 3 (GL 2.1 equation 3.8).
 // Tests    tests/rasterizer/unit_values_test.cpp
 #include <cassert>
 
+#include "rasterizer/cut_coordinates.h"
 #include "rasterizer/depth_paths.h"
 #include "rasterizer/fragment_values.h"
 
@@ -34,6 +36,7 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
         w[i] = geometry.corners[triangle.record.vertex[i]].inverse_w;
     }
     const DepthHypothesis& h = rules_.hypothesis;
+    const bool cut = cuts_coordinates(rules_, w);
     const bool is_plain = h.interpolant_bits >= 24 && h.divide == DivideRule::exact;
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
@@ -46,7 +49,8 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
             if (!names(needs_.units, u, c)) continue;
             float* const out = &batch.unit[u][c][static_cast<std::size_t>(first)];
             const Corners value{v[0][4 * u + c], v[1][4 * u + c], v[2][4 * u + c]};
-            if (!is_plain) fallbacks += interpolate(value, w, own, h, out);
+            if (cut) cut_coordinates(value, own, out);
+            else if (!is_plain) fallbacks += interpolate(value, w, own, h, out);
             else if (is_constant(value)) varying.add(value[0], out);
             else varying.add({{value[0] * w[0], value[1] * w[1], value[2] * w[2]}}, out);  // products in binary32
         }

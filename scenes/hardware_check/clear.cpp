@@ -87,7 +87,8 @@ Drawing draw_clear(std::string_view name, const pipeline::DeviceProfile& profile
     }
     const bool shows_depth = take_last(name, "_ZB");
     const bool depth_mask_named = take_last(name, "_Depth_n") || take_last(name, "_Depth_y");
-    if (!depth_mask_named || !take(name, "C") || !to_hexadecimal(name)) return unknown_name;
+    const auto mask = depth_mask_named && take(name, "C") ? to_hexadecimal(name) : std::nullopt;
+    if (!mask || (*mask & ~0x01010101u) != 0) return unknown_name;
     return {mask_picture(profile, shows_depth), {}};
 }
 

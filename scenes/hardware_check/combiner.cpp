@@ -1,8 +1,5 @@
 // Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads. nv2a-fragment.md 6, "Combiner".
-//
-// Bounds: Flags and Mux equal. The other two have a checkerboard behind them, whose texture coordinates are whole numbers in
-// every fifteenth row in exact arithmetic, and a hair below them in parts of it on the chip: 6,000 pixels that have the other
-// grey, 17/255.
+// All equal; the checkerboard behind two of them is a test of texture coordinates that are whole numbers in exact arithmetic.
 #include "scenes/hardware_check/fixed_pipeline.h"
 #include "scenes/hardware_check/names.h"
 #include "scenes/hardware_check/suite.h"
@@ -139,7 +136,6 @@ Picture flags(const pipeline::DeviceProfile& profile) {
 }
 
 constexpr float quad_side = 64, quad_top = 74, quad_step = 72, left_column = 200, right_column = 500;
-constexpr Bound board_bound{6000, 17};
 
 // Bias and scale of a general stage; the left half is opaque, the right one shows what became of alpha.
 Picture combiner_ops(const pipeline::DeviceProfile& profile) {
@@ -168,7 +164,7 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
             draw(surface, combiners, rectangle(opaque ? x : x + quad_side / 2, y, quad_side / 2, quad_side));
         }
     }
-    return {.image = surface.color(), .bound = board_bound};
+    return {.image = surface.color()};
 }
 
 // The final stage's product of E and F, and its sum of spare0 and secondary colour.
@@ -191,7 +187,7 @@ Picture special_inputs(const pipeline::DeviceProfile& profile) {
     draw(surface, sum, rectangle(left_column, second, quad_side, quad_side));
     draw(surface, inverts_spare0, rectangle(right_column, second, quad_side, quad_side));
     draw(surface, inverts_secondary, rectangle(left_column, second + quad_step, quad_side, quad_side));
-    return {.image = surface.color(), .bound = board_bound};
+    return {.image = surface.color()};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], and Depth_buffer_fixed_function, the same without
+// Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and Depth_buffer_fixed_function, the same without
 // DepthFmt_. Slopes of depth over small and wide quads. nv2a-geometry.md 4 and 5.7.
 #include <vector>
 
@@ -32,14 +32,24 @@ std::optional<Setting> parse(std::string_view name) {
     if (!clear) return std::nullopt;
     s.clear = *clear;
     s.format = format == "z24" ? DepthFormat::d24 : s.is_float ? DepthFormat::d16f : DepthFormat::d16;
+    if (s.clear > rasterizer::max_code(s.format)) return std::nullopt;
     return s;
 }
+
+using Color = std::array<float, 4>;
 
 // Corners in the order upper left, upper right, lower right, lower left.
 struct Slope {
     Box where;
     std::array<float, 4> z;
+    std::array<Color, 4> color{};
 };
+
+[[nodiscard]] Color rgb(float r, float g, float b) { return {r, g, b, 1}; }
+[[nodiscard]] Color grey(float share) {
+    const float v = 0.25f + share * 0.75f;
+    return rgb(v, v, v);
+}
 
 // Window z of code `k`, in the buffer's own values.
 float value_of(DepthFormat format, float k) {
@@ -56,17 +66,22 @@ std::vector<Slope> window_slopes(DepthFormat format) {
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
             const float x = 134.0f + 12.0f * static_cast<float>(column), y = 48.0f + 12.0f * static_cast<float>(row);
-            const float left = cut(z_left), right = cut(z_left + offset);
-            slopes.push_back({{x, y, x + 8, y + 8}, {left, right, right, left}});
+            const float left = cut(z_left), right = cut(z_left + offset), scale = static_cast<float>(max);
+            const Color on_left = grey(z_left / scale), on_right = grey((z_left + offset) / scale);
+            slopes.push_back({{x, y, x + 8, y + 8}, {left, right, right, left}, {on_left, on_right, on_right, on_left}});
             z_left += step;
             offset = -offset;
         }
     const auto code = [&](std::uint32_t k) { return value_of(format, static_cast<float>(k)); };
-    const float bottom = code((max - 1) * 3 / 4), near = code(0), right_end = code(max / 2);
-    slopes.push_back({{132, 430, 492, 435}, {bottom, near, near, bottom}});
-    slopes.push_back({{502, 45, 510, 435}, {code(1), code(1), right_end, right_end}});
+    const auto share = [&](float z) { return z / static_cast<float>(max); };
+    const float back = code((max - 1) * 3 / 4), near = code(0);
+    const Color far_left = rgb(share(back), 0.75f, share(back)), near_right = rgb(0.75f, share(near), share(near));
+    slopes.push_back({{132, 430, 492, 435}, {back, near, near, back}, {far_left, near_right, near_right, far_left}});
+    const float first = code(1), half = code(max / 2);
+    const Color upper = rgb(share(first), 0.5f, share(first)), lower = rgb(0.5f, share(half), share(half));
+    slopes.push_back({{502, 45, 510, 435}, {first, first, half, half}, {upper, upper, lower, lower}});
     const float top = code(static_cast<std::uint32_t>(std::uint64_t{max - 1} * 2 / 3)), end = code(max - 1);
-    slopes.push_back({{128, 40, 512, 440}, {top, top, end, end}});
+    slopes.push_back({{128, 40, 512, 440}, {top, top, end, end}, {rgb(0, 1, 0), rgb(1, 0, 0), rgb(0.4f, 0.3f, 0), rgb(0, 0, 1)}});
     return slopes;
 }
 
@@ -93,10 +108,9 @@ std::vector<Slope> world_slopes() {
 
 // Triangles (UL, UR, LR) and (UL, LR, LL); `turned`: (UL, LR, LL) first.
 void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
-    const std::array<float, 4> grey{0.5f, 0.5f, 0.5f, 1};
     const Box b{s.where.left + shift, s.where.top + shift, s.where.right + shift, s.where.bottom + shift};
-    const ClipVertex ul = at(b.left, b.top, s.z[0], grey), ur = at(b.right, b.top, s.z[1], grey);
-    const ClipVertex lr = at(b.right, b.bottom, s.z[2], grey), ll = at(b.left, b.bottom, s.z[3], grey);
+    const ClipVertex ul = at(b.left, b.top, s.z[0], s.color[0]), ur = at(b.right, b.top, s.z[1], s.color[1]);
+    const ClipVertex lr = at(b.right, b.bottom, s.z[2], s.color[2]), ll = at(b.left, b.bottom, s.z[3], s.color[3]);
     if (turned) {
         add_triangle(soup, ul, lr, ll);
         add_triangle(soup, ul, ur, lr);
@@ -105,15 +119,22 @@ void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
     }
 }
 
+// A corner's 0.3 is code 76 by its 14 leading bits and 77 by all of them; it weighs on the large quad.
+constexpr Bound codes_of_a_corner{85756, 1};
+
 Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, TriangleSoup soup) {
     pipeline::Surface surface{profile, {.depth = s.format}};
+    surface.clear_color(unpack(0xff000000));
     surface.clear_depth(s.clear);
     surface.draw({.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}}, std::move(soup));
+    const bool as_measured = profile.raster.interpolation.vertex_color_bits == 14;
+    if (!s.shows_depth) return {.image = surface.color(), .bound = as_measured ? Bound{} : codes_of_a_corner};
     return {.reading = s.format == DepthFormat::d24 ? Reading::depth24 : Reading::depth16, .image = surface.depth()};
 }
 
 constexpr std::uint64_t all_pixels = std::uint64_t{picture_width} * picture_height;
-const Drawing colors_unknown{std::nullopt, "the colours of its wide quads are not understood (nv2a-geometry.md 5.4)"};
+const Drawing colors_unknown{std::nullopt, "how the chip weighs colours where w differs is not known (nv2a-fragment.md 8)"};
+const Drawing float_decides{std::nullopt, "which pixels pass hangs on float depths that are known within one unit"};
 const Drawing z24_float{std::nullopt, "24-bit float depth is out of scope (nv2a-geometry.md 4)"};
 
 }  // namespace
@@ -121,8 +142,8 @@ const Drawing z24_float{std::nullopt, "24-bit float depth is out of scope (nv2a-
 Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& profile) {
     const auto setting = take(name, "DepthFmt_") ? parse(name) : std::nullopt;
     if (!setting) return unknown_name;
-    if (!setting->shows_depth) return colors_unknown;
     if (setting->format == DepthFormat::d24 && setting->is_float) return z24_float;
+    if (setting->is_float && !setting->shows_depth) return float_decides;
     TriangleSoup soup;
     for (const Slope& slope : window_slopes(setting->format)) add_slope(soup, slope, 0, false);
     Picture picture = depth_picture(profile, *setting, std::move(soup));

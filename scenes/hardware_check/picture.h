@@ -55,9 +55,12 @@ struct Drawing {
     std::string reason;
 };
 
+using Subjects = std::uint8_t;  // a set: bit s for rasterizer::Subject s
+
 struct Suite {
     std::string_view name;  // the folder's
     Drawing (*draw)(std::string_view picture, const pipeline::DeviceProfile& profile);
+    Subjects tells = 0;     // whether a hypothesis on a subject is right
     // Of a suite whose test loaded images: with `textures`, the folder that holds them. `draw` does without.
     Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile, const std::string& textures) = nullptr;
 };

@@ -6,7 +6,10 @@
 //           numbers world z
 //   format  16, 24, 16f
 //
-// Equal, but for the fixed pipeline, where a row of the picture looks up a texel row's very edge: at most 42 pixels.
+// Equal; through the fixed pipeline a row of the picture looks up a texel row's very edge, which decides 21 or 42 pixels by the
+// last bit of a coordinate: as many may differ.
+#include <algorithm>
+
 #include "rasterizer/depth_code.h"
 #include "scenes/hardware_check/fixed_pipeline.h"
 #include "scenes/hardware_check/names.h"
@@ -58,6 +61,13 @@ bool take_numbers(std::string_view& name, std::optional<T> (*parse)(std::string_
     return true;
 }
 
+// Texels that the format holds; depths in front of the eye, which is at -7.
+bool is_drawable(const Setting& s) {
+    if (s.source == Source::raw) return std::max({s.raw_least, s.raw_greatest, s.raw_reference}) <= rasterizer::max_code(s.format);
+    const auto is_visible = [](float z) { return z > -7.0f && z < 1e6f; };
+    return is_visible(s.least) && is_visible(s.greatest) && is_visible(s.reference);
+}
+
 std::optional<Setting> parse_name(std::string_view name) {
     Setting s;
     s.compares_r = take(name, "3");
@@ -71,7 +81,7 @@ std::optional<Setting> parse_name(std::string_view name) {
                                  ? take_numbers(name, to_hexadecimal, s.raw_least, s.raw_greatest, s.raw_reference)
                                  : take_numbers(name, to_number, s.least, s.greatest, s.reference);
     const auto func = compare_func(name);
-    if (!has_numbers || !func) return std::nullopt;
+    if (!has_numbers || !func || !is_drawable(s)) return std::nullopt;
     s.func = *func;
     return s;
 }

@@ -160,8 +160,11 @@ Drawing draw_vertex_shader_rounding(std::string_view name, const DeviceProfile& 
     for (const auto& [prefix, draw] : shifted) {
         std::string_view rest = name;
         if (!take(rest, prefix)) continue;
-        if (const auto shift = to_number(rest)) return {draw(profile, *shift), {}};
+        const auto shift = to_number(rest);  // NaN is no shift either
+        if (shift && *shift >= 0.0f && *shift <= 1.0f) return {draw(profile, *shift), {}};
     }
+    for (const std::string_view prefix : {"GeometrySuperscreen_", "RenderTarget", "Compositing"})
+        if (name.starts_with(prefix)) return {std::nullopt, "targets of this kind are not described"};
     return unknown_name;
 }
 

@@ -67,25 +67,31 @@ std::uint64_t draw_lines(pipeline::Surface& surface, std::uint32_t width) {
     return count;
 }
 
+struct Sized {
+    std::string_view prefix;
+    std::uint32_t largest;  // that is described
+    std::uint64_t (*draw)(pipeline::Surface&, std::uint32_t size);
+};
+constexpr Sized kinds[] = {{"ZPassPointSizeVS-0x", 513, draw_program_points},
+                           {"ZPassPointSize-0x", 511, draw_fixed_points},
+                           {"ZPassLineWidth-0x", 511, draw_lines}};
+
 }  // namespace
 
 Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProfile& profile) {
     const bool shows_depth = take_last(name, "_ZB");
+    const Sized* const sized = std::find_if(std::begin(kinds), std::end(kinds),
+                                            [&](const Sized& kind) { return name.starts_with(kind.prefix); });
+    const bool is_sized = sized != std::end(kinds);
+    const auto size = is_sized ? to_hexadecimal(name.substr(sized->prefix.size())) : std::nullopt;
+    if (!size && name != "ZPass") return unknown_name;
+    if (size && *size > sized->largest) return {std::nullopt, "what the chip makes of so large a size is not described"};
     pipeline::Surface surface{profile, {.depth = pipeline::DepthFormat::d16}};
     surface.clear_color(unpack(0xff333333));
     surface.clear_depth(0xffff);
     Picture picture;
-    using Draw = std::uint64_t (*)(pipeline::Surface&, std::uint32_t);
-    constexpr std::pair<std::string_view, Draw> sized[] = {{"ZPassPointSizeVS-0x", draw_program_points},
-                                                           {"ZPassPointSize-0x", draw_fixed_points},
-                                                           {"ZPassLineWidth-0x", draw_lines}};
-    if (name == "ZPass") picture.reports = draw_squares(surface);
-    for (const auto& [prefix, draw] : sized) {
-        std::string_view rest = name;
-        const auto size = take(rest, prefix) ? to_hexadecimal(rest) : std::nullopt;
-        if (size) picture.reports = {draw(surface, *size)};
-    }
-    if (picture.reports.empty()) return unknown_name;
+    if (size) picture.reports = {sized->draw(surface, *size)};
+    else picture.reports = draw_squares(surface);
     if (shows_depth) picture.reading = Reading::depth16;
     picture.image = shows_depth ? surface.depth() : surface.color();
     return {std::move(picture), {}};

@@ -26,6 +26,7 @@ TEST_CASE("geforce3 has the numbers that captures of an NV2A prove") {
     CHECK(p.raster.depth_path == DepthPath::window_z);
     CHECK(p.raster.depth_rounding == DepthRounding::floor);
     CHECK(p.raster.color == ColorInterpolation::weights_8bit);
+    CHECK(p.raster.interpolation.texture_coordinates == CoordinateRule::cut_weights);
     CHECK(p.alpha_test == AlphaTestPrecision::unorm8);
     CHECK(p.quantizes_vertex_color);
     CHECK((p.has_d16 && p.has_d24 && !p.has_d32f));

@@ -11,9 +11,10 @@
 #include "rasterizer/input_error.h"
 #include "scenes/profile_json.h"
 #include "tools/strata/command.h"
+#include "tools/strata/hardware_hypotheses.h"
 #include "tools/strata/hardware_report.h"
 #include "tools/strata/names.h"
-#include "tools/strata/progress.h"
+#include "tools/strata/parallel_items.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -45,10 +46,12 @@ std::vector<Capture> find_captures(const Options& options) {
     if (!options.suite.empty() && hc::find_suite(options.suite) == nullptr)
         throw InputError{"strata", "--suite", one_of(known), found_but_near(options.suite, known)};
     std::vector<Capture> captures;
-    for (const std::string& suite : sorted_names(options.folder, [](const auto& e) { return e.is_directory(); })) {
+    std::error_code ignored;  // a link that leads nowhere is no folder and no picture
+    for (const std::string& suite : sorted_names(options.folder, [&](const auto& e) { return e.is_directory(ignored); })) {
         if (suite == textures_folder || (!options.suite.empty() && suite != options.suite)) continue;
         const fs::path folder = fs::path(options.folder) / suite;
-        for (const std::string& file : sorted_names(folder, [](const auto& e) { return e.path().extension() == ".png"; }))
+        const auto is_picture = [&](const auto& e) { return e.path().extension() == ".png" && !e.is_directory(ignored); };
+        for (const std::string& file : sorted_names(folder, is_picture))
             captures.push_back({suite, fs::path(file).stem().string(), (folder / file).string()});
     }
     if (captures.empty()) throw InputError{options.folder, "captures", "SUITE/NAME.png", "none"};
@@ -56,37 +59,16 @@ std::vector<Capture> find_captures(const Options& options) {
 }
 
 std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile) {
-    Progress progress("checking");
-    std::vector<CheckedPicture> checked;
-    for (const Capture& capture : captures) {
-        checked.push_back(check(capture, profile));
-        progress.show(static_cast<double>(checked.size()) / static_cast<double>(captures.size()));
-    }
+    std::vector<CheckedPicture> checked(captures.size());
+    for_every("checking", captures.size(), [&](std::size_t i) { checked[i] = check(captures[i], profile); });
     return checked;
-}
-
-// The score of every hypothesis that the profile names: differing pixels over all pictures.
-std::string scores(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile) {
-    const auto hypotheses = rasterizer::depth_hypotheses(profile.raster);
-    Progress progress("checking");
-    Table table{{{"hypothesis"}, {"equal", Align::right}, {"within bound", Align::right}, {"pixels off", Align::right}, {"largest", Align::right}}, {}};
-    for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-        pipeline::DeviceProfile varied = profile;
-        varied.raster = hypotheses[h].rules;
-        Score score;
-        for (const Capture& capture : captures) add(score, check(capture, varied));
-        table.rows.push_back({hypotheses[h].name, std::to_string(score.equal), std::to_string(score.within_bound),
-                              std::to_string(score.differing), std::to_string(score.largest)});
-        progress.show(static_cast<double>(h + 1) / static_cast<double>(hypotheses.size()));
-    }
-    return to_text(table);
 }
 
 int hardware_check(const Options& options) {
     const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
     const std::vector<Capture> captures = find_captures(options);
     if (options.hypotheses) {
-        print(scores(captures, profile));
+        print(hypothesis_scores(captures, profile));
         return 0;
     }
     const std::vector<CheckedPicture> checked = check_all(captures, profile);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/check.h"
 #include "rasterizer/input_error.h"
 #include "scenes/atomic_file.h"
 #include "scenes/image_io.h"
@@ -17,17 +18,6 @@ namespace hc = scenes::hardware_check;
 using nlohmann::ordered_json;
 
 namespace {
-
-pipeline::Image read_capture(const std::string& path) {
-    std::vector<scenes::FileImage> images = scenes::read_images(path);
-    if (images.size() != 1) throw InputError{path, "picture", "one image", std::to_string(images.size())};
-    return std::move(images.front().image);
-}
-
-// DIR/textures beside DIR/SUITE/NAME.png.
-std::string textures_of(const Capture& capture) {
-    return (std::filesystem::path(capture.path).parent_path().parent_path() / textures_folder).string();
-}
 
 std::string outcome(const CheckedPicture& p) {
     if (!p.is_known) return "unknown";
@@ -50,6 +40,12 @@ std::string detail(const CheckedPicture& p) {
     return text;
 }
 
+// Control characters, which a file name may hold, as question marks.
+std::string printable(std::string text) {
+    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+    return text;
+}
+
 struct SuiteCount {
     std::string name;
     std::uint64_t pictures = 0, equal = 0, within = 0, differ = 0, unmodelled = 0, pixels = 0, off = 0;
@@ -59,7 +55,8 @@ struct SuiteCount {
 std::vector<SuiteCount> count_suites(const std::vector<CheckedPicture>& checked) {
     std::vector<SuiteCount> suites;
     for (const CheckedPicture& p : checked) {
-        if (suites.empty() || suites.back().name != p.capture.suite) suites.push_back({.name = p.capture.suite});
+        const std::string name = printable(p.capture.suite);
+        if (suites.empty() || suites.back().name != name) suites.push_back({.name = name});
         SuiteCount& s = suites.back();
         ++s.pictures;
         if (!p.is_compared()) {
@@ -101,17 +98,38 @@ std::string markdown(const Table& table) {
 
 std::string file_name(const CheckedPicture& p) { return p.capture.suite + "-" + p.capture.name + ".png"; }
 
+// '#' starts a fragment in a link.
+std::string link_to(const std::string& file) {
+    std::string link;
+    for (const char c : file) link += c == '#' ? std::string{"%23"} : std::string{c};
+    return link;
+}
+
 }  // namespace
+
+pipeline::Image read_capture(const std::string& path) {
+    std::vector<scenes::FileImage> images = scenes::read_images(path);
+    if (images.size() != 1) throw InputError{path, "picture", "one image", std::to_string(images.size())};
+    return std::move(images.front().image);
+}
+
+hc::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile) {
+    const std::filesystem::path folder = std::filesystem::path(capture.path).parent_path().parent_path();
+    try {
+        return hc::draw(*hc::find_suite(capture.suite), capture.name, profile, (folder / textures_folder).string());
+    } catch (const pipeline::Refused& refused) {
+        return {std::nullopt, refused.what()};
+    }
+}
 
 CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile) {
     CheckedPicture result;
     result.capture = capture;
-    const hc::Suite* const suite = hc::find_suite(capture.suite);
-    if (suite == nullptr) {
+    if (hc::find_suite(capture.suite) == nullptr) {
         result.unmodelled = "no suite of this name is known";
         return result;
     }
-    const hc::Drawing drawing = hc::draw(*suite, capture.name, profile, textures_of(capture));
+    const hc::Drawing drawing = drawn(capture, profile);
     result.is_known = drawing.reason != hc::unknown_name_reason;
     result.unmodelled = drawing.reason;
     if (!drawing.picture) return result;
@@ -124,19 +142,11 @@ CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& prof
     return result;
 }
 
-void add(Score& score, const CheckedPicture& picture) {
-    if (!picture.is_compared()) return;
-    score.equal += picture.comparison.differing == 0;
-    score.within_bound += picture.comparison.within_bound;
-    score.differing += picture.comparison.differing;
-    score.largest = std::max(score.largest, picture.comparison.largest);
-}
-
 std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
     Table pictures{{{"suite"}, {"picture"}, {"outcome"}, {"pixels off", Align::right}, {"largest", Align::right}, {"detail"}}, {}};
     for (const CheckedPicture& p : checked)
         if (outcome(p) != "equal" || !p.reports.empty())
-            pictures.rows.push_back({p.capture.suite, p.capture.name, outcome(p), fmt::to_string(p.comparison.differing),
+            pictures.rows.push_back({printable(p.capture.suite), printable(p.capture.name), outcome(p), fmt::to_string(p.comparison.differing),
                                      fmt::to_string(p.comparison.largest), detail(p)});
     std::string text = fmt::format("profile {}; pictures that are not equal, or report a count:\n", profile.name);
     return text + to_text(pictures) + '\n' + to_text(suite_table(checked));
@@ -184,10 +194,10 @@ void write_report(const std::string& folder, const std::vector<CheckedPicture>& 
         }
         page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}; {}\n", p.capture.suite, p.capture.name, outcome(p),
                             p.comparison.differing, p.comparison.compared, p.comparison.largest, detail(p));
-        const hc::Drawing drawing = hc::draw(*hc::find_suite(p.capture.suite), p.capture.name, profile, textures_of(p.capture));
+        const hc::Drawing drawing = drawn(p.capture, profile);
         scenes::write_image((std::filesystem::path(folder) / file_name(p)).string(),
                             {.color = hc::difference_picture(*drawing.picture, read_capture(p.capture.path))});
-        page += fmt::format("\n  ![difference]({})\n\n", file_name(p));
+        page += fmt::format("\n  ![difference](<{}>)\n\n", link_to(file_name(p)));
     }
     scenes::write_file((std::filesystem::path(folder) / "report.md").string(), page);
 }

@@ -15,6 +15,9 @@ struct Capture {
 // Beside the suites: images that tests loaded (Pixel_shader's). No suite.
 inline constexpr std::string_view textures_folder = "textures";
 
+// The picture of a known suite, or why there is none: the profile may lack what it draws on.
+[[nodiscard]] scenes::hardware_check::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile);
+
 struct CheckedPicture {
     Capture capture;
     bool is_known = false;    // the suite, and the name in it
@@ -28,14 +31,11 @@ struct CheckedPicture {
     [[nodiscard]] bool is_accepted() const { return !is_compared() || comparison.within_bound; }
 };
 
+// rgba8. InputError for a file that holds no picture, or several.
+[[nodiscard]] pipeline::Image read_capture(const std::string& path);
+
 // Draws the picture and compares. InputError for a file that is no such capture.
 [[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile);
-
-struct Score {
-    std::uint64_t equal = 0, within_bound = 0, differing = 0;
-    std::uint32_t largest = 0;
-};
-void add(Score& score, const CheckedPicture& picture);
 
 [[nodiscard]] std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
 [[nodiscard]] std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);

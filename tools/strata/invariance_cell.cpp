@@ -1,6 +1,7 @@
 #include "tools/strata/invariance_cell.h"
 
 #include "pipeline/other_splits.h"
+#include "rasterizer/hypotheses.h"
 #include "rasterizer/input_error.h"
 #include "scenes/camera.h"
 #include "scenes/profile_json.h"
@@ -46,9 +47,9 @@ pipeline::DeviceProfile CellRunner::profile(const Cell& cell) {
     if (cell.subpixel_bits != 0) profile.raster.subpixel_bits = cell.subpixel_bits;
     if (cell.hypothesis == "profile") return profile;
     std::vector<std::string> names{"profile", "all"};
-    for (const auto& [name, rules] : rasterizer::depth_hypotheses(profile.raster)) {
-        if (name == cell.hypothesis) return profile.raster = rules, profile;
-        names.push_back(name);
+    for (const auto& named : rasterizer::depth_hypotheses(profile.raster)) {
+        if (named.name == cell.hypothesis) return profile.raster = named.rules, profile;
+        names.push_back(named.name);
     }
     throw InputError(cell.profile, "hypothesis", one_of(names), found_but_near(cell.hypothesis, names));
 }
