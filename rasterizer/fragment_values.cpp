@@ -6,6 +6,7 @@
 #include "rasterizer/color_weights.h"
 #include "rasterizer/cut_coordinates.h"
 #include "rasterizer/depth_paths.h"
+#include "rasterizer/nv20_arithmetic.h"
 #include "rasterizer/window.h"
 #include "rasterizer/window_z.h"
 
@@ -193,7 +194,14 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
 
 int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
                                const float* shader_z, std::uint32_t* out) const {
-    if (depth_.format == DepthFormat::d16f) {  // no rule of the chip's bits is known: the exact plane rounded once, then cut
+    const bool by_chip = path == DepthPath::window_z && rules_.hypothesis.window_z == WindowZRule::chip;
+    if (depth_.format == DepthFormat::d16f && by_chip) {  // [M] Depth_buffer: every word of four captures
+        const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
+        for (int i = 0; i < lanes.count; ++i)
+            out[i] = std::clamp(to_d16f_code(cut_to_binary32(rule.value(lanes.edge_values(i)))), least_code_, greatest_code_);
+        return 0;
+    }
+    if (depth_.format == DepthFormat::d16f) {
         alignas(64) Lanes<float> z;
         const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
         for (int i = 0; i < lanes.count; ++i)
@@ -205,7 +213,6 @@ int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const Tri
                  rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0, out);
         return 0;
     }
-    const bool by_chip = path == DepthPath::window_z && rules_.hypothesis.window_z == WindowZRule::chip;
     if (!by_chip) return fill_exact_codes(t, lanes, shader_z, out);
     const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
     for (int i = 0; i < lanes.count; ++i)

@@ -132,9 +132,8 @@ Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, 
     return {.reading = s.format == DepthFormat::d24 ? Reading::depth24 : Reading::depth16, .image = surface.depth()};
 }
 
-constexpr std::uint64_t all_pixels = std::uint64_t{picture_width} * picture_height;
 const Drawing colors_unknown{std::nullopt, "how the chip weighs colours where w differs is not known (nv2a-fragment.md 8)"};
-const Drawing float_decides{std::nullopt, "which pixels pass hangs on float depths that are known within one unit"};
+const Drawing float_colors{std::nullopt, "its colours were computed from float depths; no capture was at hand to confirm how"};
 const Drawing z24_float{std::nullopt, "24-bit float depth is out of scope (nv2a-geometry.md 4)"};
 
 }  // namespace
@@ -143,12 +142,10 @@ Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& 
     const auto setting = take(name, "DepthFmt_") ? parse(name) : std::nullopt;
     if (!setting) return unknown_name;
     if (setting->format == DepthFormat::d24 && setting->is_float) return z24_float;
-    if (setting->is_float && !setting->shows_depth) return float_decides;
+    if (setting->is_float && !setting->shows_depth) return float_colors;
     TriangleSoup soup;
     for (const Slope& slope : window_slopes(setting->format)) add_slope(soup, slope, 0, false);
-    Picture picture = depth_picture(profile, *setting, std::move(soup));
-    if (setting->is_float) picture.bound = {all_pixels * 6 / 1000, 1};
-    return {std::move(picture), {}};
+    return {depth_picture(profile, *setting, std::move(soup)), {}};
 }
 
 Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::DeviceProfile& profile) {

@@ -85,6 +85,55 @@ TEST_CASE("hardware-check says in one sentence what is wrong with its input") {
     CHECK(sentence({"hardware-check", "broken"}).find("C00000000_Depth_y.png") != std::string::npos);
 }
 
+TEST_CASE("of several broken captures the first is named, whichever is read first") {
+    const Folder folder;
+    std::filesystem::create_directories(folder / "broken/Clear");
+    const auto file = [&](const std::string& name) { return folder / ("broken/Clear/" + name + ".png"); };
+    write_capture(folder, "broken/Clear", "C01010101_Depth_n");
+    std::filesystem::resize_file(file("C01010101_Depth_n"), 200);
+    std::ofstream(file("C00000000_Depth_y")) << "";
+    std::filesystem::create_symlink("nowhere.png", file("C00010000_Depth_y"));
+    for (int i = 0; i < 3; ++i) {
+        const Ended ended = run_strata(folder, {"hardware-check", "broken"});
+        CHECK(ended.status == 2);
+        CHECK(lines_of(ended.err).size() == 1);
+        CHECK(ended.err.find("C00000000_Depth_y.png") != std::string::npos);
+        CHECK(ended.out.empty());
+    }
+}
+
+TEST_CASE("folders named like pictures and names with control characters are listed at most") {
+    const Folder folder;
+    write_capture(folder, "captures/Clear", "C00000000_Depth_y");
+    write_capture(folder, "captures/Clear", "two\nlines");
+    std::filesystem::create_directories(folder / "captures/Clear/C01010101_Depth_y.png");
+    std::filesystem::create_symlink("captures", folder / "captures/loop");
+    const Ended ended = run_strata(folder, {"hardware-check", "captures"});
+    CHECK(ended.status == 0);
+    CHECK(ended.out.find("two?lines") != std::string::npos);
+}
+
+TEST_CASE("every constant that is not known has a score on the captures that it can change") {
+    const Folder folder;
+    write_capture(folder, "captures/Alpha_func", "AlphaFuncNever_Enabled");
+    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--hypotheses"});
+    CHECK(ended.status == 0);
+    CHECK(ended.out.find("depths that are written: 0 captures can tell") != std::string::npos);
+    CHECK(ended.out.find("vertex colours: 1 captures can tell") != std::string::npos);
+    for (const char* name : {"vertex_color_bits=14", "perspective_color=weight_products"})
+        CHECK(ended.out.find(name) != std::string::npos);
+}
+
+TEST_CASE("what the profile refuses is listed, and the rest is compared") {
+    const Folder folder;
+    write_capture(folder, "captures/Clear", "C00000000_Depth_y");
+    write_capture(folder, "captures/Front_face", "FrontFace_CW_CF_FaB");
+    const Ended ended = run_strata(folder, {"hardware-check", "captures", "--profile", "geforce8", "--json"});
+    const auto document = ordered_json::parse(ended.out);
+    CHECK(document.at("pictures").at(0).at("outcome") == "not modelled");  // it draws on 16-bit depth
+    CHECK(document.at("pictures").at(1).at("outcome") != "not modelled");
+}
+
 TEST_CASE("the captures of silicon, where they are at hand, are within their bounds") {
     const std::string captures = STRATA_CAPTURES_DIR;
     if (!std::filesystem::is_directory(captures)) {
