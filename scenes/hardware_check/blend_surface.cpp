@@ -83,7 +83,10 @@ pipeline::Image patterned(const pipeline::DeviceProfile& profile, Format format,
     pipeline::Surface target{profile, {.color = format, .width = side, .height = side}};
     target.clear_color({25, 25, 25, 178});
     const pipeline::Texture pattern = radial_pattern(texels, swatch);
-    for (int k = 1; k <= copies; ++k) place(target, pattern, static_cast<float>(step * k), static_cast<float>(step * k), {.blend = blend});
+    for (int k = 1; k <= copies; ++k) {
+        const auto offset = static_cast<float>(step * k);
+        place(target, pattern, offset, offset, {.blend = blend});
+    }
     const pipeline::Texture grey = flat_pattern(texels, corner, 0x44444444);
     const pipeline::Texture clear = flat_pattern(texels, corner, texels.is_wide ? 0x00ffff55 : 0x0ff5);
     for (int k = 0; k < copies + 1; ++k) {
