@@ -15,6 +15,7 @@
 #include "pipeline/shadow_stage.h"
 #include "pipeline/stencil.h"
 #include "pipeline/texture_sample.h"
+#include "pipeline/unorm8.h"
 
 namespace strata::pipeline {
 
@@ -41,6 +42,14 @@ void narrow(Format format, ColorCodes& codes, int count) noexcept {
     for (int c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
             codes[static_cast<std::size_t>(c)][i] = narrowed(format, c, codes[static_cast<std::size_t>(c)][i]);
+}
+// What a surface of 16 bits blends: colours already cut to its bits, alpha as it is (narrow.h).
+const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorLanes& cut, int count) noexcept {
+    if (info(format).bytes_per_pixel != 2 || !is_narrow(format)) return source;
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            cut[c][i] = c == 3 ? source[c][i] : unorm8_value(narrowed(format, static_cast<int>(c), to_unorm8(source[c][i])));
+    return cut;
 }
 Blend idle(const Blend& blending) { return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask}; }
 
@@ -276,7 +285,8 @@ void Region::write_colors(const PassState& state, const FragmentBatch& batch, co
         const Blend used = keeps_source ? idle(blending) : blending;
         if (used.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
             target.gather(batch.pixel, batch.count, sample, scratch_->codes);
-        blend(used, format.type, profile(), format.channels, out.color[k], scratch_->codes, batch.count);
+        const ColorLanes& source = blended_source(target.format(), out.color[k], scratch_->texel, batch.count);
+        blend(used, format.type, profile(), format.channels, source, scratch_->codes, batch.count);
         if (is_narrow(target.format())) narrow(target.format(), scratch_->codes, batch.count);
         target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, scratch_->codes);
     }

@@ -3,12 +3,12 @@
 //
 // Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q clamped to
 //          [0,1]; where the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our own fit, every one
-//          of 65,536 pixels of the chip's capture Passthru; floor(255 x) gives 9,656 others]. CULL_FRAGMENT: see CullMode. DOT_PRODUCT: (s x + t y)
-//          + r z with (x, y, z) of the previous texture input, not divided by q; _TEXTURE_2D, _TEXTURE_RECTANGLE look up at
-//          (dot of the stage before, own dot); _DEPTH_REPLACE: the stage's depth is dot of the stage before / own dot, one
-//          divide, floored or rounded like a depth write; outside the depth range, NaN and zero divisors among it, the
-//          fragment dies (with depth clamp it is clamped). A HILO texel is (HI, LO, 1), signed (HI, LO, sqrt(1 - HI^2 -
-//          LO^2)); in colour it is 0. A stage that is not consistent is NONE: (0, 0, 0, 0).
+//          of 65,536 pixels of the chip's capture Passthru; floor(255 x) gives 9,656 others]. CULL_FRAGMENT: see CullMode.
+//          DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input, not divided by q; _TEXTURE_2D,
+//          _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot); _DEPTH_REPLACE: the stage's depth is dot of the
+//          stage before / own dot, one divide, floored or rounded like a depth write; outside the depth range, NaN and zero
+//          divisors among it, the fragment dies (with depth clamp it is clamped). A HILO texel is (HI, LO, 1), signed (HI,
+//          LO, sqrt(1 - HI^2 - LO^2)); in colour it is 0. A stage that is not consistent is NONE: (0, 0, 0, 0).
 // Source   NV_texture_shader 3.8.13; hardware.md 5; nv2a-geometry.md 2, 5.1, 5.2, 5.3. Binary32 in the written order [A].
 // Tests    tests/pipeline/texture_shader_test.cpp
 #pragma once

@@ -1,7 +1,8 @@
 // Suite Blend_surface: <DstAlpha|1-DstAlpha>_<format>: what destination alpha is worth in surfaces with and without it.
-// nv2a-fragment.md 6. The <format>_Add_<factors> pictures hold a radial pattern that the reference does not describe.
+// <format>_Add_SrcA_<1-SrcA|DstA>: patterns of seven texel formats blended into them. nv2a-fragment.md 6.
 #include <algorithm>
 
+#include "scenes/hardware_check/blend_patterns.h"
 #include "scenes/hardware_check/names.h"
 #include "scenes/hardware_check/shapes.h"
 #include "scenes/hardware_check/suite.h"
@@ -73,16 +74,67 @@ void show(pipeline::Surface& window, const pipeline::Texture& texture, float x, 
     place(window, half, x, y + side / 2, {.blend = pipeline::blend_mode::over});
 }
 
+// Four copies of the pattern down the diagonal; in the corners grey, and a colour of alpha 0, once on the left, four times on
+// the right.
+pipeline::Image patterned(const pipeline::DeviceProfile& profile, Format format, const pipeline::Blend& blend,
+                          const TexelFormat& texels) {
+    constexpr int swatch = 64, step = 12, corner = 8, copies = 4;
+    constexpr float far = side - corner;
+    pipeline::Surface target{profile, {.color = format, .width = side, .height = side}};
+    target.clear_color({25, 25, 25, 178});
+    const pipeline::Texture pattern = radial_pattern(texels, swatch);
+    for (int k = 1; k <= copies; ++k) {
+        const auto offset = static_cast<float>(step * k);
+        place(target, pattern, offset, offset, {.blend = blend});
+    }
+    const pipeline::Texture grey = flat_pattern(texels, corner, 0x44444444);
+    const pipeline::Texture clear = flat_pattern(texels, corner, texels.is_wide ? 0x00ffff55 : 0x0ff5);
+    for (int k = 0; k < copies + 1; ++k) {
+        const float x = k == 0 ? 0 : far;
+        place(target, grey, x, 0, {.blend = blend});
+        place(target, clear, x, far, {.blend = blend});
+    }
+    return target.color();
+}
+
+std::optional<BlendFactor> added_factor(std::string_view name) {
+    if (name == "1-SrcA") return BlendFactor::one_minus_src_alpha;
+    if (name == "DstA") return BlendFactor::dst_alpha;
+    return std::nullopt;
+}
+
+const Layout* find_layout(std::string_view name) {
+    const auto* const found = std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
+    return found == std::end(layouts) ? nullptr : found;
+}
+
+// Seven tiles, shown opaque.
+Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layout_name, std::string_view factor_name) {
+    const Layout* const layout = find_layout(layout_name);
+    const auto factor = added_factor(factor_name);
+    if (layout == nullptr || !factor) return unknown_name;
+    const pipeline::BlendTerm term{BlendEquation::add, BlendFactor::src_alpha, *factor};
+    pipeline::Surface window{profile, {}};
+    window.clear_color(unpack(0xff555555));
+    for (std::size_t k = 0; k < blended_formats.size(); ++k) {
+        pipeline::Texture shown = as_texels(patterned(profile, layout->format, {true, term, term}, blended_formats[k]), *layout);
+        for (std::size_t i = 3; i < shown.texels.size(); i += 4) shown.texels[i] = 255;
+        place(window, shown, 32.0f + 144.0f * static_cast<float>(k % 4), 92.0f + 144.0f * static_cast<float>(k / 4), {});
+    }
+    return {Picture{.image = window.color()}, {}};
+}
+
 }  // namespace
 
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile) {
-    if (name.find("_Add_") != std::string_view::npos)
-        return {std::nullopt, "its radial pattern is not described; its corners agree with the DstAlpha pictures"};
+    constexpr std::string_view added = "_Add_SrcA_";
+    if (const std::size_t place = name.find(added); place != std::string_view::npos)
+        return draw_added(profile, name.substr(0, place), name.substr(place + added.size()));
     BlendFactor factor = BlendFactor::dst_alpha;
     if (take(name, "1-")) factor = BlendFactor::one_minus_dst_alpha;
     if (!take(name, "DstAlpha_")) return unknown_name;
-    const auto layout = std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
-    if (layout == std::end(layouts)) return unknown_name;
+    const Layout* const layout = find_layout(name);
+    if (layout == nullptr) return unknown_name;
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xff555555));
     for (int k = 0; k < 8; ++k) {

@@ -97,7 +97,8 @@ Picture mux(const pipeline::DeviceProfile& profile) {
         combiners.stages[0].constant[0] = codes(0, 0, 0, cases[k].alpha);
         combiners.stages[0].alpha = {.a = constant0, .b = one, .ab = Reg::spare0};
         combiners.stages[1].constant = {codes(255, 0, 0, 255), codes(0, 0, 255, 255)};
-        combiners.stages[1].rgb = {.a = constant0, .b = one, .c = constant1, .d = one, .sum = Reg::primary_color, .sum_rule = cases[k].rule};
+        combiners.stages[1].rgb = {.a = constant0, .b = one, .c = constant1, .d = one, .sum = Reg::primary_color,
+                                   .sum_rule = cases[k].rule};
         combiners.stages[1].alpha = {.a = one, .b = one, .ab = Reg::primary_color};
         draw(surface, combiners, world_quad(k));
     }
@@ -154,7 +155,8 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
     Surface surface{profile, {}};
     draw_checkerboard(surface);
     for (int k = 0; k < 6; ++k) {
-        const CombinerPortion rgb{.a = constant0, .b = one, .ab = Reg::spare0, .scale = operations[k].scale, .bias = operations[k].bias};
+        const auto [bias, scale] = operations[k];
+        const CombinerPortion rgb{.a = constant0, .b = one, .ab = Reg::spare0, .scale = scale, .bias = bias};
         CombinerPortion alpha = rgb;
         alpha.a = blue(constant0);
         const float x = k < 5 ? left_column : right_column, y = quad_top + quad_step * static_cast<float>(k % 5);

@@ -121,12 +121,10 @@ Image raw_texels(const Setting& s) {
     return texels;
 }
 
-// Window z of a world z, in the buffer's own units. The fixed pipeline's matrices do not give exactly 0 at the near plane: 8 at 24
-// bits, as nv2a-depth.md 2 has it of Depth_buffer_fixed_function.
+// Window z of a world z, in the buffer's own units.
 float depth_of(const Setting& s, float z) {
-    constexpr float near = -6;
-    if (s.source == Source::fixed && s.format == DepthFormat::d24 && z == near) return 8;
     const double units = s.format == DepthFormat::d16f ? rasterizer::max_d16f : rasterizer::max_code(s.format);
+    if (s.source == Source::fixed) return chip_window_z(z, static_cast<float>(units));
     return static_cast<float>(window_z(z, units));
 }
 
