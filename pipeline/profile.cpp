@@ -22,10 +22,9 @@ DeviceProfile geforce3() {
                 .depth_path = DepthPath::window_z,
                 .depth_rounding = DepthRounding::floor,
                 .color = ColorInterpolation::weights_8bit,
-                .interpolation = {.texture_coordinates = CoordinateRule::cut_weights}};
+                .interpolation = {.vertex_color_bits = 14, .texture_coordinates = CoordinateRule::cut_weights}};
     p.alpha_test = AlphaTestPrecision::unorm8;
     p.texture_filter = TextureFilterPrecision::unorm8;
-    p.quantizes_vertex_color = true;
     p.has_d16 = true;
     p.has_depth_clamp = true;
     p.has_signed_blend = true;

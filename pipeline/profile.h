@@ -29,7 +29,6 @@ struct DeviceProfile {
     MinMaxNan min_max_nan = MinMaxNan::other_operand;
     DenormalRule denormals = DenormalRule::flush;
     TextureFilterPrecision texture_filter = TextureFilterPrecision::single;
-    bool quantizes_vertex_color = false;  // vertex colours become 8-bit integers before interpolation
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;

@@ -169,7 +169,7 @@ constexpr std::array fields{
                                       {"[A] either is in use", "[A] either is in use", ours, "[A] either is in use"}),
     integer<&Interpolation::vertex_color_bits>(
         "raster.vertex_color_bits", {9, 24},
-        {"[A] all of them; suite Depth_buffer says 14, all of 3,944 greys", unweighted, unweighted, unweighted}),
+        {"[M] interpolation_hypothesis.h: all of 3,944 greys", unweighted, unweighted, unweighted}),
     choice<&Interpolation::perspective_color>("raster.perspective_color", perspective_color_names,
                                               {"[A] nv2a-fragment.md 8: equal w alone is measured", unweighted,
                                                unweighted, unweighted}),
@@ -194,8 +194,6 @@ constexpr std::array fields{
     choice<&Profile::texture_filter>("texture_filter", filter_names,
                                      {"[A] decisions.md 1: one rounding to 8 bits",
                                       "[A] decisions.md 1: binary32 in a fixed order", ours, unmeasured}),
-    boolean<&Profile::quantizes_vertex_color>("quantizes_vertex_color",
-                                              {"[M] nv2a-fragment.md R5, 16 of 16", "[A] 11", ours, unmeasured}),
     boolean<&Profile::has_d16>("has_d16", {"[M] 2: Z16", "[M] 2: Z16 only from G200 on", ours, opengl}),
     boolean<&Profile::has_d24>("has_d24", {"[M] 2: Z24S8", "[M] 2: Z24S8", ours, opengl}),
     boolean<&Profile::has_d32f>("has_d32f",

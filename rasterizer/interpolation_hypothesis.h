@@ -21,7 +21,7 @@ enum class CoordinateRule : std::uint8_t { exact_plane, cut_weights };
 
 struct InterpolationHypothesis {
     // Leading bits of a vertex colour that reach its 8-bit code (9 to 24), the rest is cut. [M] 14: all of 3,944 greys of
-    // suite Depth_buffer, while 13 gives 25 wrong, 15 gives 14, all 24 give 29. The default keeps all [A].
+    // suite Depth_buffer, while 13 gives 25 wrong, 15 gives 14, all 24 give 29.
     int vertex_color_bits = 24;
     PerspectiveColor perspective_color = PerspectiveColor::edge_products;
     CoordinateRule texture_coordinates = CoordinateRule::exact_plane;

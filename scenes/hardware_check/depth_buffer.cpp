@@ -119,16 +119,12 @@ void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
     }
 }
 
-// A corner's 0.3 is code 76 by its 14 leading bits and 77 by all of them; it weighs on the large quad.
-constexpr Bound codes_of_a_corner{85756, 1};
-
 Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, TriangleSoup soup) {
     pipeline::Surface surface{profile, {.depth = s.format}};
     surface.clear_color(unpack(0xff000000));
     surface.clear_depth(s.clear);
     surface.draw({.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}}, std::move(soup));
-    const bool as_measured = profile.raster.interpolation.vertex_color_bits == 14;
-    if (!s.shows_depth) return {.image = surface.color(), .bound = as_measured ? Bound{} : codes_of_a_corner};
+    if (!s.shows_depth) return {.image = surface.color()};
     return {.reading = s.format == DepthFormat::d24 ? Reading::depth24 : Reading::depth16, .image = surface.depth()};
 }
 

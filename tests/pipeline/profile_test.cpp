@@ -26,9 +26,9 @@ TEST_CASE("geforce3 has the numbers that captures of an NV2A prove") {
     CHECK(p.raster.depth_path == DepthPath::window_z);
     CHECK(p.raster.depth_rounding == DepthRounding::floor);
     CHECK(p.raster.color == ColorInterpolation::weights_8bit);
+    CHECK(p.raster.interpolation.vertex_color_bits == 14);
     CHECK(p.raster.interpolation.texture_coordinates == CoordinateRule::cut_weights);
     CHECK(p.alpha_test == AlphaTestPrecision::unorm8);
-    CHECK(p.quantizes_vertex_color);
     CHECK((p.has_d16 && p.has_d24 && !p.has_d32f));
     CHECK_FALSE(
         (p.has_float_targets || p.has_separate_alpha_blend || p.has_two_sided_stencil || p.has_fragment_programs));
@@ -105,7 +105,7 @@ TEST_CASE("the rows of the table make the whole profile") {
         for (const ProfileField& field : profile_fields()) field.set(copy, field.value(original));
         CHECK(copy == original);
     }
-    CHECK(profile_fields().size() == 51);  // 14 rules of rasterization, 10 of its hypotheses, 27 fields of DeviceProfile
+    CHECK(profile_fields().size() == 50);  // 14 rules of rasterization, 10 of its hypotheses, 26 fields of DeviceProfile
 }
 
 TEST_CASE("a description names each value's source, and a number that a user changed is the user's") {

@@ -120,7 +120,7 @@ TEST_CASE("every constant that is not known has a score on the captures that it 
     CHECK(ended.status == 0);
     CHECK(ended.out.find("depths that are written: 0 captures can tell") != std::string::npos);
     CHECK(ended.out.find("vertex colours: 1 captures can tell") != std::string::npos);
-    for (const char* name : {"vertex_color_bits=14", "perspective_color=weight_products"})
+    for (const char* name : {"vertex_color_bits=24", "perspective_color=weight_products"})
         CHECK(ended.out.find(name) != std::string::npos);
 }
 
