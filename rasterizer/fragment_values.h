@@ -4,7 +4,8 @@
 //          clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded
 //          once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the
 //          same bits are that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions,
-//          evaluated in binary64 and rounded once. depth_replace drops a fragment whose depth is outside the depth
+//          evaluated in binary64 and rounded once. Colours by 8-bit weights, coordinates by cut weights: color_weights.h,
+//          cut_coordinates.h. depth_replace drops a fragment whose depth is outside the depth
 //          range (with depth clamp: clamps it), after the clip of window z. The reference is another depth of the same
 //          fragment.
 // Source   decisions.md 1; hardware.md 2, 3 and 5.

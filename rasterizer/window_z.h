@@ -2,7 +2,8 @@
 //
 // Rule     nv2a-depth.md section 1: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the
 //          reference; the others add b_j (z_j - z_R), each cut toward zero to 2^(ex - 28), ex the largest exponent of
-//          the three terms; depth = floor of the sum. z are binary32 in buffer units; vertex z with polygon offset is
+//          the three terms; depth = floor of the sum; 16-bit float depth: the sum cut to binary32, and that to its code
+//          (every word of four captures of suite Depth_buffer). z are binary32 in buffer units; vertex z with polygon offset is
 //          rounded to binary32 first [A].
 // Source   measured on silicon: 4,927,976 of 4,927,976 words; general and counter-clockwise triangles untested there.
 // Numbers  z_j - z_R is exact: 24 + 61 bits, because a z below 2^-36 of the other acts as any z below 2^-24 of it does;

@@ -40,7 +40,8 @@ ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
 
 // nv2a-geometry.md 5.4 has another rule for colours within 2 units everywhere, ours is as far from that one at most.
 constexpr Bound within_four{std::uint64_t{picture_width} * picture_height, 4};
-// Texels that the chip takes from the other side of a cell's edge: 2 and 1 in the two captures that were at hand.
+// Texels that the chip takes from the other side of a cell's edge: 1 in the corrected capture at hand, none in the other one; no
+// quad was at hand.
 constexpr Bound few_texels{8, 255};
 
 }  // namespace
