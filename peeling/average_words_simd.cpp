@@ -5,6 +5,7 @@
 #include "hwy/highway.h"
 
 #include "peeling/average_words.h"
+#include "pipeline/unorm8-inl.h"
 #include "rasterizer/simd.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,8 +20,8 @@ constexpr bool has_halves = true;
 using Words = hn::ScalableTag<std::uint32_t>;
 using Floats = hn::Repartition<float, Words>;
 using Integers = hn::RebindToSigned<Words>;
-using Doubles = hn::Repartition<double, Words>;
-using HalfFloats = hn::Half<Floats>;
+using pipeline::HWY_NAMESPACE::unorm8_codes;
+using pipeline::HWY_NAMESPACE::unorm8_values;
 using WordVec = hn::Vec<Words>;
 using FloatVec = hn::Vec<Floats>;
 
@@ -30,23 +31,6 @@ HWY_INLINE FloatVec widened(WordVec halves) {
 }
 HWY_INLINE FloatVec low_half(WordVec words) { return widened(hn::And(words, hn::Set(Words{}, 0xffffu))); }
 HWY_INLINE FloatVec high_half(WordVec words) { return widened(hn::ShiftRight<16>(words)); }
-
-// from_unorm8 and to_unorm8 of unorm8.h.
-HWY_INLINE FloatVec from_code(WordVec code) {
-    return hn::Div(hn::ConvertTo(Floats{}, hn::BitCast(Integers{}, code)), hn::Set(Floats{}, 255.0f));
-}
-HWY_INLINE WordVec to_code(FloatVec x) {
-    const Floats d;
-    const Doubles d64;
-    const FloatVec positive = hn::IfThenElseZero(hn::Gt(x, hn::Zero(d)), x);
-    const FloatVec clamped = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 1.0f)), positive, hn::Set(d, 1.0f));
-    const auto scaled = [&](hn::Vec<HalfFloats> half) HWY_ATTR {
-        const auto exact = hn::Mul(hn::PromoteTo(d64, half), hn::Set(d64, 255.0));
-        return hn::DemoteTo(hn::Half<Integers>{}, hn::Add(exact, hn::Set(d64, 0.5)));
-    };
-    return hn::BitCast(Words{}, hn::Combine(Integers{}, scaled(hn::UpperHalf(HalfFloats{}, clamped)),
-                                            scaled(hn::LowerHalf(HalfFloats{}, clamped))));
-}
 
 // (1 - a / n)^n of average.h.
 HWY_INLINE FloatVec transmittance(FloatVec a, FloatVec n) {
@@ -93,7 +77,7 @@ StuckPixels resolve(const pipeline::ScreenWords& words) {
             const FloatVec t = transmittance(a, n), opacity = hn::Sub(hn::Set(df, 1.0f), t);
             const auto channel = [&](FloatVec sum, WordVec behind) HWY_ATTR {
                 const FloatVec color = hn::Mul(hn::Div(sum, a), opacity);
-                return to_code(hn::Add(color, hn::Mul(from_code(behind), t)));
+                return unorm8_codes(d, hn::Add(color, hn::Mul(unorm8_values(d, behind), t)));
             };
             const WordVec byte = hn::Set(d, 0xffu);
             WordVec mixed = hn::Or(hn::Set(d, 0xff000000u), channel(low_half(red_green), hn::And(background, byte)));

@@ -4,6 +4,8 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
+#include "pipeline/unorm8-inl.h"
+
 #include "peeling/block_passes.h"
 #include "rasterizer/simd.h"
 
@@ -22,27 +24,8 @@ using FloatVec = hn::Vec<Floats>;
 
 HWY_INLINE FloatVec float_of(WordVec code) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, code)); }
 
-// unorm8_value and to_unorm8.
-HWY_INLINE FloatVec value_of(WordVec code) {
-    const FloatVec k = float_of(code);
-    return hn::Add(hn::Mul(k, hn::Set(Floats{}, 0x1.01p-8f)), hn::Mul(k, hn::Set(Floats{}, 1.0f / 0xff0000p0f)));
-}
-#if HWY_TARGET == HWY_SCALAR
-HWY_INLINE WordVec code_of(FloatVec x) { return hn::Set(Words{}, pipeline::to_unorm8(hn::GetLane(x))); }
-#else
-HWY_INLINE WordVec code_of(FloatVec x) {
-    const Floats d;
-    const hn::Half<Floats> half;
-    const hn::Rebind<double, hn::Half<Floats>> wide;
-    const auto positive = hn::IfThenElseZero(hn::Lt(hn::Zero(d), x), x);  // 0 for NaN
-    const auto clamped = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 1.0f)), positive, hn::Set(d, 1.0f));
-    const auto rounded = [&](auto part) HWY_ATTR {
-        const auto product = hn::Mul(hn::PromoteTo(wide, part), hn::Set(wide, 255.0));
-        return hn::DemoteTo(hn::Rebind<std::int32_t, hn::Half<Floats>>{}, hn::Add(product, hn::Set(wide, 0.5)));
-    };
-    return hn::BitCast(Words{}, hn::Combine(Signed{}, rounded(hn::UpperHalf(half, clamped)), rounded(hn::LowerHalf(half, clamped))));
-}
-#endif
+HWY_INLINE FloatVec value_of(WordVec code) { return pipeline::HWY_NAMESPACE::unorm8_values(Words{}, code); }
+HWY_INLINE WordVec code_of(FloatVec x) { return pipeline::HWY_NAMESPACE::unorm8_codes(Words{}, x); }
 
 // Unorm8Arithmetic::combine with BlendEquation::add.
 template <pipeline::BlendRounding rounding>

@@ -41,11 +41,21 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
     return *prepared;
 }
 
+void PreparedLists::bin(int tile_size_px) {
+    const Stopwatch watch{seconds_};
+    const auto bin_one = [&](std::optional<PreparedDraw>& list) {
+        if (list && list->geometry.tile_size != tile_size_px) bin_triangles(list->geometry, tile_size_px, s_.options.threads);
+    };
+    std::ranges::for_each(transparent_, bin_one);
+    bin_one(opaque_);
+    bin_one(second_);
+}
+
 PrepareOptions PreparedLists::prepare_options(Selection selection) const {
     PrepareOptions options{.selection = selection,
                            .alpha_scale = s_.options.alpha.value_or(1.0f),
                            .depth_quotient = takes_quotient(s_.depth),
-                           .tile_size = s_.options.tile_size,
+                           .tile_size = 0,
                            .threads = s_.options.threads};
     if (s_.light == nullptr) return options;
     options.units = shadow_units(*s_.list.light, s_.view.view, s_.light->state, s_.profile);

@@ -1,4 +1,4 @@
-// peeling/prepared_lists.h - the lists that the frames of one command draw, each transformed, set up and binned once.
+// peeling/prepared_lists.h - the lists that the frames of one command draw, each transformed, set up and, for a tile size, binned once.
 //
 // Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is what all passes
 //          but the first draw, where another vertex path, another split of the surfaces or another depth clamp was asked for.
@@ -30,6 +30,8 @@ class PreparedLists {
     explicit PreparedLists(Settings settings);
 
     [[nodiscard]] const pipeline::PreparedDraw& transparent(ListOrder order);
+    // Sorts all lists that there are into tiles of this size, if they are not yet.
+    void bin(int tile_size_px);
     [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
     [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
     [[nodiscard]] double seconds() const noexcept { return seconds_; }

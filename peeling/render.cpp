@@ -23,8 +23,8 @@ void check_options(const RenderOptions& o) {
     };
     in_range("--size: width", o.width, 1, 16384);
     in_range("--size: height", o.height, 1, 16384);
-    if (std::find(std::begin(tile_sizes), std::end(tile_sizes), o.tile_size) == std::end(tile_sizes))
-        throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(o.tile_size));
+    if (o.tile_size && std::find(std::begin(tile_sizes), std::end(tile_sizes), *o.tile_size) == std::end(tile_sizes))
+        throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(*o.tile_size));
     in_range("--threads", o.threads, 0, 1024);
     in_range("the window's origin: x", o.window_origin[0], 0, 32768 - o.width);
     in_range("the window's origin: y", o.window_origin[1], 0, 32768 - o.height);
@@ -95,6 +95,12 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
 
 }  // namespace
 
+int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {
+    constexpr std::int64_t large = 128, many = 32;
+    const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
+    return options.tile_size.value_or(!algorithm.replayed && has_many ? large : 64);
+}
+
 struct Renderer::State {
     DeviceProfile profile;
     RenderOptions options;
@@ -164,6 +170,7 @@ struct Renderer::State {
         f.opaque = own.opaque();
         f.transparent = &own.transparent(algorithm.order);
         f.second = own.second();
+        own.bin(tile_size_of(options, algorithm));
         f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
         f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;

@@ -40,7 +40,7 @@ struct RenderOptions {
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments
-    int tile_size = 64;
+    std::optional<int> tile_size;  // pixels; default: tile_size_of
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Effect once_more = pipeline::Effect::none;  // pipeline/frame.h; never replayed
@@ -55,6 +55,10 @@ struct RenderOptions {
     // Conventions; the viewport is set from width, height and window_origin.
     rasterizer::RasterState raster;
 };
+
+// The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all and the frame has many
+// tiles: triangles are divided among fewer. (More passes keep more a pixel, and want it in the caches.)
+[[nodiscard]] int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 
 enum class Outcome : std::uint8_t { done, refused };
 

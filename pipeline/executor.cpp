@@ -44,8 +44,13 @@ class FrameRun {
     }
 
     FrameResult finish() {
-        run(run_one_blank_of_each_size(), {});
-        copy_blanks();
+        const std::vector<std::size_t> others = run_one_blank_of_each_size();
+        parallel_for(others.size(), threads_, [&](std::size_t i) {
+            if (twin_[others[i]] == no_twin)
+                run_region(others[i], {});
+            else
+                copy_blank(others[i]);
+        });
         settle();
         gather();
         return std::move(result_);
@@ -71,7 +76,8 @@ class FrameRun {
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
     }
 
-    // What one blank tile does, every blank tile of its size does: the first of them stands for the others.
+    // What one blank tile does, every blank tile of its size does: the first of them stands for the others. All but those first
+    // ones are returned.
     [[nodiscard]] std::vector<std::size_t> run_one_blank_of_each_size() {
         std::vector<std::size_t> others;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -84,21 +90,21 @@ class FrameRun {
             };
             const auto found = std::find_if(blanks_.begin(), blanks_.end(), same_size);
             twin_[r] = found == blanks_.end() ? r : *found;
-            if (found != blanks_.end()) continue;
+            if (found != blanks_.end()) {
+                others.push_back(r);
+                continue;
+            }
             run_region(r, {});
             if (regions_[r].diagnostics.empty()) blanks_.push_back(r);  // they name pixels
         }
         return others;
     }
 
-    void copy_blanks() {
-        parallel_for(regions_.size(), threads_, [&](std::size_t r) {
-            if (twin_[r] == no_twin || twin_[r] == r) return;
-            regions_[r] = regions_[twin_[r]];
-            regions_[r].fragments = 0;
-            copy(twin_[r], r, result_.color);
-            if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
-        });
+    void copy_blank(std::size_t r) {
+        regions_[r] = regions_[twin_[r]];
+        regions_[r].fragments = 0;
+        copy(twin_[r], r, result_.color);
+        if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
     }
 
     void copy(std::size_t from, std::size_t to, Image& image) const {

@@ -1,32 +1,14 @@
 // pipeline/image.h - a finished rectangle of raw target codes: what leaves the machine, is digested, written and compared.
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "pipeline/format.h"
+#include "rasterizer/uninitialized.h"
 
 namespace strata::pipeline {
 
-// Leaves elements without a value as they are: Image::for_overwrite.
-template <class T>
-struct UninitializedAllocator : std::allocator<T> {
-    template <class U>
-    struct rebind {
-        using other = UninitializedAllocator<U>;
-    };
-    template <class U>
-    void construct(U* place) noexcept {
-        ::new (static_cast<void*>(place)) U;
-    }
-    template <class U, class... Args>
-    void construct(U* place, Args&&... args) {
-        ::new (static_cast<void*>(place)) U(std::forward<Args>(args)...);
-    }
-};
-using ImageCodes = std::vector<std::uint32_t, UninitializedAllocator<std::uint32_t>>;
+using ImageCodes = UninitializedVector<std::uint32_t>;
 
 // One code a channel, rows top to bottom, pixels left to right, samples, then channels R G B A: UNORM8 and stencil codes and
 // half-float bits zero-extended to 32 bits, binary32 bits as they are, depth codes as they are (D32F: float bits).

@@ -7,7 +7,7 @@
 #include "pipeline/quotient_rows.h"
 #include "pipeline/matrix.h"
 #include "pipeline/shadow_stage.h"
-#include "pipeline/vertex_transform.h"
+#include "pipeline/vertex_stage.h"
 #include "rasterizer/depth_bound.h"
 #include "rasterizer/float_environment.h"
 #include "rasterizer/numerics.h"
@@ -18,67 +18,11 @@ namespace strata::pipeline {
 
 namespace {
 
-// Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for mirrored
-// models, a sign that |N.L| does not see.
-std::array<float, 9> normal_matrix(const Matrix& m) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
-    std::array<float, 9> n{};
-    for (std::size_t column = 0; column < 3; ++column)
-        for (std::size_t row = 0; row < 3; ++row) {
-            const std::size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
-            n[3 * column + row] = static_cast<float>(a(r1, c1) * a(r2, c2) - a(r1, c2) * a(r2, c1));
-        }
-    return n;
-}
-
 double determinant(const Matrix& m) {
     const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
     return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
            a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
 }
-
-// The unit vector from the view's centre to the eye: the view's third row.
-Vec3 light_direction(const Matrix& view) {
-    const double x = view[2], y = view[6], z = view[10];
-    const double length = std::sqrt((x * x + y * y) + z * z);
-    if (!(length > 0)) return {0, 0, 1};
-    return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
-}
-
-float lighting(const std::array<float, 9>& m, const Vec3& n, const Vec3& light) {
-    Vec3 world{};
-    for (std::size_t r = 0; r < 3; ++r) world[r] = (m[r] * n[0] + m[3 + r] * n[1]) + m[6 + r] * n[2];
-    const float squared = (world[0] * world[0] + world[1] * world[1]) + world[2] * world[2];
-    const float length = std::sqrt(squared);
-    if (!(length > 0.0f)) return 0.25f;
-    const float dot = (world[0] * light[0] + world[1] * light[1]) + world[2] * light[2];
-    return 0.25f + 0.75f * std::fabs(dot / length);
-}
-
-struct VertexStage {
-    const Mesh& mesh;
-    const Material& material;
-    VertexTransform clip;
-    std::array<float, 9> normal;
-    Vec3 light;
-    float alpha_scale;
-
-    [[nodiscard]] rasterizer::ClipVertex operator()(std::size_t i) const {
-        const std::array<float, 4> p = clip(mesh.positions[i]);
-        rasterizer::ClipVertex v{.x = p[0], .y = p[1], .z = p[2], .w = p[3]};
-        const bool lit = !material.unlit && !mesh.normals.empty();
-        const float light_factor = lit ? lighting(normal, mesh.normals[i], light) : 1.0f;
-        const Rgba color = mesh.colors.empty() ? Rgba{1, 1, 1, 1} : mesh.colors[i];
-        for (std::size_t c = 0; c < 3; ++c) {
-            v.front[c] = (material.front[c] * color[c]) * light_factor;
-            v.back[c] = (material.back[c] * color[c]) * light_factor;
-        }
-        v.front[3] = (material.front[3] * color[3]) * alpha_scale;
-        v.back[3] = (material.back[3] * color[3]) * alpha_scale;
-        if (!mesh.texcoords.empty()) v.texcoord = mesh.texcoords[i];
-        return v;
-    }
-};
 
 bool is_selected(const Material& material, Selection selection) {
     if (selection == Selection::all) return true;
@@ -89,21 +33,18 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
             rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
-    const VertexTransform clip{view.vertex_path, product(product(view.projection, view.view), instance.model),
-                               view.projection, product(view.view, instance.model)};
-    const VertexStage stage{mesh, material, clip,
-                            normal_matrix(instance.model), light_direction(view.view),
+    const VertexStage stage{mesh, material, view, instance.model,
                             material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
     const std::size_t base = soup.vertices.size(), first_index = soup.indices.size();
     soup.vertices.resize(base + mesh.positions.size());
     soup.indices.resize(first_index + mesh.indices.size());
-    constexpr std::size_t chunk = 4096;
+    constexpr std::size_t chunk = 1024;
     const std::size_t vertex_chunks = (mesh.positions.size() + chunk - 1) / chunk;
     const std::size_t index_chunks = (mesh.indices.size() + chunk - 1) / chunk;
     parallel_for(vertex_chunks + index_chunks, options.threads, [&](std::size_t c) {
         if (c < vertex_chunks) {
-            const std::size_t end = std::min(mesh.positions.size(), (c + 1) * chunk);
-            for (std::size_t i = c * chunk; i < end; ++i) soup.vertices[base + i] = stage(i);
+            const std::size_t count = std::min(chunk, mesh.positions.size() - c * chunk);
+            stage.run(c * chunk, std::span{soup.vertices}.subspan(base + c * chunk, count));
             return;
         }
         const std::size_t begin = (c - vertex_chunks) * chunk, end = std::min(mesh.indices.size(), begin + chunk);
@@ -190,7 +131,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     soup.extras = vertex_extras(list, view, state, rules, options);
     PreparedDraw prepared;
     prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
-    bin_triangles(prepared.geometry, options.tile_size, options.threads);
+    if (options.tile_size > 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
     for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));
     for (const Material& material : list.materials) {

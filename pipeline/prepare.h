@@ -67,7 +67,7 @@ struct PrepareOptions {
     float alpha_scale = 1.0f;     // --alpha: every alpha times this, at the vertex; a MASK material's after its test
     bool depth_quotient = false;  // also r and q of every vertex, for perspective_rq and depth_replace (quotient_rows.h)
     Ordering order{};  // none: as listed
-    int tile_size = 32;
+    int tile_size = 32;  // 0: not binned yet
     int threads = 0;
     CoordinateUnits units{};  // texture units that somebody looks at
     bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h

@@ -12,40 +12,6 @@ namespace {
 
 static_assert(rasterizer::row_padding <= spare_words);
 
-// The two halves of every word of a plane.
-void split(const std::uint32_t* words, std::span<std::uint16_t> low, std::span<std::uint16_t> high) {
-    for (std::size_t i = 0; i < low.size(); ++i) low[i] = static_cast<std::uint16_t>(words[i]);
-    for (std::size_t i = 0; i < high.size(); ++i) high[i] = static_cast<std::uint16_t>(words[i] >> 16);
-}
-void join(std::span<const std::uint16_t> low, std::span<const std::uint16_t> high, std::uint32_t* words) {
-    for (std::size_t i = 0; i < low.size(); ++i) words[i] = low[i];
-    for (std::size_t i = 0; i < high.size(); ++i) words[i] |= std::uint32_t{high[i]} << 16;
-}
-
-// An fp16 target as planes of halves while rows are added to it: up to four channels, two a word.
-class HalfPlanes {
-  public:
-    HalfPlanes(TargetStorage& target, Arena& arena) : texels_{target.texels(0)}, pixels_{target.pixels()} {
-        for (auto& plane : planes_) plane = arena.take<std::uint16_t>(pixels_ + spare_words);
-        for (std::size_t word = 0; word < texels_.words(); ++word)
-            split(texels_.plane(word).words, half(2 * word), half(2 * word + 1));
-    }
-    void write_back() const {
-        for (std::size_t word = 0; word < texels_.words(); ++word)
-            join(half(2 * word), half(2 * word + 1), texels_.plane(word).words);
-    }
-    [[nodiscard]] std::uint16_t* plane(std::size_t channel) const { return planes_[channel].data(); }
-
-  private:
-    [[nodiscard]] std::span<std::uint16_t> half(std::size_t channel) const {
-        return planes_[channel].first(channel < static_cast<std::size_t>(texels_.channels) ? pixels_ : 0);
-    }
-
-    Texels texels_;
-    std::size_t pixels_;
-    std::array<std::span<std::uint16_t>, 4> planes_;
-};
-
 // What the materials of a region's triangles call for; mostly nothing, and then no triangle is looked at.
 MaterialNeeds needs_in(const PreparedDraw& list, std::size_t tile) {
     return list.needs == MaterialNeeds{} ? list.needs : needs_of(list, list.geometry.bin(tile));
@@ -119,16 +85,13 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     const PreparedDraw& list = *frame_.transparent;
     begin_pass(state, PassKind::geometry);
     const bool is_open = depth_outcome(state, list) == DepthOutcome::open, counts = state.color[1].exists();
-    const HalfPlanes sums{at(state.color[0]), arena()};
-    const HalfPlanes count{at(state.color[counts ? 1 : 0]), arena()};
-    const SumPlanes planes{{sums.plane(0), sums.plane(1), sums.plane(2), sums.plane(3)},
-                           counts ? count.plane(0) : nullptr,
+    const Texels sums = at(state.color[0]).texels(0);
+    const SumPlanes planes{{sums.plane(0).words, sums.plane(1).words},
+                           counts ? at(state.color[1]).texels(0).plane(0).words : nullptr,
                            is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
     const rasterizer::DepthDrawn rows =
         add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(), rect_, planes,
                      profile().denormals == DenormalRule::flush);
-    sums.write_back();
-    if (counts) count.write_back();
     count_rows(state, rows);
     for (std::size_t k = 0; k < (counts ? 2u : 1u); ++k) count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);
     Drawn drawn;

@@ -13,10 +13,10 @@
 
 namespace strata::pipeline {
 
-// A region's pixels row by row, with rasterizer::row_padding more behind the last.
+// A region's pixels row by row, a word each, with rasterizer::row_padding more behind the last; of two halves the low one is first.
 struct SumPlanes {
-    std::array<std::uint16_t*, 4> sums;    // of r a, g a, b a and a
-    std::uint16_t* count;                  // null: not wanted
+    std::array<std::uint32_t*, 2> sums;     // of r a and g a; of b a and a
+    std::uint32_t* count;                   // its high half is 0; null: not wanted
     const std::uint32_t* opaque = nullptr;  // codes; null: every fragment passes
 };
 

@@ -20,11 +20,25 @@ struct SumState {
 
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
 
-using Code16 = raster::U16;
+// A word holds two halves: of two channels, or of one and nothing. So do vectors of twice as many lanes.
+using Pair = hn::Twice<F32>;
+using VPair = hn::Vec<Pair>;
+using HalfPair = hn::Rebind<hwy::float16_t, Pair>;
 using Half16 = hn::Rebind<hwy::float16_t, F32>;
+using Code16 = hn::Rebind<std::uint16_t, F32>;
 
-HWY_INLINE V32 widened(const std::uint16_t* halves) {
-    return hn::PromoteTo(F32{}, hn::BitCast(Half16{}, hn::LoadU(Code16{}, halves)));
+constexpr std::int32_t lanes = hn::MaxLanes(F32{});
+alignas(64) constexpr std::int32_t zipped[16] = {0, lanes,     1, lanes + 1, 2, lanes + 2, 3, lanes + 3,
+                                                 4, lanes + 4, 5, lanes + 5, 6, lanes + 6, 7, lanes + 7};
+
+HWY_INLINE VPair paired(V32 low, V32 high) {
+    return hn::TableLookupLanes(hn::Combine(Pair{}, high, low), hn::SetTableIndices(Pair{}, zipped));
+}
+HWY_INLINE VPair loaded(const std::uint32_t* words) {
+    return hn::PromoteTo(Pair{}, hn::BitCast(HalfPair{}, hn::LoadU(U32{}, words)));
+}
+HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) {
+    hn::BlendedStore(hn::BitCast(U32{}, hn::DemoteTo(HalfPair{}, sum)), hn::RebindMask(U32{}, covered), U32{}, words);
 }
 
 // A denormal as the zero of its sign.
@@ -37,31 +51,37 @@ HWY_INLINE V32 flushed(V32 v) {
 // Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered lanes. Two
 // of its steps show only where a source is negative (a positive denormal and its zero become the same half, whatever they are
 // added to) or a sum is NaN: they are done for rows that have one.
-template <bool flushes, std::size_t channels>
-HWY_INLINE void add(V32 (&source)[channels], raster::RowMask covered, std::uint16_t* const (&halves)[channels]) {
+template <bool flushes>
+HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* red_green, std::uint32_t* blue_alpha) {
     const F32 d;
     if constexpr (flushes) {
-        auto signs = hn::BitCast(hn::RebindToSigned<U32>{}, source[0]);
-        for (std::size_t c = 1; c < channels; ++c)
-            signs = hn::Or(signs, hn::BitCast(hn::RebindToSigned<U32>{}, source[c]));
-        const auto negative = hn::RebindMask(d, hn::Lt(signs, hn::Zero(hn::RebindToSigned<U32>{})));
+        const hn::RebindToSigned<U32> integers;
+        const auto signs = hn::Or(hn::Or(hn::BitCast(integers, source[0]), hn::BitCast(integers, source[1])),
+                                  hn::Or(hn::BitCast(integers, source[2]), hn::BitCast(integers, source[3])));
+        const auto negative = hn::RebindMask(d, hn::Lt(signs, hn::Zero(integers)));
         if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(covered, negative))))
             for (V32& v : source) v = flushed(v);
     }
-    V32 sum[channels];
-    auto number = hn::Eq(source[0], source[0]);
-    for (std::size_t c = 0; c < channels; ++c) {
-        sum[c] = hn::Add(source[c], widened(halves[c]));
-        number = hn::And(number, hn::Eq(sum[c], sum[c]));
+    VPair low = hn::Add(paired(source[0], source[1]), loaded(red_green));
+    VPair high = hn::Add(paired(source[2], source[3]), loaded(blue_alpha));
+    const VPair both = hn::Add(low, high);  // NaN where a sum is one, or where infinities meet
+    if (HWY_UNLIKELY(!hn::AllTrue(Pair{}, hn::Eq(both, both)))) {
+        const VPair nan = hn::BitCast(Pair{}, hn::Set(hn::RebindToUnsigned<Pair>{}, 0x7fffffffu));
+        for (VPair* v : {&low, &high}) *v = hn::IfThenElse(hn::Eq(*v, *v), *v, nan);
     }
-    if (HWY_UNLIKELY(!hn::AllFalse(d, hn::AndNot(number, covered)))) {
-        const V32 nan = hn::BitCast(d, hn::Set(U32{}, 0x7fffffffu));
-        for (V32& v : sum) v = hn::IfThenElse(hn::Eq(v, v), v, nan);
-    }
-    alignas(8) std::uint8_t bits[8] = {static_cast<std::uint8_t>(raster::bits_of(covered))};
-    const auto lanes = hn::LoadMaskBits(Code16{}, bits);
-    for (std::size_t c = 0; c < channels; ++c)
-        hn::BlendedStore(hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, sum[c])), lanes, Code16{}, halves[c]);
+    store(low, covered, red_green);
+    store(high, covered, blue_alpha);
+}
+
+// Counts one more in the low halves of words. NaN comes out as it does above.
+HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
+    const F32 d;
+    const auto codes = hn::DemoteTo(Code16{}, hn::BitCast(raster::I32{}, hn::LoadU(U32{}, words)));
+    V32 sum = hn::Add(hn::PromoteTo(d, hn::BitCast(Half16{}, codes)), hn::Set(d, 1.0f));
+    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum))))
+        sum = hn::IfThenElse(hn::Eq(sum, sum), sum, hn::BitCast(d, hn::Set(U32{}, 0x7fffffffu)));
+    const auto stored = hn::PromoteTo(U32{}, hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, sum)));
+    hn::BlendedStore(stored, hn::RebindMask(U32{}, covered), U32{}, words);
 }
 
 template <bool is_tested, bool flushes>
@@ -86,11 +106,8 @@ struct SumOf {
             V32 color[4];
             color_.template at<unsnapped>(row, b, color);
             for (std::size_t c = 0; c < 3; ++c) color[c] = hn::Mul(color[c], color[3]);
-            const auto& sums = planes_.sums;
-            add<flushes>(color, covered, {sums[0] + row.pixel, sums[1] + row.pixel, sums[2] + row.pixel, sums[3] + row.pixel});
-            if (planes_.count == nullptr) return;
-            V32 one[1] = {hn::Set(F32{}, 1.0f)};
-            add<false>(one, covered, {planes_.count + row.pixel});
+            add<flushes>(color, covered, planes_.sums[0] + row.pixel, planes_.sums[1] + row.pixel);
+            if (planes_.count != nullptr) count(covered, planes_.count + row.pixel);
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
             state_.drawn.fragments += pixels;

@@ -29,6 +29,11 @@ class VertexTransform {
         return {row(0), row(1), row(2), row(3)};
     }
 
+    // The matrix, column-major, if that is all: VertexPath::separate.
+    [[nodiscard]] const std::array<float, 16>* separate_matrix() const noexcept {
+        return path_ == VertexPath::separate ? &whole_ : nullptr;
+    }
+
   private:
     [[nodiscard]] std::array<float, 4> by_path(const Vec3& p) const;
 

@@ -1,5 +1,6 @@
 // rasterizer/bins.cpp - which tiles a set-up triangle may touch: its box of pixel centres, less the tiles wholly
-// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists have exactly the memory that they need.
+// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists
+// have exactly the memory that they need.
 // Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
 #include <algorithm>
 #include <bit>
@@ -38,70 +39,33 @@ class TileWalk {
     explicit TileWalk(const Geometry& geometry)
         : geometry_{geometry}, shift_{std::countr_zero(static_cast<unsigned>(geometry.tile_size))} {}
 
-    // The tiles of a box that is not empty.
-    [[nodiscard]] Rect tiles_of(const Rect& box) const noexcept {
-        const Rect& viewport = geometry_.state.viewport;
-        return {(box.x0 - viewport.x0) >> shift_, (box.y0 - viewport.y0) >> shift_,
-                ((box.x1 - 1 - viewport.x0) >> shift_) + 1, ((box.y1 - 1 - viewport.y0) >> shift_) + 1};
-    }
     template <class Visit>
     void visit(const TriangleRecord& triangle, Visit&& visit) const {
+        const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
+        const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
+        if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly
+        if (is_small(triangle.box)) {
+            for (int y = y0; y <= y1; ++y)
+                for (int x = x0; x <= x1; ++x) visit(number(x, y));
+            return;
+        }
         const int bits = geometry_.rules.subpixel_bits;
-        const std::array p = geometry_.points(triangle);
-        const Rect box = intersection(centre_box(p, bits), geometry_.state.viewport);
-        if (box.area() == 0) return;
-        const Rect tiles = tiles_of(box);
-        const auto number = [&](int x, int y) {
-            return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.tiles_x) +
-                   static_cast<std::size_t>(x);
-        };
-        if (tiles.area() == 1) return visit(number(tiles.x0, tiles.y0));
-        const TriangleEdges edges{p, geometry_.rules.tie_rule};
-        for (int y = tiles.y0; y < tiles.y1; ++y)
-            for (int x = tiles.x0; x < tiles.x1; ++x)
+        const TriangleEdges edges{geometry_.points(triangle), geometry_.rules.tie_rule};
+        for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x)
                 if (may_cover(edges, rect_of(x, y, geometry_), bits)) visit(number(x, y));
     }
 
   private:
+    [[nodiscard]] static bool is_small(const PixelBox& box) noexcept {
+        return box.x1 - box.x0 <= TriangleGroup::max_width && box.y1 - box.y0 <= TriangleGroup::max_height;
+    }
+    [[nodiscard]] std::size_t number(int x, int y) const noexcept {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.tiles_x) + static_cast<std::size_t>(x);
+    }
+
     const Geometry& geometry_;
     int shift_;
-};
-
-// The tiles of a triangle if they lie within 2 x 2, in 32 bits: there are at most 2^24 tiles.
-class TileBlock {
-  public:
-    TileBlock() = default;
-    // All tiles from the first to the last of a box.
-    TileBlock(const Rect& tiles, std::uint32_t tiles_x) noexcept {
-        const int columns = tiles.x1 - tiles.x0, rows = tiles.y1 - tiles.y0;
-        if (columns > 2 || rows > 2) {
-            bits_ = too_many;
-            return;
-        }
-        const std::uint32_t row = columns == 2 ? 3 : 1;
-        bits_ = static_cast<std::uint32_t>(tiles.y0) * tiles_x + static_cast<std::uint32_t>(tiles.x0);
-        bits_ |= (rows == 2 ? row << 2 | row : row) << 24;
-    }
-    // Tiles come in ascending order.
-    void add(std::uint32_t tile, std::uint32_t tiles_x) noexcept {
-        if (bits_ == 0) bits_ = tile;
-        const std::uint32_t distance = tile - (bits_ & tile_mask);
-        const bool below = distance >= tiles_x;
-        const std::uint32_t column = below ? distance - tiles_x : distance;
-        bits_ |= column <= 1 ? 1u << (24 + (below ? 2 : 0) + column) : too_many;
-    }
-    [[nodiscard]] bool is_whole() const noexcept { return (bits_ & too_many) == 0; }
-    template <class Visit>
-    void visit(std::size_t tiles_x, Visit&& visit) const {
-        const std::size_t first = bits_ & tile_mask;
-        if (bits_ >> 24 == 1) return visit(first);  // as mostly
-        for (const std::size_t corner : {0u, 1u, 2u, 3u})
-            if ((bits_ >> (24 + corner) & 1u) != 0) visit(first + corner % 2 + corner / 2 * tiles_x);
-    }
-
-  private:
-    static constexpr std::uint32_t tile_mask = (1u << 24) - 1, too_many = 1u << 31;
-    std::uint32_t bits_ = 0;  // the first tile, four bits for it and its neighbours right and below, one for more
 };
 
 // The triangles in chunks and what each chunk has in each tile: first its count there, then where it writes next.
@@ -144,47 +108,6 @@ class ChunkedBins {
     std::vector<std::uint32_t> next_;
 };
 
-// A triangle walked tile by tile.
-[[nodiscard]] TileBlock counted(const TileWalk& walk, const TriangleRecord& triangle, std::uint32_t tiles_x,
-                                std::uint32_t* count) {
-    TileBlock block;
-    walk.visit(triangle, [&](std::size_t tile) {
-        ++count[tile];
-        block.add(static_cast<std::uint32_t>(tile), tiles_x);
-    });
-    return block;
-}
-
-// Counts the triangles from `first` on in their tiles. Most lie in few tiles, which are remembered; the others are walked
-// twice.
-void find_homes(const Geometry& geometry, const TileWalk& walk, std::size_t first, std::span<TileBlock> home,
-                std::uint32_t* count) {
-    const auto tiles_x = static_cast<std::uint32_t>(geometry.tiles_x);
-    const GroupRules rules{geometry.state.viewport, geometry.rules.subpixel_bits, geometry.rules.tie_rule};
-    const SmallKernels& kernels = small_kernels();
-    TriangleGroup group;
-    for (std::size_t at = 0; at < home.size(); at += TriangleGroup::size) {
-        const std::size_t triangles = std::min<std::size_t>(TriangleGroup::size, home.size() - at);
-        const TriangleRecord* const record = &geometry.triangles[first + at];
-        load_corners(
-            geometry.corners, triangles, [&](std::size_t k) -> const auto& { return record[k].vertex; }, group);
-        kernels.set_up_boxes(rules, group);
-        for (std::size_t k = 0; k < triangles; ++k) {
-            TileBlock block;
-            const Rect box = group.box(k);
-            if (group.small[k] != 0) {
-                if (box.area() == 0) continue;
-                block = {walk.tiles_of(box), tiles_x};
-            }
-            if (group.small[k] != 0 && block.is_whole())
-                block.visit(tiles_x, [&](std::size_t tile) { ++count[tile]; });
-            else
-                block = counted(walk, geometry.triangles[first + at + k], tiles_x, count);
-            home[at + k] = block;
-        }
-    }
-}
-
 }  // namespace
 
 Rect tile_rect(const Geometry& geometry, std::size_t tile) {
@@ -202,24 +125,19 @@ void bin_triangles(Geometry& geometry, int tile_size, int threads) {
     geometry.bin_start.assign(tiles + 1, 0);
     if (tiles == 0) return;
 
-    std::vector<TileBlock> home(geometry.triangles.size());
     const TileWalk walk{geometry};
     ChunkedBins bins{geometry.triangles.size(), tiles};
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* count) {
-        find_homes(geometry, walk, begin, std::span{home}.subspan(begin, end - begin), count);
+        for (std::size_t i = begin; i < end; ++i)
+            walk.visit(geometry.triangles[i], [&](std::size_t tile) { ++count[tile]; });
     });
     bins.to_offsets(geometry.bin_start);
     geometry.bin_triangles.resize(geometry.bin_start[tiles]);
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* next) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto put = [&](std::size_t tile) {
+        for (std::size_t i = begin; i < end; ++i)
+            walk.visit(geometry.triangles[i], [&](std::size_t tile) {
                 geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i);
-            };
-            if (home[i].is_whole())
-                home[i].visit(static_cast<std::size_t>(geometry.tiles_x), put);
-            else
-                walk.visit(geometry.triangles[i], put);
-        }
+            });
     });
 }
 

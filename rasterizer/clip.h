@@ -33,6 +33,8 @@ class Clipper {
     [[nodiscard]] std::uint32_t outside(const ClipVertex& v) const noexcept {
         return within_viewport(v) ? 0u : outside_planes(v);
     }
+    // To be in the view volume is to be inside all planes.
+    [[nodiscard]] bool holds_view_volume() const noexcept { return guard_holds_viewport_; }
     // Cuts `polygon` by the planes of the set `planes`; corners stay in walking order from corner 0.
     void clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept;
 

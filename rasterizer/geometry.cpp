@@ -12,7 +12,7 @@
 namespace strata::rasterizer {
 namespace {
 
-constexpr std::size_t chunk_size = 4096;  // of vertices and of triangles
+constexpr std::size_t chunk_size = 1024;  // of vertices and of triangles
 
 // Calls body(chunk number, begin, end) for all of [0, count).
 template <class Body>
@@ -120,6 +120,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     const FloatEnvironment ours;
     assert(soup.extras.values.size() == soup.extras.stride * soup.vertices.size() &&
            soup.extras.stride <= max_extras && "extras are those of the soup's vertices");
+    assert(std::max(state.viewport.width(), state.viewport.height()) <= 0xffff && "a PixelBox holds the viewport");
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
     for_chunks(soup.vertices.size(), threads,
                [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });
@@ -137,7 +138,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
         }
         chunks[c] = std::move(chunk);
     });
-    Geometry geometry;
+   Geometry geometry;
     geometry.state = state;
     geometry.rules = rules;
     geometry.vertices = std::move(soup.vertices);

@@ -9,6 +9,7 @@
 #include "rasterizer/edge.h"
 #include "rasterizer/fragment_batch.h"
 #include "rasterizer/raster_state.h"
+#include "rasterizer/uninitialized.h"
 
 namespace strata::rasterizer {
 
@@ -46,8 +47,8 @@ struct TriangleRun {
 };
 
 struct TriangleSoup {
-    std::vector<ClipVertex> vertices;
-    std::vector<std::uint32_t> indices;
+    UninitializedVector<ClipVertex> vertices;
+    UninitializedVector<std::uint32_t> indices;
     std::vector<TriangleRun> runs;
     std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter)
     VertexExtras extras;
@@ -60,12 +61,24 @@ struct WindowCorner {
     float z = 0, inverse_w = 1;        // window z (rules.window_z units) before polygon offset; binary32 1 / w
 };
 
+// Pixels [x0, x1) x [y0, y1), counted from the viewport's corner.
+struct PixelBox {
+    std::uint16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+// `box` lies in the viewport, which is at most 65535 pixels wide and high.
+[[nodiscard]] constexpr PixelBox in_viewport(const Rect& box, const Rect& viewport) noexcept {
+    const auto x = [&](int column) { return static_cast<std::uint16_t>(column - viewport.x0); };
+    const auto y = [&](int row) { return static_cast<std::uint16_t>(row - viewport.y0); };
+    return {x(box.x0), y(box.y0), x(box.x1), y(box.y1)};
+}
+
 // A triangle after clipping, snapping and facing; one source triangle may become several (fan from its first corner).
 // Corner order is that of submission: geforce3's depth and colour depend on it.
 struct TriangleRecord {
     std::array<std::uint32_t, 3> vertex{};  // into Geometry::vertices and Geometry::corners
     std::uint32_t primitive = 0;            // submission index of the source triangle
     std::uint32_t material = 0;
+    PixelBox box;  // the pixels of the viewport whose centres lie in its bounding box: there are some
     bool front_facing = true;
 };
 
@@ -92,16 +105,16 @@ struct SetupCounters {
 struct Geometry {
     RasterState state;
     RasterRules rules;
-    std::vector<ClipVertex> vertices;             // the soup's, then those that clipping made
-    std::vector<WindowCorner> corners;            // the same vertices in the window
+    UninitializedVector<ClipVertex> vertices;     // the soup's, then those that clipping made
+    UninitializedVector<WindowCorner> corners;    // the same vertices in the window
     VertexExtras extras;                          // of the same vertices
-    std::vector<TriangleRecord> triangles;        // in submission order
+    UninitializedVector<TriangleRecord> triangles;  // in submission order
     std::vector<std::array<double, 3>> offset_z;  // of every triangle; empty without polygon offset
     SetupCounters counters;
     int tile_size = 0, tiles_x = 0, tiles_y = 0;
     std::vector<std::uint32_t> bin_start;      // tiles_x * tiles_y + 1 offsets into bin_triangles
-    std::vector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
-    std::vector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list of a region that is the whole frame
+    UninitializedVector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
+    UninitializedVector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list of a region that is the whole frame
 
     [[nodiscard]] std::span<const std::uint32_t> bin(std::size_t tile) const {
         return std::span{bin_triangles}.subspan(bin_start[tile], bin_start[tile + 1] - bin_start[tile]);

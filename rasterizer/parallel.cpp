@@ -1,6 +1,7 @@
 #include "rasterizer/parallel.h"
 
-#include <algorithm>
+#include <map>
+#include <optional>
 
 #include "rasterizer/float_environment.h"
 
@@ -22,6 +23,19 @@ int thread_count(int threads) noexcept {
 #endif
 }
 
+#ifdef STRATA_HAS_TBB
+namespace {
+
+// Kept by every thread that asks: when an arena goes, its workers fall asleep, and one takes 50 microseconds to come back.
+tbb::task_arena& arena_of(int threads) {
+    thread_local std::map<int, tbb::task_arena> arenas;
+    const int slots = threads > 0 ? threads : tbb::task_arena::automatic;
+    return arenas.try_emplace(threads, slots).first->second;
+}
+
+}  // namespace
+#endif
+
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
     const auto call = [&](std::size_t i) {
         const FloatEnvironment ours;
@@ -29,11 +43,10 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     };
 #ifdef STRATA_HAS_TBB
     if (threads != 1 && count > 1) {
-        // More threads than processors are allowed, and without a word on standard error.
-        const auto most = static_cast<std::size_t>(std::max(threads, tbb::info::default_concurrency()));
-        const tbb::global_control allowed{tbb::global_control::max_allowed_parallelism, most};
-        tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-        arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, call); });
+        std::optional<tbb::global_control> allowed;  // more threads than processors, without a word on standard error
+        if (threads > tbb::info::default_concurrency())
+            allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+        arena_of(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, call); });
         return;
     }
 #endif

@@ -139,9 +139,9 @@ class RowWalk {
         }
         // What is written to the targets may be anything, for all that the compiler knows: nothing is read anew in the loop.
         const auto width = static_cast<std::size_t>(region_.width());
-        std::size_t first = pixel(x0, y0);
-        const std::uint32_t height = group_.height[k];
-        for (std::uint32_t row = 0; row < height; ++row, first += width) {
+        const std::uint32_t first_row = coverage.first_row(), end_row = coverage.end_row(group_.height[k]);
+        std::size_t first = pixel(x0, y0) + first_row * width;
+        for (std::uint32_t row = first_row; row < end_row; ++row, first += width) {
             const std::uint32_t bits = coverage.row(row);
             const int y = y0 + static_cast<int>(row);
             const Weights terms = row_terms.of(row);

@@ -39,6 +39,8 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       rules_{rules},
       clipper_{state, rules},
       window_{state, rules},
+      plain_rules_{window_.plain_rules(state.clip_depth)},
+      set_up_plain_{clipper_.holds_view_volume() && extras.stride == 0 && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
       vertices_{vertices},
       extras_{extras},
       corners_(vertices.size()),
@@ -55,13 +57,25 @@ VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, Win
            (products_finite(v.back, w.inverse_w) ? 0u : marks_back);
 }
 
+void TriangleSetup::set_up_vertex(std::size_t i) noexcept {
+    const ClipVertex& v = vertices_[i];
+    corners_[i] = {};
+    VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
+    if (marks == 0) marks = project(v, extras_.stride == 0 ? nullptr : extras_.of(i), corners_[i]);
+    marks_[i] = marks;
+}
+
 void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept {
-    for (std::size_t i = begin; i < end; ++i) {
-        const ClipVertex& v = vertices_[i];
-        VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
-        if (marks == 0) marks = project(v, extras_.stride == 0 ? nullptr : extras_.of(i), corners_[i]);
-        marks_[i] = marks;
+    std::size_t i = begin;
+    for (; set_up_plain_ != nullptr && i + plain_vertex_count <= end; i += plain_vertex_count) {
+        const std::uint32_t plain = set_up_plain_(*plain_rules_, &vertices_[i], &corners_[i]);
+        for (std::size_t k = 0; k < plain_vertex_count; ++k)
+            if ((plain >> k & 1u) != 0)
+                marks_[i + k] = 0;
+            else
+                set_up_vertex(i + k);
     }
+    for (; i < end; ++i) set_up_vertex(i);
 }
 
 // Positive area is clockwise as memory shows it, rows downwards; with y up the window shows the same picture.
@@ -90,8 +104,9 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
     if (area == 0) return Fate::degenerate;
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
-    if (intersection(centre_box(p, rules_.subpixel_bits), state_.viewport).area() == 0) return Fate::outside;
-    out.triangles.push_back({piece.vertex, triangle.primitive, triangle.run->material, front});
+    const Rect box = intersection(centre_box(p, rules_.subpixel_bits), state_.viewport);
+    if (box.area() == 0) return Fate::outside;
+    out.triangles.push_back({piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front});
     if (state_.polygon_offset.enabled) {
         const std::array z{a->z, b->z, c->z};
         const double offset = polygon_offset(p, z, state_, rules_);
@@ -106,7 +121,8 @@ TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, con
     const bool front = is_front(group.turned[k] == 0 ? 1 : -1, triangle.run->mirrored);
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
     if (group.width[k] == 0 || group.height[k] == 0) return Fate::outside;
-    out.triangles.push_back({triangle.vertex, triangle.primitive, triangle.run->material, front});
+    const PixelBox box = in_viewport(group.box(k), state_.viewport);
+    out.triangles.push_back({triangle.vertex, triangle.primitive, triangle.run->material, box, front});
     return Fate::kept;
 }
 

@@ -8,6 +8,7 @@
 // Tests    tests/rasterizer/setup_test.cpp
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,7 +57,7 @@ class TriangleSetup {
     // The same of up to TriangleGroup::size triangles.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
 
-    [[nodiscard]] std::vector<WindowCorner>& corners() noexcept { return corners_; }
+    [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
 
   private:
     enum class Fate : std::uint8_t { kept, culled, outside, degenerate, non_finite };
@@ -67,6 +68,7 @@ class TriangleSetup {
         std::array<const WindowCorner*, 3> corner;
         VertexMarks marks;
     };
+    void set_up_vertex(std::size_t i) noexcept;
     [[nodiscard]] VertexMarks project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept;
     [[nodiscard]] ClipPolygon polygon(const SourceTriangle& triangle) const noexcept;
     [[nodiscard]] Fate add_piece(const Piece& piece, const SourceTriangle& triangle, SetupChunk& out) const;
@@ -82,10 +84,12 @@ class TriangleSetup {
     RasterRules rules_;
     Clipper clipper_;
     WindowTransform window_;
+    std::optional<PlainVertexRules> plain_rules_;
+    SetUpPlain set_up_plain_;
     std::span<const ClipVertex> vertices_;
     const VertexExtras& extras_;
-    std::vector<WindowCorner> corners_;
-    std::vector<VertexMarks> marks_;
+    UninitializedVector<WindowCorner> corners_;
+    UninitializedVector<VertexMarks> marks_;
 };
 
 }  // namespace strata::rasterizer

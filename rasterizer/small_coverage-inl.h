@@ -74,6 +74,13 @@ class SmallCoverage {
         const std::uint32_t bit = r << log_width_;
         return static_cast<std::uint32_t>(bits_[bit / 64] >> bit % 64) & ((1u << (1u << log_width_)) - 1);
     }
+    // Rows [first_row, end_row) hold what is covered; there is something.
+    HWY_INLINE std::uint32_t first_row() const {
+        return within_8 ? static_cast<std::uint32_t>(std::countr_zero(bits_[0])) / 8 : 0;
+    }
+    HWY_INLINE std::uint32_t end_row(std::uint32_t height) const {
+        return within_8 ? 8 - static_cast<std::uint32_t>(std::countl_zero(bits_[0])) / 8 : height;
+    }
     // How many rows to claim: those below the box are empty.
     HWY_INLINE std::uint32_t rows(std::uint32_t height) const { return within_8 ? 8 : height; }
 

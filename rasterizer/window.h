@@ -11,10 +11,12 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "rasterizer/exact_sum.h"
 #include "rasterizer/geometry.h"
 #include "rasterizer/nv20_arithmetic.h"
+#include "rasterizer/plain_vertices.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
@@ -71,6 +73,18 @@ class WindowTransform {
     }
     [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
         return {snap(v.x, rules_.subpixel_bits, rules_.snap), snap(v.y, rules_.subpixel_bits, rules_.snap)};
+    }
+
+    // For sixteen at a time, where no more is done than these rules say.
+    [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
+        if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport == ViewportArithmetic::fused) return {};
+        return PlainVertexRules{.scale = {x_.scale, y_.scale, z_.scale},
+                                .offset = {x_.offset, y_.offset, z_.offset},
+                                .guard = guard_,
+                                .subpixels = static_cast<float>(1 << rules_.subpixel_bits),
+                                .divides = rules_.w_divide == WDivide::quotient,
+                                .rounds = rules_.snap == Snap::nearest_even,
+                                .symmetric = depth == ClipDepth::minus_one_to_one};
     }
 
   private:

@@ -232,3 +232,26 @@ TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits
         }
     }
 }
+
+TEST_CASE("one renderer sorts triangles into the tiles that each algorithm asks for, and every size gives the same bits") {
+    const TriangleScene scene = random_triangles(79, 20);
+    RenderOptions options = small_frame();
+    options.width = 1024;
+    options.height = 512;
+    options.threads = 2;
+    options.audit = false;
+    const auto renderer = [&] {
+        return strata::peeling::Renderer{scene.list, scene.view, *strata::pipeline::find_profile("geforce8_dx101"), options};
+    };
+    strata::peeling::Renderer automatic = renderer();
+    options.tile_size = 32;
+    strata::peeling::Renderer small = renderer();
+    for (const auto& [name, tile_size] : {std::pair{"weighted_average", 128}, {"front_to_back", 64}, {"weighted_average", 128}}) {
+        const auto& algorithm = *strata::peeling::find_algorithm(name);
+        const RenderResult found = automatic.render(algorithm), expected = small.render(algorithm);
+        CHECK(found.frame.work.tile_size == tile_size);
+        CHECK(expected.frame.work.tile_size == 32);
+        CHECK(found.frame.color == expected.frame.color);
+        CHECK(found.frame.counters == expected.frame.counters);
+    }
+}

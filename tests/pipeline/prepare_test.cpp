@@ -1,11 +1,13 @@
 // The vertex stage against binary32 written out operation by operation, and what a frame's lists hold.
 #include "pipeline/prepare.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
 #include "frames.h"
+#include "rasterizer/simd.h"
 #include "tests/support/random_triangles.h"
 
 namespace {
@@ -69,6 +71,9 @@ DrawList one_triangle(const Material& material, const Matrix& model = identity) 
     return list;
 }
 
+// Some go through the vertex stage in a group, some by themselves.
+constexpr std::size_t several_vertices = 37;
+
 // The light factor of a normal under a model and a view, in binary64.
 double light_factor(const Vec3& n, const Matrix& m, const Matrix& view) {
     // Inverse transpose by Cramer's rule, up to the determinant: columns of cofactors.
@@ -92,10 +97,11 @@ TEST_CASE("vertices are multiplied by the matrix product, rounded once, with eve
     for (int round = 0; round < 500; ++round) {
         DrawList list = one_triangle({.name = "", .unlit = true}, random_matrix(random));
         const View view{random_matrix(random), random_matrix(random)};
+        list.meshes[0].positions.resize(several_vertices);
         for (Vec3& p : list.meshes[0].positions)
             for (float& x : p) x = random_float(random, -3, 3);
         const auto soup = transform(list, view, {});
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < several_vertices; ++i) {
             const ClipVertex& v = soup.vertices[i];
             const std::array found{v.x, v.y, v.z, v.w};
             for (std::size_t r = 0; r < 4; ++r)
@@ -109,18 +115,25 @@ TEST_CASE("vertices are multiplied by the matrix product, rounded once, with eve
 TEST_CASE("lighting is 1/4 + 3/4 |N.L| towards the eye, under any model matrix, and leaves alpha alone") {
     Random random{502};
     double worst = 0;
+    std::size_t others = 0;
     for (int round = 0; round < 500; ++round) {
         DrawList list =
             one_triangle({.name = "", .front = {1, 0.5f, 0, 0.75f}, .back = {0, 0, 1, 0.25f}}, random_matrix(random));
         const View view{random_matrix(random), identity};
-        const Vec3 normal{random_float(random, -2, 2), random_float(random, -2, 2), random_float(random, -2, 2)};
-        list.meshes[0].normals.assign(3, normal);
-        const ClipVertex v = transform(list, view, {}).vertices[1];
-        const double expected = light_factor(normal, list.instances[0].model, view.view);
-        worst = std::max({worst, std::fabs(v.front[0] - expected), std::fabs(v.front[1] - 0.5 * expected),
-                          std::fabs(v.back[2] - expected)});
-        CHECK(std::array{v.front[2], v.front[3], v.back[0], v.back[3]} == std::array{0.0f, 0.75f, 0.0f, 0.25f});
+        list.meshes[0].positions.resize(several_vertices);
+        list.meshes[0].normals.resize(several_vertices);
+        for (Vec3& n : list.meshes[0].normals)
+            for (float& x : n) x = random_float(random, -2, 2);
+        const auto vertices = transform(list, view, {}).vertices;
+        for (std::size_t i = 0; i < several_vertices; ++i) {
+            const ClipVertex& v = vertices[i];
+            const double expected = light_factor(list.meshes[0].normals[i], list.instances[0].model, view.view);
+            worst = std::max({worst, std::fabs(v.front[0] - expected), std::fabs(v.front[1] - 0.5 * expected),
+                              std::fabs(v.back[2] - expected)});
+            others += v.front[2] != 0.0f || v.front[3] != 0.75f || v.back[0] != 0.0f || v.back[3] != 0.25f ? 1 : 0;
+        }
     }
+    CHECK(others == 0);
     CHECK(worst < 1e-5);
 }
 
@@ -137,6 +150,30 @@ TEST_CASE(
     CHECK(red({1, 2, 0}, false) == 0.25f);
     CHECK(red({0, 0, 0}, false) == 0.25f);
     CHECK(red({1, 0, 0}, true) == 1.0f);
+}
+
+TEST_CASE("every instruction set lights and transforms vertices to the same bits, normals of no length among them") {
+    Random random{503};
+    DrawList list = one_triangle({.name = "", .front = {1, 0.5f, 0.25f, 0.75f}}, random_matrix(random));
+    list.meshes[0].positions.resize(500);
+    list.meshes[0].normals.resize(500);
+    for (Vec3& p : list.meshes[0].positions)
+        for (float& x : p) x = random_float(random, -3, 3);
+    const float not_a_number = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    for (Vec3& n : list.meshes[0].normals) {
+        const auto one_of = std::array{0.0f, -0.0f, 1.0f, 0x1p-80f, 0x1p80f, not_a_number, infinity};
+        for (float& x : n) x = random() % 4 == 0 ? one_of[random() % one_of.size()] : random_float(random, -2, 2);
+    }
+    const View view{random_matrix(random), random_matrix(random)};
+    const auto bits = [&](strata::Simd simd) {
+        REQUIRE(strata::choose_simd(simd));
+        std::vector<std::array<std::uint32_t, 14>> all;
+        for (const ClipVertex& v : transform(list, view, {}).vertices) all.push_back(std::bit_cast<std::array<std::uint32_t, 14>>(v));
+        return all;
+    };
+    const auto scalar = bits(strata::Simd::scalar);
+    for (const strata::Simd simd : strata::available_simd()) CHECK(bits(simd) == scalar);
+    REQUIRE(strata::choose_simd(strata::Simd::best));
 }
 
 TEST_CASE("vertex colours multiply the material's") {

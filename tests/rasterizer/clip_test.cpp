@@ -35,11 +35,11 @@ using namespace strata::rasterizer;
     return state;
 }
 
-[[nodiscard]] TriangleSoup soup_of(std::vector<ClipVertex> vertices) {
+[[nodiscard]] TriangleSoup soup_of(const std::vector<ClipVertex>& vertices) {
     TriangleSoup soup;
     for (std::uint32_t i = 0; i < vertices.size(); ++i) soup.indices.push_back(i);
     soup.runs = {{0, static_cast<std::uint32_t>(vertices.size()), 0, 0, true, false}};
-    soup.vertices = std::move(vertices);
+    soup.vertices.assign(vertices.begin(), vertices.end());
     return soup;
 }
 

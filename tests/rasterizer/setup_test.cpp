@@ -1,8 +1,10 @@
 #include "rasterizer/setup.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "rasterizer/simd.h"
 #include "scene.h"
 
 namespace {
@@ -26,6 +28,16 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 [[nodiscard]] SetupCounters counters_of(const TriangleSoup& soup, const RasterState& state,
                                         const RasterRules& rules = {}) {
     return set_up(soup, state, rules, 1).counters;
+}
+
+[[nodiscard]] bool same_bits(const SetupTriangle& a, const SetupTriangle& b) {
+    bool same = a.p == b.p && a.primitive == b.primitive && a.front_facing == b.front_facing;
+    for (std::size_t i = 0; i < 3; ++i) {
+        same = same && std::bit_cast<std::array<std::uint32_t, 2>>(a.unsnapped[i]) == std::bit_cast<std::array<std::uint32_t, 2>>(b.unsnapped[i]);
+        same = same && std::bit_cast<std::uint64_t>(a.z[i]) == std::bit_cast<std::uint64_t>(b.z[i]);
+        same = same && std::bit_cast<std::uint32_t>(a.inverse_w[i]) == std::bit_cast<std::uint32_t>(b.inverse_w[i]);
+    }
+    return same;
 }
 
 }  // namespace
@@ -153,6 +165,41 @@ TEST_CASE("the result of set-up does not depend on the number of threads") {
         }
         CHECK(different == 0);
     }
+}
+
+TEST_CASE("every instruction set sets vertices up to the same bits, whatever is wrong with some of them") {
+    TriangleSoup soup = random_soup(93, 2000, SoupKind::needs_clipping);
+    Random random{94};
+    for (int i = 0; i < 300; ++i) {
+        const std::array values{not_a_number, infinity, -infinity, 0.0f, -0.0f, 0x1p-70f, 0x1p127f, -0x1p100f};
+        ClipVertex& v = soup.vertices[random() % soup.vertices.size()];
+        const std::array<float*, 8> fields{&v.x, &v.y, &v.z, &v.w, &v.front[1], &v.back[3], &v.texcoord[0], &v.texcoord[1]};
+        *fields[random() % fields.size()] = values[random() % values.size()];
+    }
+    RasterState state = scene_state(200, 130);
+    const auto compare = [&](const RasterRules& rules) {
+        REQUIRE(strata::choose_simd(strata::Simd::scalar));
+        const Geometry scalar = set_up(soup, state, rules, 1);
+        CHECK(scalar.counters.non_finite > 100);
+        CHECK(scalar.triangles.size() > 800);
+        for (const strata::Simd simd : strata::available_simd()) {
+            REQUIRE(strata::choose_simd(simd));
+            const Geometry other = set_up(soup, state, rules, 1);
+            CHECK(other.counters == scalar.counters);
+            REQUIRE(other.triangles.size() == scalar.triangles.size());
+            std::size_t different = 0;
+            for (std::size_t i = 0; i < scalar.triangles.size(); ++i) different += same_bits(scalar.triangle(i), other.triangle(i)) ? 0 : 1;
+            CHECK(different == 0);
+        }
+    };
+    for (const WDivide divide : {WDivide::quotient, WDivide::reciprocal, WDivide::nv20})
+        for (const Snap snap : {Snap::toward_zero, Snap::nearest_even})
+            for (const ViewportArithmetic viewport : {ViewportArithmetic::separate, ViewportArithmetic::fused})
+                compare({.snap = snap, .w_divide = divide, .viewport = viewport});
+    state.clip_depth = ClipDepth::zero_to_one;
+    state.y_direction = YDirection::down;
+    compare({.window_z = WindowZ::buffer_units});
+    REQUIRE(strata::choose_simd(strata::Simd::best));
 }
 
 TEST_CASE("an empty soup is an empty geometry") {

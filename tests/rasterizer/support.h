@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "rasterizer/coverage.h"
 #include "rasterizer/geometry.h"
 #include "rasterizer/tile_rasterizer.h"
 
@@ -42,7 +43,9 @@ using Random = std::mt19937_64;
     g.state.viewport = {0, 0, width, height};
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const SetupTriangle& t = triangles[i];
-        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, i, t.material, t.front_facing});
+        const Rect box = intersection(centre_box(t.p, rules.subpixel_bits), g.state.viewport);
+        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, i, t.material,
+                               box.area() == 0 ? PixelBox{} : in_viewport(box, g.state.viewport), t.front_facing});
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& [r, green, b, a, s, tt] = t.attribute[k];
             const std::array color{r, green, b, a};

@@ -233,7 +233,7 @@ TEST_CASE("the scissor keeps what lies in it and changes nothing else") {
 TEST_CASE("two triangles with the same vertices have the same depth in every sample, as EQUAL passes need") {
     for (const Device& device : devices()) {
         TriangleSoup soup = random_soup(127, 40, SoupKind::perspective);
-        const std::vector<std::uint32_t> once = soup.indices;
+        const auto once = soup.indices;
         soup.indices.insert(soup.indices.end(), once.begin(), once.end());
         soup.runs = {{0, static_cast<std::uint32_t>(soup.indices.size()), 0, 0, true, false}};
         std::map<std::array<int, 3>, std::uint32_t> code;

@@ -28,6 +28,11 @@ class Collector : public benchmark::BenchmarkReporter {
     std::vector<BenchResult>& results_;
 };
 
+void warm_up(const BenchJob& job) {
+    double spent = 0;
+    for (int frame = 0; frame < 2 && spent < 0.5; ++frame) spent += run_once(job).seconds;
+}
+
 void run_job(benchmark::State& state, BenchResult& result) {
     for ([[maybe_unused]] auto iteration : state) {
         result.last = run_once(result.job);
@@ -60,7 +65,7 @@ BenchRun run_once(const BenchJob& job) {
     choose_simd(job.simd);
 
     const auto start = std::chrono::steady_clock::now();
-    const peeling::RenderResult result = run_algorithm(job, options);
+    peeling::RenderResult result = run_algorithm(job, options);
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
 
     BenchRun run;
@@ -73,20 +78,23 @@ BenchRun run_once(const BenchJob& job) {
     run.geometry_passes = result.frame.passes.geometry;
     run.iterations = result.frame.iterations;
     run.counters = result.frame.counters;
-    run.digest = pipeline::digest(result.frame.color.codes.empty() ? result.frame.depth : result.frame.color);
+    run.picture = std::move(result.frame.color.codes.empty() ? result.frame.depth : result.frame.color);
     return run;
 }
 
 std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, int repeat) {
     std::vector<BenchResult> results;
-    for (const BenchJob& job : jobs) results.push_back({.job = job, .last = {}, .seconds = {}, .geometry_seconds = {}});
+    for (const BenchJob& job : jobs) results.push_back({.job = job, .last = {}, .digest = {}, .seconds = {}, .geometry_seconds = {}});
     Progress progress("bench");
     const double runs = static_cast<double>(jobs.size()) * repeat;
     double done = 0;
     benchmark::ClearRegisteredBenchmarks();
     for (BenchResult& result : results) {
-        const auto body = [&result, &progress, &done, runs](benchmark::State& state) {
+        const auto body = [&result, &progress, &done, runs, repeat, left = repeat](benchmark::State& state) mutable {
+            if (left == repeat) warm_up(result.job);
             run_job(state, result);
+            if (--left == 0) result.digest = pipeline::digest(result.last.picture);  // not before: it empties the caches
+            result.last.picture = {};
             progress.show(++done / runs);
         };
         benchmark::RegisterBenchmark(algorithm_name(result.job).c_str(), body)

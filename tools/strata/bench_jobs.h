@@ -1,5 +1,6 @@
 // tools/strata/bench_jobs.h - what `strata bench` times: one algorithm in one way of running it, from the scene in memory
-// to finished pixels in memory. Loading is outside, and so is whatever compares or writes.
+// to finished pixels in memory. Loading is outside, and so is whatever compares or writes. A job is timed warm: its first frames, which
+// make the process's memory grow, are not counted, as strata_mesa's are not.
 #pragma once
 #include <optional>
 #include <string>
@@ -30,12 +31,13 @@ struct BenchRun {
     double seconds = 0, geometry_seconds = 0;  // the second is a part of the first
     int geometry_passes = 0, iterations = 0;
     pipeline::Counters counters;  // literal's
-    std::string digest;           // of the picture; of the depths for `depth`
+    pipeline::Image picture;      // the depths for `depth`
 };
 
 struct BenchResult {
     BenchJob job;
-    BenchRun last;
+    BenchRun last;       // without its picture
+    std::string digest;  // of that picture
     std::vector<double> seconds, geometry_seconds;  // one a repetition, in the order in which they ran
     [[nodiscard]] bool is_refused() const noexcept { return !last.refusal.empty(); }
 };
@@ -47,7 +49,7 @@ struct BenchResult {
 
 [[nodiscard]] BenchRun run_once(const BenchJob& job);
 
-// Google Benchmark runs every job `repeat` times; progress is shown on a terminal.
+// Google Benchmark runs every job `repeat` times, after at most two runs of half a second that warm it up; progress is shown on a terminal.
 [[nodiscard]] std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, int repeat);
 
 }  // namespace strata::tools

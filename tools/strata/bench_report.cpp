@@ -70,7 +70,7 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     job["fragments_per_second"] = fragments(result) / spread.median;
     job["ns_per_fragment_pass"] = per_fragment(result, spread.median * 1e9 / fragments(result));
     job["bytes_per_fragment"] = per_fragment(result, bytes_per_fragment(result));
-    job["digest"] = result.last.digest;
+    job["digest"] = result.digest;
     if (const auto old = baseline.find(name_of_job(result.job)); old != baseline.end())
         job["ratio"] = old->second / spread.median;
     else
@@ -208,8 +208,8 @@ std::vector<std::string> differing(const std::vector<BenchResult>& results) {
     for (const BenchResult& result : results) {
         if (result.is_refused()) continue;
         const auto [place, is_new] =
-            first.try_emplace(scene_name(result.job) + ' ' + algorithm_name(result.job), result.last.digest);
-        if (!is_new && place->second != result.last.digest) names.push_back(name_of_job(result.job));
+            first.try_emplace(scene_name(result.job) + ' ' + algorithm_name(result.job), result.digest);
+        if (!is_new && place->second != result.digest) names.push_back(name_of_job(result.job));
     }
     return names;
 }

@@ -171,10 +171,12 @@ class Planner {
         rasterizer::RasterState raster = options.render.raster;
         raster.viewport = {0, 0, options.render.width, options.render.height};
         using pipeline::Selection;
+        const peeling::Algorithm& one_pass = *peeling::find_algorithm("unsorted");  // what a depth pass is as well
+        const int tile_size = tile_size_of(options.render, job_.algorithm == nullptr ? one_pass : *job_.algorithm);
         const auto prepared = [&](Selection selection) {
             return pipeline::prepare(list(), session.view, raster, session.profile,
                                      {.selection = selection,
-                                      .tile_size = options.render.tile_size,
+                                      .tile_size = tile_size,
                                       .threads = options.render.threads});
         };
         // With --alpha nothing is opaque: the other list is then one without a triangle.

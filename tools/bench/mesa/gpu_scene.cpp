@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace strata::mesa {
 
@@ -37,15 +38,15 @@ vec4 shade() { return front_color; }
 )";
 
 template <class T>
-Handle make_buffer(const std::vector<T>& data) {
+Handle make_buffer(std::span<const T> data) {
     GLuint name = 0;
     glCreateBuffers(1, &name);
-    glNamedBufferStorage(name, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), 0);
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(data.size_bytes()), data.data(), 0);
     return {name, [](GLuint n) { glDeleteBuffers(1, &n); }};
 }
 
 // Tightly packed: clip position, front colour and, where sides differ, back colour.
-std::vector<float> packed(const std::vector<ClipVertex>& vertices, bool two_sided) {
+std::vector<float> packed(std::span<const ClipVertex> vertices, bool two_sided) {
     std::vector<float> data;
     data.reserve(vertices.size() * (two_sided ? 12 : 8));
     for (const ClipVertex& v : vertices) {
@@ -73,8 +74,8 @@ Handle make_layout(const Handle& vertices, const Handle& indices, GLuint attribu
 
 GpuScene::GpuScene(const rasterizer::TriangleSoup& soup)
     : two_sided_{std::ranges::any_of(soup.vertices, [](const ClipVertex& v) { return v.front != v.back; })},
-      vertices_{make_buffer(packed(soup.vertices, two_sided_))},
-      indices_{make_buffer(soup.indices)},
+      vertices_{make_buffer<float>(packed(soup.vertices, two_sided_))},
+      indices_{make_buffer<std::uint32_t>(soup.indices)},
       layout_{make_layout(vertices_, indices_, two_sided_ ? 3 : 2)} {
     add_runs(soup);
     glBindVertexArray(layout_.name());
