@@ -2,10 +2,12 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
+
+#include "rasterizer/uninitialized.h"
 
 namespace strata::pipeline {
 
@@ -36,13 +38,13 @@ class Arena {
     static constexpr std::size_t alignment = 64, least_block = std::size_t{1} << 20;
 
     struct Block {
-        explicit Block(std::size_t bytes) : size{bytes}, memory{std::make_unique_for_overwrite<std::byte[]>(bytes + alignment)} {}
-        [[nodiscard]] std::byte* begin() const {
-            const auto address = reinterpret_cast<std::uintptr_t>(memory.get());
-            return memory.get() + (alignment - address % alignment) % alignment;
+        explicit Block(std::size_t bytes) : size{bytes}, memory(bytes + alignment) {}
+        [[nodiscard]] std::byte* begin() {
+            const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
+            return memory.data() + (alignment - address % alignment) % alignment;
         }
         std::size_t size;
-        std::unique_ptr<std::byte[]> memory;
+        UninitializedVector<std::byte> memory;
     };
 
     void grow(std::size_t bytes) {

@@ -66,11 +66,11 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
             state_ = State::too_large;
             return;
         }
-        if (used_chunks_ == chunks_.size()) chunks_.push_back(std::make_unique_for_overwrite<std::byte[]>(chunk_bytes));
+        if (used_chunks_ == chunks_.size()) chunks_.emplace_back(std::size_t{chunk_bytes});
         ++used_chunks_;
         used_bytes_ = 0;
     }
-    std::byte* at = chunks_[used_chunks_ - 1].get() + used_bytes_;
+    std::byte* at = chunks_[used_chunks_ - 1].data() + used_bytes_;
     const bool has_dead = std::any_of(alive.begin(), alive.begin() + batch.count, [](std::uint32_t a) { return a == 0; });
     batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead});
     const auto pack = [&](const auto& array) {
@@ -79,7 +79,7 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
     };
     if (has_dead) pack(alive);
     for_each_array(needs_, batch, pack);
-    used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].get());
+    used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].data());
 }
 
 bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {

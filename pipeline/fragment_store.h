@@ -9,11 +9,11 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "rasterizer/fragment_batch.h"
+#include "rasterizer/uninitialized.h"
 
 namespace strata::pipeline {
 
@@ -50,7 +50,7 @@ class FragmentStore {
     State state_ = State::empty;
     rasterizer::FragmentNeeds needs_;
     std::uint64_t limit_ = 0;
-    std::vector<std::unique_ptr<std::byte[]>> chunks_;  // kept from region to region: memory is asked for once
+    std::vector<UninitializedVector<std::byte>> chunks_;  // kept from region to region: memory is asked for once
     std::size_t used_chunks_ = 0, used_bytes_ = 0;      // the latter of the last chunk in use
     std::vector<Packed> batches_;
 };

