@@ -176,6 +176,12 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
         const std::array<float*, 8> fields{&v.x, &v.y, &v.z, &v.w, &v.front[1], &v.back[3], &v.texcoord[0], &v.texcoord[1]};
         *fields[random() % fields.size()] = values[random() % values.size()];
     }
+    for (std::size_t i = 0; i < 60; ++i) {  // in the view, too near to the eye; or near, with an attribute that 1 / w makes infinite
+        ClipVertex* const v = &soup.vertices[3 * 33 * i];
+        const float w = i % 2 == 0 ? 0x1p-70f : 0x1p-40f;
+        for (std::size_t k = 0; k < 3; ++k) v[k] = {k == 1 ? w : 0, k == 2 ? w : 0, 0, w, {}, {}, {}};
+        if (i % 2 == 1) (i % 4 == 1 ? v->texcoord[1] : v->back[2]) = 0x1p100f;
+    }
     RasterState state = scene_state(200, 130);
     const auto compare = [&](const RasterRules& rules) {
         REQUIRE(strata::choose_simd(strata::Simd::scalar));
