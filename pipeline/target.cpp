@@ -25,6 +25,11 @@ TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels)
     : format_{format}, samples_{samples}, pixels_{pixels}, layout_{layout(format)},
       words_(static_cast<std::size_t>(samples) * words_per_sample()) {}
 
+void TargetStorage::write_zeros() const noexcept {
+    std::ranges::fill(words_, 0u);
+    has_words_ = true;
+}
+
 void TargetStorage::gather(const Lanes<std::uint32_t>& pixel, int count, int sample, ColorCodes& codes) const {
     gather_codes(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, codes.data());
 }
@@ -40,6 +45,8 @@ std::uint32_t TargetStorage::code(std::size_t pixel, int channel, int sample) co
 }
 
 void TargetStorage::fill(const std::array<std::uint32_t, 4>& codes, unsigned sample_mask) {
+    const unsigned all_samples = (1u << samples_) - 1;
+    if (stencil_word() == 0 && (sample_mask & all_samples) == all_samples) has_words_ = true;  // none is left out below
     std::array<std::uint32_t, 4> words{};
     for (int c = 0; c < layout_.channels; ++c) {
         const Field f = layout_.field(c);
@@ -54,7 +61,7 @@ void TargetStorage::fill_stencil(std::uint8_t value, unsigned sample_mask) {
 
 void TargetStorage::fill_word(std::uint32_t value, std::size_t word, unsigned sample_mask) {
     for (int sample = 0; sample < samples_; ++sample)
-        if ((sample_mask >> sample & 1u) != 0) std::fill_n(texels(sample).plane(word).words, pixels_, value);
+        if ((sample_mask >> sample & 1u) != 0) std::fill_n(texels(sample).plane(word).words, pixels_ + spare_words, value);
 }
 
 }  // namespace strata::pipeline

@@ -4,12 +4,12 @@
 #include <cassert>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "pipeline/format.h"
 #include "pipeline/image.h"
 #include "pipeline/lane_words.h"
 #include "rasterizer/fragment_batch.h"
+#include "rasterizer/uninitialized.h"
 
 namespace strata::pipeline {
 
@@ -35,7 +35,7 @@ using ColorLanes = std::array<Lanes<float>, 4>;
 
 // Planes of 32-bit words, row-major: so that any pixels of a batch are fetched and put back by vector, whatever the
 // format. A colour pixel has one word of rgba8, two of rgba16f (r g, b a) and rg32f, four of rgba32f, one of r16f and
-// r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes.
+// r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes. All codes are 0 at first.
 class TargetStorage {
   public:
     TargetStorage(Format format, int samples, std::size_t pixels);
@@ -57,6 +57,7 @@ class TargetStorage {
     }
 
     [[nodiscard]] Texels texels(int sample) const noexcept {
+        if (!has_words_) write_zeros();
         Texels result = layout_;
         result.first = {const_cast<std::uint32_t*>(words_.data()) + static_cast<std::size_t>(sample) * words_per_sample(), pixels_};
         return result;
@@ -78,13 +79,15 @@ class TargetStorage {
     [[nodiscard]] std::size_t words_per_sample() const noexcept {
         return (layout_.words() + stencil_word()) * (pixels_ + spare_words);
     }
+    void write_zeros() const noexcept;
     void fill_word(std::uint32_t value, std::size_t word, unsigned sample_mask);
 
     Format format_;
     int samples_;
     std::size_t pixels_;
     Texels layout_;  // without a place
-    std::vector<std::uint32_t> words_;
+    mutable UninitializedVector<std::uint32_t> words_;
+    mutable bool has_words_ = false;  // else zeros that nobody has asked for yet: most targets are cleared first
 };
 
 }  // namespace strata::pipeline

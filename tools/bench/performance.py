@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes tools/bench/PERFORMANCE.md: runs `strata bench` over the scenes and, where it is built, the side-by-side with Mesa.
 
-    tools/bench/performance.py [--models ../shared/models] [--size 1024x1024] [--repeat 3] [--quick]
+    tools/bench/performance.py [--models ../shared/models] [--size 1024x1024] [--repeat 5] [--quick]
 
 Standard library alone. Ratios count, times tell the scale: every table's numbers come from one command run in turn.
 """
@@ -40,7 +40,7 @@ def parse_arguments():
     parser.add_argument("--size", default="1024x1024")
     parser.add_argument("--small", default="256x256", help="size where every pass of every algorithm is rasterized")
     parser.add_argument("--slices", type=int, default=256)
-    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument("--out", default=str(HERE / "PERFORMANCE.md"))
     parser.add_argument("--quick", action="store_true", help="128x128, 16 slices, one repetition: to try the script")
     options = parser.parse_args()

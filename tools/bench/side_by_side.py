@@ -40,7 +40,7 @@ def parse():
     parser.add_argument("--strata", help="another program than BUILD/strata")
     parser.add_argument("--scenes", default=",".join(SCENES), help="of %(default)s")
     parser.add_argument("--algorithms", default=",".join(ALGORITHMS), help="of %(default)s")
-    parser.add_argument("--pairs", type=int, default=3, help="runs of each program, in turn (default 3)")
+    parser.add_argument("--pairs", type=int, default=5, help="runs of each program, in turn (default 5)")
     parser.add_argument("--repeat", type=int, default=7, help="times of each run, whose median counts (default 7)")
     parser.add_argument("--threads", default="2")
     parser.add_argument("--size", default="1024x1024")
