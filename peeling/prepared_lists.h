@@ -1,4 +1,4 @@
-// peeling/prepared_lists.h - the lists that the frames of one command draw, each transformed, set up and, for a tile size, binned once.
+// peeling/prepared_lists.h - the lists that the frames of one command draw, each transformed and set up once.
 //
 // Rule     Lists in other submission orders are prepared when an algorithm first asks for them. The second list is what all passes
 //          but the first draw, where another vertex path, another split of the surfaces or another depth clamp was asked for.

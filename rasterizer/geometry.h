@@ -105,14 +105,14 @@ struct SetupCounters {
 struct Geometry {
     RasterState state;
     RasterRules rules;
-    UninitializedVector<ClipVertex> vertices;     // the soup's, then those that clipping made
-    UninitializedVector<WindowCorner> corners;    // the same vertices in the window
-    VertexExtras extras;                          // of the same vertices
+    UninitializedVector<ClipVertex> vertices;       // the soup's, then those that clipping made
+    UninitializedVector<WindowCorner> corners;      // the same vertices in the window
+    VertexExtras extras;                            // of the same vertices
     UninitializedVector<TriangleRecord> triangles;  // in submission order
-    std::vector<std::array<double, 3>> offset_z;  // of every triangle; empty without polygon offset
+    std::vector<std::array<double, 3>> offset_z;    // of every triangle; empty without polygon offset
     SetupCounters counters;
     int tile_size = 0, tiles_x = 0, tiles_y = 0;
-    std::vector<std::uint32_t> bin_start;      // tiles_x * tiles_y + 1 offsets into bin_triangles
+    std::vector<std::uint32_t> bin_start;              // tiles_x * tiles_y + 1 offsets into bin_triangles
     UninitializedVector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
     UninitializedVector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list of a region that is the whole frame
 

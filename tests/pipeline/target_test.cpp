@@ -118,3 +118,28 @@ TEST_CASE("depth and stencil of a d24s8 target are filled apart") {
     CHECK(storage.stencil(1)[2] == 7);
     CHECK(storage.code(2, 0, 0) == 0x123456u);
 }
+
+TEST_CASE("a new target is zero wherever nothing was cleared, and so is a copy of it") {
+    constexpr std::size_t pixels = 20;
+    const auto is_filled = [](const TargetStorage& target, int sample, std::uint32_t expected) {
+        for (std::size_t i = 0; i < pixels; ++i)
+            if (target.code(i, 0, sample) != expected) return false;
+        return true;
+    };
+    for (const Format format : {Format::rgba8, Format::rgba16f, Format::r32f, Format::d24, Format::d24s8}) {
+        const TargetStorage fresh{format, 2, pixels};
+        TargetStorage part{format, 2, pixels}, whole{format, 2, pixels}, copy = fresh;
+        copy = TargetStorage{format, 2, pixels};
+        part.fill({7, 7, 7, 7}, 2u);
+        whole.fill({7, 7, 7, 7}, 3u);
+        for (const int sample : {0, 1}) {
+            CHECK(is_filled(fresh, sample, 0));
+            CHECK(is_filled(copy, sample, 0));
+            CHECK(is_filled(part, sample, sample == 1 ? 7 : 0));
+            CHECK(is_filled(whole, sample, 7));
+        }
+    }
+    TargetStorage both{Format::d24s8, 1, pixels};
+    both.fill({7, 0, 0, 0}, 1u);
+    CHECK(std::all_of(both.stencil(0), both.stencil(0) + pixels, [](std::uint32_t s) { return s == 0; }));
+}

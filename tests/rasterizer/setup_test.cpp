@@ -33,7 +33,8 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 [[nodiscard]] bool same_bits(const SetupTriangle& a, const SetupTriangle& b) {
     bool same = a.p == b.p && a.primitive == b.primitive && a.front_facing == b.front_facing;
     for (std::size_t i = 0; i < 3; ++i) {
-        same = same && std::bit_cast<std::array<std::uint32_t, 2>>(a.unsnapped[i]) == std::bit_cast<std::array<std::uint32_t, 2>>(b.unsnapped[i]);
+        using Bits = std::array<std::uint32_t, 2>;
+        same = same && std::bit_cast<Bits>(a.unsnapped[i]) == std::bit_cast<Bits>(b.unsnapped[i]);
         same = same && std::bit_cast<std::uint64_t>(a.z[i]) == std::bit_cast<std::uint64_t>(b.z[i]);
         same = same && std::bit_cast<std::uint32_t>(a.inverse_w[i]) == std::bit_cast<std::uint32_t>(b.inverse_w[i]);
     }
