@@ -22,6 +22,7 @@ using rasterizer::DrawnTriangle;
 using WordVec = hn::Vec<U32>;
 using WordMask = hn::Mask<U32>;
 using Wide = hn::Rebind<std::uint64_t, F64>;
+constexpr std::size_t lane_count = hn::MaxLanes(U32{});
 
 // The places of neighbours after the first one's: of a triangle of one colour, and of others.
 alignas(32) constexpr std::uint32_t after_first[2][8] = {{0, 0, 0, 0, 0, 0, 0, 0}, {0, 1, 2, 3, 4, 5, 6, 7}};
@@ -46,15 +47,33 @@ struct AppendOf {
               depth_{triangle.geometry.depths(triangle.index), 1.0, state.z_units}, filter_{raster::filter_of(depth_, triangle)},
               places_{to_.places} {}
 
+        // Of a large triangle, covered from the first lane on.
         HWY_INLINE void operator()(const raster::Row& row, const raster::Weights& b) {
             const WordMask covered = hn::RebindMask(U32{}, row.covered);
             const WordVec count = hn::IfThenElseZero(covered, hn::LoadU(U32{}, to_.count + row.pixel));
-            if (HWY_UNLIKELY(!has_room_for(count))) return;
+            if (HWY_UNLIKELY(!has_places() || !has_ranks(count))) return;
             const Keys<U32> keys = keys_at(row, b);
             const WordMask is_visible = hn::And(covered, keys.is_visible), is_hidden = hn::AndNot(keys.is_visible, covered);
             if (HWY_UNLIKELY(!hn::AllFalse(U32{}, is_hidden))) hide(row.pixel, keys.key, is_hidden);
-            if (by_shader_z) denormals_ = hn::Or(denormals_, hn::VecFromMask(U32{}, hn::And(is_visible, keys.is_denormal)));
-            put(row, keys.key, color_.is_flat() ? flat_place() : varying_place(row, b), is_visible, count);
+            put(row, words_of(keys.key, place_of(row, b)), is_visible, count);
+        }
+        // Of a small one.
+        HWY_INLINE void operator()(const raster::Pixels& pixels, const raster::Weights& b) {
+            if (HWY_UNLIKELY(!has_places())) return;
+            const Keys<U32> keys = keys_at(pixels, b);
+            alignas(64) std::uint32_t pixel[lane_count];
+            alignas(64) std::uint64_t word[lane_count];
+            hn::Store(pixels.pixel, U32{}, pixel);
+            hn::Store(words_of(keys.key, place_of(pixels, b)), Wide{}, word);
+            const std::uint32_t covered = raster::bits_of(pixels.covered), visible = covered & bits_of(keys.is_visible);
+            const auto end = static_cast<std::size_t>(std::popcount(covered));
+            if (HWY_LIKELY(visible == covered)) {
+                for (std::size_t i = 0; i < end; ++i) put_one(pixel[i], word[i]);
+            } else {
+                for (std::size_t i = 0; i < end; ++i)
+                    if ((visible >> i & 1) != 0) put_one(pixel[i], word[i]);
+                    else hide_one(pixel[i], static_cast<std::uint32_t>(word[i] >> 32));
+            }
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
             state_.fragments += pixels;
@@ -63,14 +82,54 @@ struct AppendOf {
         }
 
       private:
-        HWY_INLINE Keys<U32> keys_at(const raster::Row& row, const raster::Weights& b) const {
+        template <class Where>
+        HWY_INLINE Keys<U32> keys_at(const Where& where, const raster::Weights& b) {
             const auto v = raster::plane_at(filter_, b);
             auto unsure = hn::Zero(U32{});
             V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
-            if constexpr (!unsnapped) z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, row);
-            const WordVec surface = to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : hn::LoadU(U32{}, to_.opaque + row.pixel);
-            if constexpr (by_shader_z) return keys_of_z(U32{}, z, surface);
-            return keys_of_code(U32{}, raster::codes(z, to_code_), surface);
+            if constexpr (!unsnapped) z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, where);
+            const WordVec surface = to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : surface_at(where);
+            if constexpr (!by_shader_z) return keys_of_code(U32{}, raster::codes(z, to_code_), surface);
+            const Keys<U32> keys = keys_of_z(U32{}, z, surface);
+            const WordMask is_visible = hn::And(hn::RebindMask(U32{}, where.covered), keys.is_visible);
+            denormals_ = hn::Or(denormals_, hn::VecFromMask(U32{}, hn::And(is_visible, keys.is_denormal)));
+            return keys;
+        }
+        HWY_INLINE WordVec surface_at(const raster::Row& row) const { return hn::LoadU(U32{}, to_.opaque + row.pixel); }
+        HWY_INLINE WordVec surface_at(const raster::Pixels& pixels) const {
+            return hn::GatherIndex(U32{}, to_.opaque, hn::BitCast(raster::I32{}, pixels.pixel));
+        }
+
+        // A row, or eight pixels, takes no more places than it has lanes.
+        HWY_INLINE bool has_places() { return state_.has_room &= places_ <= to_.most_places; }
+        // A hidden fragment asks for a word, too.
+        HWY_INLINE bool has_ranks(WordVec count) {
+            return state_.has_room &= hn::AllTrue(U32{}, hn::Lt(count, hn::Set(U32{}, to_.ranks)));
+        }
+
+        // The place of the first of some fragments whose colours it puts down; the others' are the next ones.
+        template <class Where>
+        HWY_INLINE std::uint32_t place_of(const Where& where, const raster::Weights& b) {
+            if (color_.is_flat()) return flat_place();
+            V32 color[4];
+            color_.template at<unsnapped>(where, b, color);
+            const std::uint32_t place = places_;
+            for (std::size_t c = 0; c < 4; ++c) hn::StoreU(color[c], F32{}, to_.color[c] + place);
+            places_ += static_cast<std::uint32_t>(hn::CountTrue(F32{}, where.covered));
+            return place;
+        }
+        // The one place of a triangle of one colour.
+        HWY_INLINE std::uint32_t flat_place() {
+            if (flat_place_ == none) {
+                flat_place_ = places_++;
+                for (std::size_t c = 0; c < 4; ++c) to_.color[c][flat_place_] = color_.flat(c);
+            }
+            return flat_place_;
+        }
+        HWY_INLINE hn::Vec<Wide> words_of(WordVec key, std::uint32_t first_place) const {
+            const U32 d;
+            const WordVec place = hn::Add(hn::Set(d, first_place), hn::Load(d, after_first[color_.is_flat() ? 0 : 1]));
+            return hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(Wide{}, key)), hn::PromoteTo(Wide{}, place));
         }
 
         HWY_INLINE void hide(std::size_t pixel, WordVec key, WordMask lost) const {
@@ -83,42 +142,18 @@ struct AppendOf {
             const WordVec surface = to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : hn::LoadU(U32{}, to_.opaque + pixel);
             add(to_.at_surface, hn::And(lost, hn::Eq(key, surface)));
         }
-
-        // Of places a row takes no more than it has lanes; a hidden fragment asks for a word, too.
-        HWY_INLINE bool has_room_for(WordVec count) {
-            const bool has_ranks = hn::AllTrue(U32{}, hn::Lt(count, hn::Set(U32{}, to_.ranks)));
-            state_.has_room &= has_ranks && places_ <= to_.most_places;
-            return state_.has_room;
-        }
-
-        // The one place of a triangle of one colour.
-        HWY_INLINE std::uint32_t flat_place() {
-            if (flat_place_ == none) {
-                flat_place_ = places_++;
-                for (std::size_t c = 0; c < 4; ++c) to_.color[c][flat_place_] = color_.flat(c);
-            }
-            return flat_place_;
-        }
-        // Covered lanes are neighbours, and so are their places; the answer is that of lane 0, covered or not.
-        HWY_INLINE std::uint32_t varying_place(const raster::Row& row, const raster::Weights& b) {
-            const std::uint32_t covered = raster::bits_of(row.covered);
-            const std::uint32_t place = places_ - static_cast<std::uint32_t>(std::countr_zero(covered));
-            places_ += static_cast<std::uint32_t>(std::popcount(covered));
-            V32 color[4];
-            color_.template at<unsnapped>(row, b, color);
-            for (std::size_t c = 0; c < 4; ++c) hn::BlendedStore(color[c], row.covered, F32{}, to_.color[c] + place);
-            return place;
+        HWY_INLINE void hide_one(std::uint32_t pixel, std::uint32_t key) const {
+            ++to_.hidden[pixel];
+            to_.at_surface[pixel] += !by_shader_z && key == to_.opaque[to_.same_opaque ? 0 : pixel] ? 1 : 0;
         }
 
         // Neighbours where all covered pixels have as many arrivals. That branch looks at counts alone, which are there early.
-        HWY_INLINE void put(const raster::Row& row, WordVec key, std::uint32_t first_place, WordMask is_visible, WordVec count) const {
+        HWY_INLINE void put(const raster::Row& row, hn::Vec<Wide> words, WordMask is_visible, WordVec count) const {
             const U32 d;
             const Wide wide;
-            const WordVec place = hn::Add(hn::Set(d, first_place), hn::Load(d, after_first[color_.is_flat() ? 0 : 1]));
-            const auto words = hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(wide, key)), hn::PromoteTo(wide, place));
             alignas(8) std::uint8_t bits[8] = {static_cast<std::uint8_t>(bits_of(is_visible))};
             const auto is_put = hn::LoadMaskBits(wide, bits);
-            const std::uint32_t rank = to_.count[row.pixel + static_cast<std::size_t>(std::countr_zero(raster::bits_of(row.covered)))];
+            const std::uint32_t rank = to_.count[row.pixel];
             const WordMask differs = hn::And(hn::RebindMask(d, row.covered), hn::Ne(count, hn::Set(d, rank)));
             hn::BlendedStore(hn::Add(count, hn::Set(d, 1)), is_visible, d, to_.count + row.pixel);
             if (hn::AllFalse(d, differs)) {
@@ -131,6 +166,15 @@ struct AppendOf {
             const auto nobodys = hn::Set(F64{}, static_cast<double>(to_.stride - 1));
             const auto is_put_here = hn::RebindMask(F64{}, is_put);
             hn::ScatterIndex(words, wide, to_.word, hn::ConvertTo(hn::RebindToSigned<Wide>{}, hn::IfThenElse(is_put_here, index, nobodys)));
+        }
+        HWY_INLINE void put_one(std::uint32_t pixel, std::uint64_t word) {
+            const std::uint32_t rank = to_.count[pixel];
+            if (HWY_UNLIKELY(rank >= to_.ranks)) {
+                state_.has_room = false;
+                return;
+            }
+            to_.count[pixel] = rank + 1;
+            to_.word[rank * to_.stride + pixel] = word;
         }
 
         AppendState& state_;

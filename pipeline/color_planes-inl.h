@@ -53,14 +53,14 @@ class ColorPlanes {
     [[nodiscard]] HWY_INLINE bool is_flat() const { return is_flat_; }
     [[nodiscard]] HWY_INLINE float flat(std::size_t c) const { return value_[0][c]; }
 
-    // r g b a, divided.
-    template <bool unsnapped>
-    HWY_INLINE void at(const raster::Row& row, const raster::Weights& b, V32 (&color)[4]) const {
-        const V32 inverse_w = has_w_ ? rounded<unsnapped>(row, b, inverse_w_, w_) : hn::Set(F32{}, 1.0f);
-        color[0] = channel<unsnapped>(0, row, b, inverse_w);
-        color[1] = is_grey_ ? color[0] : channel<unsnapped>(1, row, b, inverse_w);
-        color[2] = is_grey_ ? color[0] : channel<unsnapped>(2, row, b, inverse_w);
-        color[3] = channel<unsnapped>(3, row, b, inverse_w);
+    // r g b a, divided, of a row or of pixels.
+    template <bool unsnapped, class Where>
+    HWY_INLINE void at(const Where& where, const raster::Weights& b, V32 (&color)[4]) const {
+        const V32 inverse_w = has_w_ ? rounded<unsnapped>(where, b, inverse_w_, w_) : hn::Set(F32{}, 1.0f);
+        color[0] = channel<unsnapped>(0, where, b, inverse_w);
+        color[1] = is_grey_ ? color[0] : channel<unsnapped>(1, where, b, inverse_w);
+        color[2] = is_grey_ ? color[0] : channel<unsnapped>(2, where, b, inverse_w);
+        color[3] = channel<unsnapped>(3, where, b, inverse_w);
     }
 
   private:
@@ -88,25 +88,25 @@ class ColorPlanes {
     HWY_INLINE static RationalPlane plane_of(const Corners& v) { return {{v[0], v[1], v[2]}}; }
     HWY_INLINE Corners corners(std::size_t c) const { return {product_[0][c], product_[1][c], product_[2][c]}; }
 
-    template <bool unsnapped>
-    HWY_INLINE V32 channel(std::size_t c, const raster::Row& row, const raster::Weights& b, V32 inverse_w) const {
+    template <bool unsnapped, class Where>
+    HWY_INLINE V32 channel(std::size_t c, const Where& where, const raster::Weights& b, V32 inverse_w) const {
         if (varies_[c] == 0) return hn::Set(F32{}, value_[0][c]);
         FilterPlane plane;
         plane.w0 = w0_[c];
         plane.d1 = d1_[c];
         plane.d2 = d2_[c];
         plane.error = error_[c];
-        const V32 u = rounded<unsnapped>(row, b, plane, corners(c));
+        const V32 u = rounded<unsnapped>(where, b, plane, corners(c));
         return has_w_ ? hn::Div(u, inverse_w) : u;
     }
-    template <bool unsnapped>
-    HWY_INLINE V32 rounded(const raster::Row& row, const raster::Weights& b, const FilterPlane& plane,
+    template <bool unsnapped, class Where>
+    HWY_INLINE V32 rounded(const Where& where, const raster::Weights& b, const FilterPlane& plane,
                            const Corners& corners) const {
         const auto v = raster::plane_at(plane, b);
         if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
         auto unsure = hn::Zero(U32{});
         const V32 low = raster::rounded(v, hn::Set(F64{}, plane.error), unsure);
-        return raster::decided(low, unsure, plane_of(corners), geometry_, index_, row);
+        return raster::decided(low, unsure, plane_of(corners), geometry_, index_, where);
     }
 
     const rasterizer::Geometry& geometry_;

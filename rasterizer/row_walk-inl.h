@@ -4,7 +4,8 @@
 //
 // Rule     A pixel is visited as often, in the same order and with the same weights as TileRasterizer makes fragments of it.
 //          `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row, weights) for
-//          every row that has a covered pixel, at last finish(how many were covered).
+//          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
+//          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
 // Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
 //          constants of an edge are below 2^50 there (row_walk_suits).
 // Tests    tests/rasterizer/rows_test.cpp
@@ -33,6 +34,19 @@ struct Row {
     std::size_t pixel;
     int x, y;
     RowMask covered;
+
+    HWY_INLINE hn::Vec<I32> columns() const { return hn::Add(hn::Set(I32{}, x), hn::Iota(I32{}, 0)); }
+    HWY_INLINE hn::Vec<I32> rows() const { return hn::Set(I32{}, y); }
+};
+
+// Pixels (x, y), wherever they lie: the covered ones come first, the other lanes are some pixel of the region.
+struct Pixels {
+    hn::Vec<U32> pixel;
+    hn::Vec<I32> x, y;
+    RowMask covered;
+
+    HWY_INLINE hn::Vec<I32> columns() const { return x; }
+    HWY_INLINE hn::Vec<I32> rows() const { return y; }
 };
 
 HWY_INLINE RowMask mask_of(std::uint32_t bits) {
@@ -53,13 +67,17 @@ HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle
 }
 
 // Replaces the covered values that the filter left unsure by the exact ones.
+template <class Where>
 HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, const Geometry& geometry,
-                       std::uint32_t index, const Row& row) {
-    const RowMask open = hn::And(row.covered, hn::RebindMask(F32{}, hn::Ne(unsure, hn::Zero(U32{}))));
+                       std::uint32_t index, const Where& where) {
+    const RowMask open = hn::And(where.covered, hn::RebindMask(F32{}, hn::Ne(unsure, hn::Zero(U32{}))));
     if (HWY_LIKELY(hn::AllFalse(F32{}, open))) return z;
     alignas(64) float values[row_lanes];
+    alignas(64) std::int32_t x[row_lanes], y[row_lanes];
     hn::Store(z, F32{}, values);
-    decide_lanes(RationalPlane{plane}, geometry, index, row.x, row.y, bits_of(open), values);
+    hn::Store(where.columns(), I32{}, x);
+    hn::Store(where.rows(), I32{}, y);
+    decide_lanes(RationalPlane{plane}, geometry, index, x, y, bits_of(open), values);
     return hn::Load(F32{}, values);
 }
 
@@ -83,6 +101,9 @@ class TermTable {
   private:
     alignas(64) double b1_[count + row_lanes], b2_[count + row_lanes];
 };
+
+template <class Shade>
+concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b) { shade(at, b); };
 
 template <template <bool> class Shade, class State>
 class RowWalk {
@@ -118,10 +139,39 @@ class RowWalk {
         const SmallCoverage<widest == 8> coverage{group_, k};
         if (coverage.pixels() == 0) return;
         const DrawnTriangle triangle{geometry_, index, group_, k};
-        if (triangle.weights.kind == PixelWeights::Kind::unsnapped)
-            draw_bits<true, widest>(coverage, triangle, k);
-        else
-            draw_bits<false, widest>(coverage, triangle, k);
+        const bool unsnapped = triangle.weights.kind == PixelWeights::Kind::unsnapped;
+        if constexpr (takes_pixels<Shade<true>>) {
+            if (unsnapped) draw_pixels<true>(coverage, triangle, k);
+            else draw_pixels<false>(coverage, triangle, k);
+        } else {
+            if (unsnapped) draw_bits<true, widest>(coverage, triangle, k);
+            else draw_bits<false, widest>(coverage, triangle, k);
+        }
+    }
+
+    // Its pixels side by side, row after row.
+    template <bool unsnapped, bool within_8>
+    HWY_INLINE void draw_pixels(const SmallCoverage<within_8>& coverage, const DrawnTriangle& triangle, std::size_t k) {
+        const U32 d;
+        const I32 di;
+        alignas(64) std::uint32_t numbers[(within_8 ? 64 : 256) + block_part];
+        coverage.list(numbers);
+        const int x0 = static_cast<int>(group_.x0[k]), y0 = static_cast<int>(group_.y0[k]);
+        const auto first = hn::Set(d, static_cast<std::uint32_t>(pixel(x0, y0)));
+        const auto width = hn::Set(d, static_cast<std::uint32_t>(region_.width()));
+        const WeightsAt<unsnapped> weights{triangle.weights};
+        Shade<unsnapped> shade{state_, triangle};
+        const auto count = static_cast<std::uint32_t>(coverage.pixels());
+        for (std::uint32_t i = 0; i < count; i += row_lanes) {
+            const auto covered = hn::FirstN(d, count - i);
+            const auto number = hn::IfThenElseZero(covered, hn::Load(d, numbers + i));
+            const auto column = coverage.column(number), row = coverage.row(number);
+            const Pixels at{hn::Add(first, hn::Add(column, hn::Mul(row, width))),
+                            hn::Add(hn::BitCast(di, column), hn::Set(di, x0)),
+                            hn::Add(hn::BitCast(di, row), hn::Set(di, y0)), hn::RebindMask(F32{}, covered)};
+            shade(at, weights.at(weights.column_terms(hn::PromoteTo(F64{}, at.x)), weights.row_terms(hn::PromoteTo(F64{}, at.y))));
+        }
+        shade.finish(count);
     }
 
     template <bool unsnapped, int widest>

@@ -13,12 +13,12 @@ bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const R
            geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
 }
 
-void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, int x, int y,
-                  std::uint32_t lanes, float* values) noexcept {
+void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,
+                  const std::int32_t* y, std::uint32_t lanes, float* values) noexcept {
     const TriangleEdges edges{geometry.points(geometry.triangles[index]), geometry.rules.tie_rule};
     for (; lanes != 0; lanes &= lanes - 1) {
         const int i = std::countr_zero(lanes);
-        const SubpixelPoint centre = pixel_centre(x + i, y, geometry.rules.subpixel_bits);
+        const SubpixelPoint centre = pixel_centre(x[i], y[i], geometry.rules.subpixel_bits);
         values[i] = exact_float(plane, edges.at(centre), edges.area());
     }
 }

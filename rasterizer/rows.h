@@ -29,9 +29,9 @@ struct DepthDrawn {
 DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
 
-// For the kernels. Replaces values[i] by the exact plane at (x + i, y), for every bit i of `lanes`.
-void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, int x, int y,
-                  std::uint32_t lanes, float* values) noexcept;
+// For the kernels. Replaces values[i] by the exact plane at (x[i], y[i]), for every bit i of `lanes`.
+void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,
+                  const std::int32_t* y, std::uint32_t lanes, float* values) noexcept;
 // A plane of equal values as the filter sees it: certain everywhere.
 [[nodiscard]] FilterPlane constant_filter(const RationalPlane& plane, const Geometry& geometry,
                                           std::uint32_t index) noexcept;

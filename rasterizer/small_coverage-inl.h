@@ -81,10 +81,31 @@ class SmallCoverage {
     HWY_INLINE std::uint32_t end_row(std::uint32_t height) const {
         return within_8 ? 8 - static_cast<std::uint32_t>(std::countl_zero(bits_[0])) / 8 : height;
     }
+    // The numbers of the covered pixels, ascending: pixels() of them, and room for block_part more.
+    HWY_INLINE void list(std::uint32_t* numbers) const {
+        const Block32 d;
+        for (std::uint32_t first = 0; first < 16 * count(); first += block_part) {
+            const std::uint64_t own = bits_[first / 64] >> first % 64 & ((1u << block_part) - 1);
+            const auto covered = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&own));
+            const auto number = hn::Add(hn::Load(d, shapes[2].column), hn::Set(d, first));
+            hn::StoreU(hn::Compress(number, covered), d, numbers);
+            numbers += std::popcount(own);
+        }
+    }
+    // Of pixels by number, within the box.
+    template <class Vec>
+    HWY_INLINE Vec column(Vec number) const {
+        return hn::And(number, hn::Set(hn::DFromV<Vec>{}, (1u << log_width()) - 1));
+    }
+    template <class Vec>
+    HWY_INLINE Vec row(Vec number) const {
+        return hn::ShiftRightSame(number, static_cast<int>(log_width()));
+    }
     // How many rows to claim: those below the box are empty.
     HWY_INLINE std::uint32_t rows(std::uint32_t height) const { return within_8 ? 8 : height; }
 
   private:
+    HWY_INLINE std::uint32_t log_width() const { return within_8 ? 3 : log_width_; }
     HWY_INLINE std::uint32_t count() const { return within_8 ? 4 : count_; }
     HWY_INLINE static std::uint32_t not_negative(hn::Vec<Block32> v) {
         const hn::RebindToSigned<Block32> d;
