@@ -139,6 +139,7 @@ TEST_CASE("rows put down the fragments of batches, in their order and with their
                         for (std::size_t p = 0; p < expected.size(); ++p) wrong += room.coverage[p] == expected[p].fragments ? 0 : 1;
                         wrong += by_rows(given, room.ranks, room.places) == expected ? 0 : 1;
                         if (room.ranks > 0 && surface == Surface::cleared) wrong += by_rows(given, room.ranks - 1, room.places).empty() ? 0 : 1;
+                        if (room.places > row_padding) wrong += by_rows(given, room.ranks, 0).empty() ? 0 : 1;
                         ++compared;
                     }
                 }
