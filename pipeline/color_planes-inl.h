@@ -1,4 +1,4 @@
-// pipeline/color_planes-inl.h - the colours of a triangle's rows, eight neighbours at a time, for passes without batches. For
+// pipeline/color_planes-inl.h - the colours of a triangle, eight pixels at a time, for passes without batches. For
 // *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
 //
 // Rule     The colours of FragmentValues::fill with ColorInterpolation::exact_plane.
