@@ -45,7 +45,7 @@ sanitized() {
     step "the fast tests under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
     quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz' -E "$slow" --output-on-failure -j "$(nproc)"
-    quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure
+    quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return

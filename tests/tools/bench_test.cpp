@@ -11,7 +11,7 @@ using nlohmann::ordered_json;
 namespace {
 
 Ended bench(const Folder& folder, std::vector<std::string> more) {
-    const std::vector<std::string> small{"bench", "random:seed=3,triangles=60", "--size", "64x64", "--repeat", "2"};
+    const std::vector<std::string> small{"bench", "random:seed=3,triangles=60", "--size", "64x64", "--repeat", "2", "--warm-up", "0"};
     more.insert(more.begin(), small.begin(), small.end());
     return run_strata(folder, more);
 }

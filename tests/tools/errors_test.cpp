@@ -71,6 +71,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"bench", "teapot", "--execution", "replay,tile"},
          "strata: --execution: expected literal, tiled, replay or all, found 'tile' (did you mean 'tiled'?)"},
         {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
+        {{"bench", "teapot", "--warm-up", "-1"}, "strata: --warm-up: expected seconds, from 0, found '-1'"},
         {{"bench", "teapot", "--baseline", "none.json"}, "strata: none.json: ..."},
         {{"render", "teapot", "--threads", "-1"}, "strata: --threads: expected a whole number from 0, found '-1'"},
         {{"render", "teapot", "--alpha", "1,5"}, "strata: --alpha: expected a number from 0 to 1, found '1,5'"},

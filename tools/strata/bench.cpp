@@ -20,7 +20,7 @@ struct BenchOptions {
     std::vector<pipeline::Execution> executions{pipeline::Execution::replay};
     std::vector<Simd> simds{Simd::best};
     std::vector<pipeline::Effects> effects{pipeline::Effects::needed};
-    int repeat = 5;
+    Repetitions repetitions;
     std::string json, baseline;
 };
 
@@ -78,7 +78,7 @@ int bench(BenchOptions& options) {
     check_output("--json", options.json == "-" ? "" : options.json, {".json"});
     const Baseline baseline = options.baseline.empty() ? Baseline{} : load_baseline(options.baseline);
     const std::vector<BenchScene> scenes = open_scenes(options);
-    const auto results = measure(jobs_of(options, scenes), options.repeat);
+    const auto results = measure(jobs_of(options, scenes), options.repetitions);
     const std::string document = to_json(results, baseline).dump(2) + '\n';
     if (options.json == "-") {
         print(document);
@@ -111,8 +111,10 @@ Command add_bench(CLI::App& root) {
     add_choices(*app, options->effects, "--effects", effects, values_of(effects),
                 "needed, all, or needed,all (default needed)");
     add_resource_options(*app, options->run);
-    add_option(*app, options->repeat,
+    add_option(*app, options->repetitions.timed,
                {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_positive);
+    add_option(*app, options->repetitions.warm_up,
+               {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds, from 0"}, to_seconds);
     app->add_option("--json", options->json, "the times as JSON; - is standard output instead of the table")
         ->type_name("FILE|-");
     app->add_option("--baseline", options->baseline, "what --json wrote before: also print old/new")->type_name("FILE");

@@ -28,9 +28,12 @@ class Collector : public benchmark::BenchmarkReporter {
     std::vector<BenchResult>& results_;
 };
 
-void warm_up(const BenchJob& job) {
-    double spent = 0;
-    for (int frame = 0; frame < 2 && spent < 0.5; ++frame) spent += run_once(job).seconds;
+void warm_up(const BenchJob& job, double seconds) {
+    for (double spent = 0; spent < seconds;) {
+        const BenchRun run = run_once(job);
+        if (!run.refusal.empty()) return;
+        spent += run.seconds;
+    }
 }
 
 void run_job(benchmark::State& state, BenchResult& result) {
@@ -82,16 +85,16 @@ BenchRun run_once(const BenchJob& job) {
     return run;
 }
 
-std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, int repeat) {
+std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repetitions& repetitions) {
     std::vector<BenchResult> results;
     for (const BenchJob& job : jobs) results.push_back({.job = job, .last = {}, .digest = {}, .seconds = {}, .geometry_seconds = {}});
     Progress progress("bench");
-    const double runs = static_cast<double>(jobs.size()) * repeat;
+    const double runs = static_cast<double>(jobs.size()) * repetitions.timed;
     double done = 0;
     benchmark::ClearRegisteredBenchmarks();
     for (BenchResult& result : results) {
-        const auto body = [&result, &progress, &done, runs, repeat, left = repeat](benchmark::State& state) mutable {
-            if (left == repeat) warm_up(result.job);
+        const auto body = [&result, &progress, &done, runs, &repetitions, left = repetitions.timed](benchmark::State& state) mutable {
+            if (left == repetitions.timed) warm_up(result.job, repetitions.warm_up);
             run_job(state, result);
             if (--left == 0) result.digest = pipeline::digest(result.last.picture);  // not before: it empties the caches
             result.last.picture = {};
@@ -100,7 +103,7 @@ std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, int repeat) 
         benchmark::RegisterBenchmark(algorithm_name(result.job).c_str(), body)
             ->UseManualTime()
             ->Iterations(1)
-            ->Repetitions(repeat);
+            ->Repetitions(repetitions.timed);
     }
     Collector collector(results);
     benchmark::RunSpecifiedBenchmarks(&collector, nullptr, ".");

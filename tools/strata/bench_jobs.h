@@ -49,7 +49,13 @@ struct BenchResult {
 
 [[nodiscard]] BenchRun run_once(const BenchJob& job);
 
-// Google Benchmark runs every job `repeat` times, after at most two runs of half a second that warm it up; progress is shown on a terminal.
-[[nodiscard]] std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, int repeat);
+// Of each job.
+struct Repetitions {
+    int timed = 5;
+    double warm_up = 0.3;  // seconds that it runs before, at least once; 0: not at all
+};
+
+// Google Benchmark runs every job as often; progress is shown on a terminal.
+[[nodiscard]] std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repetitions& repetitions);
 
 }  // namespace strata::tools

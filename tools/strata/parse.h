@@ -32,6 +32,11 @@ template <std::floating_point T>
     return value;
 }
 
+[[nodiscard]] inline std::optional<double> to_seconds(std::string_view text) {
+    const auto value = to_number<double>(text);
+    return value && *value >= 0 ? value : std::nullopt;
+}
+
 // "a,b," is three parts, the last one empty.
 [[nodiscard]] inline std::vector<std::string> split(std::string_view text, char separator) {
     std::vector<std::string> parts(1);
