@@ -175,7 +175,8 @@ def scaling_section(options, scenes):
             f"""
 The serial share s solves t2 / t1 = s + (1 - s) / 2 (Amdahl), and so counts everything that does not double: joining sources in
 submission order, the prefix sums of the bins, the last tiles, and the memory that both threads share. Its median here is
-{median:.3f}: 64 threads would be at most {ceiling:.1f} times as fast as one. Two bounds stand beside it. Tiles: {options.size} has
+{median:.3f}: 64 threads would be at most {ceiling:.1f} times as fast as one. (More than twice as fast is the noise of a machine that
+others use, and counts as twice.) Two bounds stand beside it. Tiles: {options.size} has
 {tiles} tiles of 64; with 64 threads a thread has {tiles / 64:.0f}, and the frame waits for the costliest one, so a frame whose
 fragments crowd into a few tiles scales with these. Memory: what a thread keeps of fragments is --fragment-memory divided by the
 threads; a tile that does not fit rasterizes every pass, or a closed form walks it band by band.
