@@ -21,8 +21,9 @@ void a_buffer(Region& region) {
         if (lists.of(pixel).empty()) continue;
         const std::vector<KeyedFragment> sorted = by_exact_depth(lists.of(pixel));
         const auto color = composite(sorted, region.color(region.opaque_color(), pixel));
-        region.store_pixel(result, pixel,
-                           {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), 1.0f});
+        region.store_pixel(
+            result, pixel,
+            {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), 1.0f});
         if (!region.frame().trace) continue;
         for (const KeyedFragment& f : sorted) region.trace().push_back({pixel, f.key, f.primitive, Side::front, true});
     }

@@ -27,13 +27,13 @@ struct Algorithm {
     std::string pass_formula;  // geometry passes for N layers, under --termination exact
     TiePolicy ties = TiePolicy::none;
     pipeline::DepthKey key = pipeline::DepthKey::stored_code;
-    bool exact = false;        // order_errors must be 0
+    bool exact = false;  // order_errors must be 0
     bool makes_layers = false;
     bool premultiplied_layers = false;  // their colours are times alpha
     ListOrder order = ListOrder::given;
-    bool kills_alpha_zero = false;  // an alpha test keeps fragments that store alpha 0 from being layers
-    bool is_oracle = false;    // not a device's algorithm: never refused
-    bool whole_frame = false;  // its queries nest: runs literally, whatever --execution says
+    bool kills_alpha_zero = false;    // an alpha test keeps fragments that store alpha 0 from being layers
+    bool is_oracle = false;           // not a device's algorithm: never refused
+    bool whole_frame = false;         // its queries nest: runs literally, whatever --execution says
     bool compares_own_codes = false;  // by the code that it stores, alone: refused where options choose another depth
     bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide

@@ -14,8 +14,9 @@ namespace strata::peeling {
 // Puts the fragments of `triangles` in `band` down; pixels count from the band's first, and `to` has rasterizer::row_padding words
 // and places more than it says, behind the last and before the first. Adds how many there were to `fragments`. False if there was
 // no room for one of them: then `to` is of no more use.
-[[nodiscard]] bool append_rows(Arrivals& to, const pipeline::RowSource& source, std::span<const std::uint32_t> triangles,
-                               const rasterizer::Rect& band, std::uint64_t& fragments) noexcept;
+[[nodiscard]] bool append_rows(Arrivals& to, const pipeline::RowSource& source,
+                               std::span<const std::uint32_t> triangles, const rasterizer::Rect& band,
+                               std::uint64_t& fragments) noexcept;
 
 // What that needs of `region`: coverage[pixel] += its fragments, of which there are row_padding more; places[row] += the places that
 // they take at most.

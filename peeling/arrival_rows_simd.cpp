@@ -3,7 +3,6 @@
 #define HWY_TARGET_INCLUDE "peeling/arrival_rows_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "peeling/arrival_rows.h"
 #include "peeling/keys-inl.h"
 #include "pipeline/color_planes-inl.h"
@@ -43,8 +42,13 @@ struct AppendOf {
     class Shade {
       public:
         HWY_INLINE Shade(AppendState& state, const DrawnTriangle& triangle)
-            : state_{state}, to_{state.to}, to_code_{state.to_code}, triangle_{triangle}, color_{triangle},
-              depth_{triangle.geometry.depths(triangle.index), 1.0, state.z_units}, filter_{raster::filter_of(depth_, triangle)},
+            : state_{state},
+              to_{state.to},
+              to_code_{state.to_code},
+              triangle_{triangle},
+              color_{triangle},
+              depth_{triangle.geometry.depths(triangle.index), 1.0, state.z_units},
+              filter_{raster::filter_of(depth_, triangle)},
               places_{to_.places} {}
 
         // Of a large triangle, covered from the first lane on.
@@ -53,7 +57,8 @@ struct AppendOf {
             const WordVec count = hn::IfThenElseZero(covered, hn::LoadU(U32{}, to_.count + row.pixel));
             if (HWY_UNLIKELY(!has_places() || !has_ranks(count))) return;
             const Keys<U32> keys = keys_at(row, b);
-            const WordMask is_visible = hn::And(covered, keys.is_visible), is_hidden = hn::AndNot(keys.is_visible, covered);
+            const WordMask is_visible = hn::And(covered, keys.is_visible),
+                           is_hidden = hn::AndNot(keys.is_visible, covered);
             if (HWY_UNLIKELY(!hn::AllFalse(U32{}, is_hidden))) hide(row.pixel, keys.key, is_hidden);
             put(row, words_of(keys.key, place_of(row, b)), is_visible, count);
         }
@@ -71,8 +76,10 @@ struct AppendOf {
                 for (std::size_t i = 0; i < end; ++i) put_one(pixel[i], word[i]);
             } else {
                 for (std::size_t i = 0; i < end; ++i)
-                    if ((visible >> i & 1) != 0) put_one(pixel[i], word[i]);
-                    else hide_one(pixel[i], static_cast<std::uint32_t>(word[i] >> 32));
+                    if ((visible >> i & 1) != 0)
+                        put_one(pixel[i], word[i]);
+                    else
+                        hide_one(pixel[i], static_cast<std::uint32_t>(word[i] >> 32));
             }
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
@@ -87,7 +94,8 @@ struct AppendOf {
             const auto v = raster::plane_at(filter_, b);
             auto unsure = hn::Zero(U32{});
             V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
-            if constexpr (!unsnapped) z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, where);
+            if constexpr (!unsnapped)
+                z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, where);
             const WordVec surface = to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : surface_at(where);
             if constexpr (!by_shader_z) return keys_of_code(U32{}, raster::codes(z, to_code_), surface);
             const Keys<U32> keys = keys_of_z(U32{}, z, surface);
@@ -139,7 +147,8 @@ struct AppendOf {
             };
             add(to_.hidden, lost);
             if constexpr (by_shader_z) return;
-            const WordVec surface = to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : hn::LoadU(U32{}, to_.opaque + pixel);
+            const WordVec surface =
+                to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : hn::LoadU(U32{}, to_.opaque + pixel);
             add(to_.at_surface, hn::And(lost, hn::Eq(key, surface)));
         }
         HWY_INLINE void hide_one(std::uint32_t pixel, std::uint32_t key) const {
@@ -161,11 +170,13 @@ struct AppendOf {
                 return;
             }
             const raster::V64 ranks = hn::PromoteTo(F64{}, hn::BitCast(raster::I32{}, count));
-            const raster::V64 pixels = hn::Add(hn::Set(F64{}, static_cast<double>(row.pixel)), hn::Load(F64{}, raster::counting64));
+            const raster::V64 pixels =
+                hn::Add(hn::Set(F64{}, static_cast<double>(row.pixel)), hn::Load(F64{}, raster::counting64));
             const raster::V64 index = hn::Add(hn::Mul(ranks, hn::Set(F64{}, static_cast<double>(to_.stride))), pixels);
             const auto nobodys = hn::Set(F64{}, static_cast<double>(to_.stride - 1));
             const auto is_put_here = hn::RebindMask(F64{}, is_put);
-            hn::ScatterIndex(words, wide, to_.word, hn::ConvertTo(hn::RebindToSigned<Wide>{}, hn::IfThenElse(is_put_here, index, nobodys)));
+            hn::ScatterIndex(words, wide, to_.word,
+                             hn::ConvertTo(hn::RebindToSigned<Wide>{}, hn::IfThenElse(is_put_here, index, nobodys)));
         }
         HWY_INLINE void put_one(std::uint32_t pixel, std::uint64_t word) {
             const std::uint32_t rank = to_.count[pixel];
@@ -198,7 +209,8 @@ struct CountState {
 template <bool unsnapped>
 class CountShade {
   public:
-    HWY_INLINE CountShade(CountState& state, const DrawnTriangle& triangle) : state_{state}, is_flat_{ColorPlanes{triangle}.is_flat()} {}
+    HWY_INLINE CountShade(CountState& state, const DrawnTriangle& triangle)
+        : state_{state}, is_flat_{ColorPlanes{triangle}.is_flat()} {}
 
     HWY_INLINE void operator()(const raster::Row& row, const raster::Weights&) const {
         std::uint32_t* const coverage = state_.coverage + row.pixel;
@@ -215,7 +227,8 @@ class CountShade {
 };
 
 bool append_all(Arrivals& to, const pipeline::RowSource& source, std::span<const std::uint32_t> triangles,
-                const rasterizer::Rect& band, rasterizer::DepthConversion to_code, double z_units, std::uint64_t& fragments) {
+                const rasterizer::Rect& band, rasterizer::DepthConversion to_code, double z_units,
+                std::uint64_t& fragments) {
     AppendState state{to, to_code, z_units};
     if (to.by_shader_z)
         raster::RowWalk<AppendOf<true>::template Shade, AppendState>{state, source.geometry, band}.draw(triangles);
@@ -225,7 +238,8 @@ bool append_all(Arrivals& to, const pipeline::RowSource& source, std::span<const
     return state.has_room;
 }
 
-void count_all(const pipeline::RowSource& source, const rasterizer::Rect& region, std::uint32_t* coverage, std::uint32_t* places) {
+void count_all(const pipeline::RowSource& source, const rasterizer::Rect& region, std::uint32_t* coverage,
+               std::uint32_t* places) {
     CountState state{coverage, places, region.y0};
     raster::RowWalk<CountShade, CountState>{state, source.geometry, region}.draw(source.triangles);
 }

@@ -21,8 +21,8 @@ namespace strata::peeling {
 
 // The memory is the caller's; `count`, `hidden` and `at_surface` start at 0.
 struct Arrivals {
-    std::size_t stride = 0;    // words a rank: the pixels, rounded up to whole blocks, and some more
-    std::uint32_t ranks = 0;   // that there is room for
+    std::size_t stride = 0;                     // words a rank: the pixels, rounded up to whole blocks, and some more
+    std::uint32_t ranks = 0;                    // that there is room for
     std::uint32_t places = 0, most_places = 0;  // colours in use, and room for; a vector may end fifteen behind them
     std::uint64_t* word = nullptr;
     std::array<float*, 4> color{};
@@ -30,7 +30,7 @@ struct Arrivals {
     const std::uint32_t* opaque = nullptr;  // by pixel: the surface's key, shader_z or code
     bool same_opaque = false;               // all of them are opaque[0]
     bool by_shader_z = false;
-    bool has_denormals = false;             // of the visible shader_z that have come
+    bool has_denormals = false;  // of the visible shader_z that have come
 };
 
 inline namespace strict {
@@ -96,16 +96,19 @@ struct Rows {
         return static_cast<std::uint32_t>(*std::min_element(row, row + block_lanes) >> 32);
     }
     // Row k: words where a column is that high, ~0 elsewhere.
-    static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) noexcept {
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) row[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
+    static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k,
+                     std::uint64_t* row) noexcept {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            row[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
     }
     // The same for all rows, each column from its end.
     static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
                               std::uint64_t* rows) noexcept {
         for (std::size_t k = 0; k < depth; ++k)
             for (std::size_t lane = 0; lane < block_lanes; ++lane)
-                rows[k * block_lanes + lane] =
-                    k < visible[lane] ? from.word[(visible[lane] - 1 - k) * from.stride + pixel + lane] : ~std::uint64_t{0};
+                rows[k * block_lanes + lane] = k < visible[lane]
+                                                   ? from.word[(visible[lane] - 1 - k) * from.stride + pixel + lane]
+                                                   : ~std::uint64_t{0};
     }
     static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) noexcept {
         has_ties = {};
@@ -139,8 +142,8 @@ template <class Rows>
 // Ascending. What was drawn in depth order, either way, but for a few fragments at a column's end, needs only those inserted. Far to
 // near it is loaded from the end, where columns of different heights begin together.
 template <class Rows>
-[[gnu::always_inline]] inline void sort_words(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
-                                              std::uint64_t* rows) noexcept {
+[[gnu::always_inline]] inline void sort_words(const Arrivals& from, std::size_t pixel, const LaneWords& visible,
+                                              std::size_t depth, std::uint64_t* rows) noexcept {
     constexpr std::size_t few = 8;
     const auto row = [rows](std::size_t k) { return rows + k * block_lanes; };
     const auto rises = [row](std::size_t k) { return Rows::in_order(row(k), row(k + 1)); };
@@ -163,7 +166,8 @@ template <class Rows>
 }
 
 template <class Rows>
-[[gnu::always_inline]] inline bool take_rows(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
+[[gnu::always_inline]] inline bool take_rows(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
+                                             std::uint64_t* rows) noexcept {
     if (!Rows::find_heights(from, pixel, block)) return false;
     sort_words<Rows>(from, pixel, block.visible, block.depth, rows);
     Rows::find_ties(rows, block.depth, block.has_ties);
@@ -178,7 +182,8 @@ template <class Rows>
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept;
 // The sixteen columns from `pixel` on, sorted into `rows`, of which there is room for as many as the highest has; all of `block` but
 // where it lies and where its colours are. False if no fragment is there.
-[[nodiscard]] bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept;
+[[nodiscard]] bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
+                              std::uint64_t* rows) noexcept;
 // before[row * block_lanes + lane] = how many rows there are up to the last one below `row` whose fragment came earlier; 0 if none did.
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept;
 

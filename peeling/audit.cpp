@@ -22,7 +22,8 @@ struct PixelTraces {
     std::vector<std::uint32_t> start;
     std::vector<TraceEntry> entries;
 
-    PixelTraces(const std::vector<TraceEntry>& trace, std::size_t pixels) : start(pixels + 1, 0), entries(trace.size()) {
+    PixelTraces(const std::vector<TraceEntry>& trace, std::size_t pixels)
+        : start(pixels + 1, 0), entries(trace.size()) {
         for (const TraceEntry& e : trace) ++start[e.pixel + 1];
         for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
         std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
@@ -51,7 +52,8 @@ std::uint64_t places_that_differ(const std::vector<KeyedFragment>& expected, con
 }
 
 void add(PixelCount& count, int x, int y) {
-    if (count.pixels++ == 0 || std::tie(y, x) < std::tie(count.first_y, count.first_x)) count.first_x = x, count.first_y = y;
+    if (count.pixels++ == 0 || std::tie(y, x) < std::tie(count.first_y, count.first_x))
+        count.first_x = x, count.first_y = y;
 }
 
 void add(PixelCount& count, const PixelCount& other) {
@@ -64,10 +66,12 @@ void add(PixelCount& count, const PixelCount& other) {
 class RegionAudit {
   public:
     RegionAudit(const Frame& frame, const Algorithm& algorithm, const FrameResult& result, std::size_t r)
-        : algorithm_{algorithm}, result_{result},
+        : algorithm_{algorithm},
+          result_{result},
           region_{frame, result.traces[r].rect, result.traces[r].tile,
                   result.work.tile_size == 0 ? Extent::frame : Extent::tile},
-          lists_{visible_fragments(region_, Bookkeeping::silent)}, traces_{result.traces[r].entries, region_.rect().area()} {}
+          lists_{visible_fragments(region_, Bookkeeping::silent)},
+          traces_{result.traces[r].entries, region_.rect().area()} {}
 
     AuditResult run() {
         if (has_order()) found_.order_errors = 0;
@@ -80,7 +84,8 @@ class RegionAudit {
 
     void look_at(std::uint32_t pixel) {
         const rasterizer::Rect rect = region_.rect();
-        const int x = rect.x0 + static_cast<int>(pixel) % rect.width(), y = rect.y0 + static_cast<int>(pixel) / rect.width();
+        const int x = rect.x0 + static_cast<int>(pixel) % rect.width(),
+                  y = rect.y0 + static_cast<int>(pixel) / rect.width();
         const auto fragments = lists_.of(pixel);
         if (algorithm_.kills_alpha_zero) return look_at(with_alpha(fragments), pixel, x, y);
         look_at(fragments, pixel, x, y);
@@ -112,7 +117,8 @@ class RegionAudit {
         compare(fragments, pixel, x, y, !has_order() || kept == in_policy_order(fragments, TiePolicy::first));
     }
 
-    void compare(std::span<const KeyedFragment> fragments, std::uint32_t pixel, int x, int y, bool ties_change_nothing) {
+    void compare(std::span<const KeyedFragment> fragments, std::uint32_t pixel, int x, int y,
+                 bool ties_change_nothing) {
         const auto truth = composite(by_exact_depth(fragments), region_.color(region_.opaque_color(), pixel));
         const rasterizer::Rect frame = region_.frame().rect();
         double worst = 0;
@@ -121,7 +127,8 @@ class RegionAudit {
             worst = std::max(worst, std::fabs(value - truth[static_cast<std::size_t>(c)]) * 255.0);
         }
         found_.max_difference = std::max(found_.max_difference, worst);
-        if (ties_change_nothing) found_.max_difference_without_ties = std::max(found_.max_difference_without_ties, worst);
+        if (ties_change_nothing)
+            found_.max_difference_without_ties = std::max(found_.max_difference_without_ties, worst);
     }
 
     const Algorithm& algorithm_;
@@ -137,7 +144,9 @@ class RegionAudit {
 AuditResult audit(const Frame& frame, const Algorithm& algorithm, const FrameResult& result, int threads) {
     const FloatEnvironment ours;
     std::vector<AuditResult> parts(result.traces.size());
-    parallel_for(parts.size(), threads, [&](std::size_t r) { parts[r] = RegionAudit{frame, algorithm, result, r}.run(); });
+    parallel_for(parts.size(), threads, [&](std::size_t r) {
+        parts[r] = RegionAudit{frame, algorithm, result, r}.run();
+    });
     AuditResult all;
     for (const AuditResult& part : parts) {
         all.layers_max = std::max(all.layers_max, part.layers_max);

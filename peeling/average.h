@@ -23,7 +23,8 @@ namespace scalar {
 }
 
 inline void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,
-                            const pipeline::ColorLanes& background, pipeline::ColorLanes& out, std::size_t count) noexcept {
+                            const pipeline::ColorLanes& background, pipeline::ColorLanes& out,
+                            std::size_t count) noexcept {
     using pipeline::select;
     pipeline::Lanes<std::uint32_t> left;
     pipeline::Lanes<float> base, power;

@@ -3,7 +3,6 @@
 #define HWY_TARGET_INCLUDE "peeling/average_words_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "peeling/average_words.h"
 #include "pipeline/unorm8-inl.h"
 #include "rasterizer/simd.h"
@@ -64,9 +63,8 @@ StuckPixels resolve(const pipeline::ScreenWords& words) {
     const Floats df;
     StuckPixels stuck;
     for (std::size_t i = 0; i < words.pixels; i += hn::Lanes(d)) {
-        const auto load = [&](std::size_t read, std::size_t word) HWY_ATTR {
-            return hn::LoadU(d, words.reads[read].plane(word).words + i);
-        };
+        const auto load = [&](std::size_t read, std::size_t word)
+                              HWY_ATTR { return hn::LoadU(d, words.reads[read].plane(word).words + i); };
         const WordVec red_green = load(0, 0), blue_alpha = load(0, 1), background = load(2, 0);
         const FloatVec a = high_half(blue_alpha), n = low_half(load(1, 0));
         const auto sound = hn::And(hn::Lt(n, hn::Set(df, 2048.0f)), hn::Le(a, hn::Set(df, 65504.0f)));
@@ -81,8 +79,10 @@ StuckPixels resolve(const pipeline::ScreenWords& words) {
             };
             const WordVec byte = hn::Set(d, 0xffu);
             WordVec mixed = hn::Or(hn::Set(d, 0xff000000u), channel(low_half(red_green), hn::And(background, byte)));
-            mixed = hn::Or(mixed, hn::ShiftLeft<8>(channel(high_half(red_green), hn::And(hn::ShiftRight<8>(background), byte))));
-            mixed = hn::Or(mixed, hn::ShiftLeft<16>(channel(low_half(blue_alpha), hn::And(hn::ShiftRight<16>(background), byte))));
+            mixed = hn::Or(
+                mixed, hn::ShiftLeft<8>(channel(high_half(red_green), hn::And(hn::ShiftRight<8>(background), byte))));
+            mixed = hn::Or(
+                mixed, hn::ShiftLeft<16>(channel(low_half(blue_alpha), hn::And(hn::ShiftRight<16>(background), byte))));
             result = hn::IfThenElse(hn::RebindMask(d, has), mixed, result);
         }
         hn::StoreU(result, d, words.color.plane(0).words + i);
@@ -106,7 +106,9 @@ namespace strata::peeling {
 HWY_EXPORT(resolve);
 HWY_EXPORT(converts_halves);
 
-StuckPixels resolve_average_words(const pipeline::ScreenWords& words) noexcept { return HWY_DYNAMIC_DISPATCH(resolve)(words); }
+StuckPixels resolve_average_words(const pipeline::ScreenWords& words) noexcept {
+    return HWY_DYNAMIC_DISPATCH(resolve)(words);
+}
 bool resolves_words() noexcept { return !simd_is_scalar() && HWY_DYNAMIC_DISPATCH(converts_halves)(); }
 
 }  // namespace strata::peeling

@@ -19,7 +19,7 @@
 
 namespace strata::peeling {
 
-using BlockCodes = std::array<LaneWords, 4>;  // UNORM8 codes by channel
+using BlockCodes = std::array<LaneWords, 4>;                    // UNORM8 codes by channel
 enum class FrontAlpha : std::uint8_t { covers, lets_through };  // which of the two a front's alpha says
 
 inline namespace strict {
@@ -45,10 +45,12 @@ inline void blend_near(const Color& color, std::uint32_t others, Codes& front) n
 
 // t = s F + d G as blend_unorm8.h combines codes.
 template <pipeline::BlendRounding rounding>
-[[nodiscard]] std::uint32_t add(std::uint32_t s, std::uint32_t s_factor, std::uint32_t d, std::uint32_t d_factor) noexcept {
+[[nodiscard]] std::uint32_t add(std::uint32_t s, std::uint32_t s_factor, std::uint32_t d,
+                                std::uint32_t d_factor) noexcept {
     const auto value = [](std::uint32_t code) { return static_cast<float>(code); };
-    return static_cast<std::uint32_t>(pipeline::Unorm8Arithmetic<rounding>::template combine<pipeline::BlendEquation::add>(
-        value(s), value(s_factor), value(d), value(d_factor)));
+    return static_cast<std::uint32_t>(
+        pipeline::Unorm8Arithmetic<rounding>::template combine<pipeline::BlendEquation::add>(
+            value(s), value(s_factor), value(d), value(d_factor)));
 }
 
 template <pipeline::BlendRounding rounding>
@@ -102,14 +104,16 @@ inline void codes_of(const std::uint32_t* words, BlockCodes& codes) noexcept {
         for (std::size_t lane = 0; lane < block_lanes; ++lane) codes[c][lane] = words[lane] >> (8 * c) & 0xffu;
 }
 
-inline void composite(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) noexcept {
+inline void composite(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning,
+                      std::uint32_t* words) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
         const float alpha = pipeline::unorm8_value(front[3][lane]);
         const float let_through = meaning == FrontAlpha::covers ? 1.0f - alpha : alpha;
         words[lane] = 0xff000000u;
         for (std::size_t c = 0; c < 3; ++c) {
             const float behind = pipeline::unorm8_value(back[c][lane]);
-            const std::uint32_t code = pipeline::to_unorm8(composited(pipeline::unorm8_value(front[c][lane]), let_through, behind));
+            const std::uint32_t code =
+                pipeline::to_unorm8(composited(pipeline::unorm8_value(front[c][lane]), let_through, behind));
             words[lane] |= code << (8 * c);
         }
     }

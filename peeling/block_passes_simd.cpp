@@ -3,10 +3,8 @@
 #define HWY_TARGET_INCLUDE "peeling/block_passes_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
-#include "pipeline/unorm8-inl.h"
-
 #include "peeling/block_passes.h"
+#include "pipeline/unorm8-inl.h"
 #include "rasterizer/simd.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,7 +30,8 @@ template <pipeline::BlendRounding rounding>
 HWY_INLINE WordVec blended(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
     const Signed di;
     const auto sum = hn::ConvertTo(di, hn::Add(hn::Mul(s, s_factor), hn::Mul(d, d_factor)));
-    const auto biased = hn::Add(hn::Min(sum, hn::Set(di, 65025)), hn::Set(di, rounding == pipeline::BlendRounding::nearest ? 128 : 1));
+    const auto biased =
+        hn::Add(hn::Min(sum, hn::Set(di, 65025)), hn::Set(di, rounding == pipeline::BlendRounding::nearest ? 128 : 1));
     return hn::BitCast(Words{}, hn::ShiftRight<8>(hn::Add(biased, hn::ShiftRight<8>(biased))));
 }
 
@@ -83,7 +82,8 @@ class Columns {
 
     HWY_INLINE WordVec row(std::size_t k) const {
         WordVec place, key;
-        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.rows + k * block_lanes + lane_), place, key);
+        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.rows + k * block_lanes + lane_),
+                             place, key);
         return place;
     }
     HWY_INLINE WordVec far_places(std::uint32_t pass, WordMask has) const {
@@ -104,7 +104,7 @@ class Columns {
         const bool is_one = hn::AllTrue(d, hn::Eq(place, hn::Set(d, first)));
         Color color;
         for (std::size_t c = 0; c < 4; ++c) {
-            color.channel[c] = is_one ? hn::Set(df, block_.color[c][first])
+            color.channel[c] = is_one   ? hn::Set(df, block_.color[c][first])
                                : is_run ? hn::LoadU(df, block_.color[c] + first)
                                         : hn::GatherIndex(df, block_.color[c], hn::BitCast(Signed{}, place));
             color.channel[c] = hn::IfThenElseZero(hn::RebindMask(df, has), color.channel[c]);
@@ -118,8 +118,9 @@ class Columns {
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
         const WordMask others = hn::Ne(alive_, own);
         for (std::size_t c = 0; c < 4; ++c) {
-            const FloatVec under = c == 3 ? hn::Sub(one, hn::Mul(let_through, hn::Sub(one, alpha)))
-                                          : hn::Add(value_of(front[c]), hn::Mul(let_through, hn::Mul(alpha, color.channel[c])));
+            const FloatVec under =
+                c == 3 ? hn::Sub(one, hn::Mul(let_through, hn::Sub(one, alpha)))
+                       : hn::Add(value_of(front[c]), hn::Mul(let_through, hn::Mul(alpha, color.channel[c])));
             front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(under)));
         }
     }
@@ -153,22 +154,27 @@ class Columns {
 void both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-        if (rounding == nearest) Columns<nearest>{block, lane}.both_ends(front, back);
-        else Columns<truncate>{block, lane}.both_ends(front, back);
+        if (rounding == nearest)
+            Columns<nearest>{block, lane}.both_ends(front, back);
+        else
+            Columns<truncate>{block, lane}.both_ends(front, back);
 }
 
 void front_alone(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-        if (rounding == nearest) Columns<nearest>{block, lane}.front_alone(front);
-        else Columns<truncate>{block, lane}.front_alone(front);
+        if (rounding == nearest)
+            Columns<nearest>{block, lane}.front_alone(front);
+        else
+            Columns<truncate>{block, lane}.front_alone(front);
 }
 
 void codes(const std::uint32_t* words, BlockCodes& out) {
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const WordVec word = hn::LoadU(Words{}, words + lane);
         for (int c = 0; c < 4; ++c)
-            hn::StoreU(hn::And(hn::ShiftRightSame(word, 8 * c), hn::Set(Words{}, 0xffu)), Words{}, &out[static_cast<std::size_t>(c)][lane]);
+            hn::StoreU(hn::And(hn::ShiftRightSame(word, 8 * c), hn::Set(Words{}, 0xffu)), Words{},
+                       &out[static_cast<std::size_t>(c)][lane]);
     }
 }
 
@@ -200,21 +206,27 @@ HWY_EXPORT(last_quad);
 void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
     if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(both_ends)(block, front, back, rounding);
-    if (rounding == nearest) scalar::peel_both_ends<nearest>(block, front, back);
-    else scalar::peel_both_ends<truncate>(block, front, back);
+    if (rounding == nearest)
+        scalar::peel_both_ends<nearest>(block, front, back);
+    else
+        scalar::peel_both_ends<truncate>(block, front, back);
 }
 
 void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
     if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(front_alone)(block, front, rounding);
-    if (rounding == nearest) scalar::peel_front<nearest>(block, front);
-    else scalar::peel_front<truncate>(block, front);
+    if (rounding == nearest)
+        scalar::peel_front<nearest>(block, front);
+    else
+        scalar::peel_front<truncate>(block, front);
 }
 
 BlockCodes codes_of(const std::uint32_t* words) {
     BlockCodes result;
-    if (simd_is_scalar()) scalar::codes_of(words, result);
-    else HWY_DYNAMIC_DISPATCH(codes)(words, result);
+    if (simd_is_scalar())
+        scalar::codes_of(words, result);
+    else
+        HWY_DYNAMIC_DISPATCH(codes)(words, result);
     return result;
 }
 

@@ -19,7 +19,8 @@ namespace strata::peeling {
 // A query that every layer answers, passes that see one depth of a fragment, and nothing that wants the layers one by one.
 [[nodiscard]] inline bool peels_to_the_end(const pipeline::Frame& frame) {
     using pipeline::TerminationRule;
-    const bool exact = frame.termination.rule == TerminationRule::exact || frame.termination.rule == TerminationRule::any;
+    const bool exact =
+        frame.termination.rule == TerminationRule::exact || frame.termination.rule == TerminationRule::any;
     return frame.is_invariant() && frame.replay.bytes > 0 && exact && frame.max_passes == 0 && !frame.keep_layers;
 }
 

@@ -9,7 +9,8 @@ namespace {
 constexpr int later_passes = 4;  // passes 3 to 6
 
 StencilTest stencil_test(CompareFunc func, std::uint8_t ref, StencilOp fail, StencilOp depth_fail, StencilOp pass) {
-    return {.enabled = true, .front = {.func = func, .ref = ref, .fail = fail, .depth_fail = depth_fail, .pass = pass},
+    return {.enabled = true,
+            .front = {.func = func, .ref = ref, .fail = fail, .depth_fail = depth_fail, .pass = pass},
             .back = {}};
 }
 

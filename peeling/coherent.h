@@ -13,7 +13,10 @@ namespace strata::peeling {
 
 struct CoherentPeel {
     explicit CoherentPeel(pipeline::Region& r)
-        : region{r}, published{r.frame().formulation == pipeline::Formulation::published}, full_counts{r}, composited{r},
+        : region{r},
+          published{r.frame().formulation == pipeline::Formulation::published},
+          full_counts{r},
+          composited{r},
           ties{r} {
         region.clear(accumulated, {.color = {0, 0, 0, 1}});
         region.clear(reached, {.depth = 0.0f});  // as published: zNear, which strict comparisons lose (E23)
@@ -26,11 +29,11 @@ struct CoherentPeel {
     pipeline::Target accumulated = region.make_color();
     pipeline::Target stencil = region.make(pipeline::Format::s8);
     pipeline::Target nearest = region.make_depth(), previous = region.make_depth(), breaker = region.make_depth();
-    pipeline::Target reached = region.make_depth();  // D(sc): how far everything is composited
+    pipeline::Target reached = region.make_depth();        // D(sc): how far everything is composited
     pipeline::Target last_in_order = region.make_depth();  // pass 3's own depth
-    pipeline::Target shifted;                              // coherent_blend: rgb the depth before `nearest`, alpha itself
-    PixelSet full_counts;  // pass 3 counted to 128
-    PixelSet composited;   // in this iteration; kept as published alone
+    pipeline::Target shifted;  // coherent_blend: rgb the depth before `nearest`, alpha itself
+    PixelSet full_counts;      // pass 3 counted to 128
+    PixelSet composited;       // in this iteration; kept as published alone
     BoundTies ties;
 };
 

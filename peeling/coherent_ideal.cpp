@@ -61,7 +61,8 @@ class IdealPeel {
             for (std::size_t i = 0; i < lanes(in); ++i) {
                 const float opaque = as_float(own.depth(1)[i]), end = own.color(0)[z3][i];
                 out.color[0][z1][i] = out.color[0][z2][i] = opaque;
-                out.color[0][z3][i] = published_ ? end : opaque;  // not reset as published: finished pixels start again (E25)
+                out.color[0][z3][i] =
+                    published_ ? end : opaque;  // not reset as published: finished pixels start again (E25)
                 out.color[0][out_of_order][i] = 0.0f;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = end;
             }
@@ -98,8 +99,10 @@ class IdealPeel {
                 if (counts) arrive(r, z);
                 if (counts) ++out.tally;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = r[c];
-                if (!ends_run) leave_alone(out, i);
-                else if (out.alive[i] != 0) ties_.add(in.pixel[i]);
+                if (!ends_run)
+                    leave_alone(out, i);
+                else if (out.alive[i] != 0)
+                    ties_.add(in.pixel[i]);
             }
         });
     }

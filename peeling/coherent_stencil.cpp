@@ -27,20 +27,18 @@ Drawn find_nearest(CoherentPeel& peel) {
     peel.region.clear(peel.nearest, {.depth = 1.0f});
     peel.region.clear(peel.stencil, {.stencil = 0});
     const StencilFace face{.func = CompareFunc::always, .ref = 0, .pass = StencilOp::incr};
-    return peel.region.draw(find_in_what_is_left(peel, peel.nearest, face),
-                            [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-                                keep_what_is_left(peel, in, own, out);
-                            });
+    return peel.region.draw(
+        find_in_what_is_left(peel, peel.nearest, face),
+        [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); });
 }
 
 // Pass 2: the same updates again, counted down to 1: stops one before the nearest.
 void find_previous(CoherentPeel& peel) {
     peel.region.clear(peel.previous, {.depth = 1.0f});  // the stencil is not cleared (E26)
     const StencilFace face{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};
-    static_cast<void>(peel.region.draw(find_in_what_is_left(peel, peel.previous, face),
-                                       [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-                                           keep_what_is_left(peel, in, own, out);
-                                       }));
+    static_cast<void>(peel.region.draw(
+        find_in_what_is_left(peel, peel.previous, face),
+        [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); }));
 }
 
 }  // namespace

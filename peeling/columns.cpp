@@ -13,9 +13,10 @@ using namespace pipeline;
 namespace {
 
 constexpr std::size_t word_bytes = sizeof(std::uint64_t), color_bytes = 4 * sizeof(float);
-constexpr std::size_t cached_bytes = std::size_t{1} << 20;    // what a second-level cache holds of them beside the targets
+constexpr std::size_t cached_bytes = std::size_t{1}
+                                     << 20;  // what a second-level cache holds of them beside the targets
 constexpr std::uint32_t most_ranks = 0xffff;
-constexpr std::uint64_t most_places = 0xffffff00;  // a place has 32 bits
+constexpr std::uint64_t most_places = 0xffffff00;   // a place has 32 bits
 constexpr std::uint32_t first_place = block_lanes;  // what rows would write before it, and does not count
 static_assert(rasterizer::row_padding <= block_lanes);
 
@@ -34,10 +35,15 @@ struct Band {
 class RegionColumns {
   public:
     RegionColumns(Region& region, const std::function<void(const ColumnBlock&)>& visit)
-        : region_{region}, visit_{visit}, bytes_{region.frame().replay.bytes},
-          by_shader_z_{region.frame().key == DepthKey::shader_z}, rows_of_{region.row_source()} {
-        const std::size_t pixels = (blocks_of(region.rect().area()) + 1) * block_lanes;  // a row may end behind the last
-        for (auto* const counts : {&count_, &hidden_, &at_surface_}) *counts = region.arena().take<std::uint32_t>(pixels);
+        : region_{region},
+          visit_{visit},
+          bytes_{region.frame().replay.bytes},
+          by_shader_z_{region.frame().key == DepthKey::shader_z},
+          rows_of_{region.row_source()} {
+        const std::size_t pixels =
+            (blocks_of(region.rect().area()) + 1) * block_lanes;  // a row may end behind the last
+        for (auto* const counts : {&count_, &hidden_, &at_surface_})
+            *counts = region.arena().take<std::uint32_t>(pixels);
     }
 
     // First as if all fitted into a cache: one walk. What does not is counted, and walked band by band.
@@ -89,7 +95,8 @@ class RegionColumns {
             if (row.bytes() > bytes_ || row.ranks > most_ranks || row.places > most_places) return false;
             if (!bands.empty()) {
                 const Band& last = bands.back();
-                const Band both{{rect.x0, last.rect.y0, rect.x1, y + 1}, std::max(last.ranks, row.ranks), last.places + row.places};
+                const Band both{
+                    {rect.x0, last.rect.y0, rect.x1, y + 1}, std::max(last.ranks, row.ranks), last.places + row.places};
                 if (both.bytes() <= std::min<std::uint64_t>(bytes_, cached_bytes)) {
                     bands.back() = both;
                     continue;
@@ -125,11 +132,17 @@ class RegionColumns {
 
     [[nodiscard]] bool place(const Band& band) {
         for (const auto& counts : {count_, hidden_, at_surface_}) std::ranges::fill(counts, 0u);
-        arrivals_ = {.stride = band.stride(), .ranks = static_cast<std::uint32_t>(band.ranks), .places = first_place,
-                     .most_places = first_place + static_cast<std::uint32_t>(band.places), .word = word_, .count = count_.data(),
-                     .hidden = hidden_.data(), .at_surface = at_surface_.data(),
+        arrivals_ = {.stride = band.stride(),
+                     .ranks = static_cast<std::uint32_t>(band.ranks),
+                     .places = first_place,
+                     .most_places = first_place + static_cast<std::uint32_t>(band.places),
+                     .word = word_,
+                     .count = count_.data(),
+                     .hidden = hidden_.data(),
+                     .at_surface = at_surface_.data(),
                      .opaque = region_.storage(region_.opaque_depth()).depth(0) + first_of(band),
-                     .same_opaque = region_.opaque_depth_is_cleared(), .by_shader_z = by_shader_z_};
+                     .same_opaque = region_.opaque_depth_is_cleared(),
+                     .by_shader_z = by_shader_z_};
         for (std::size_t c = 0; c < 4; ++c) arrivals_.color[c] = color_[c];
         const bool fits = rows_of_ ? place_rows(band) : place_batches(band);
         fragments_.has_denormals |= arrivals_.has_denormals;
@@ -159,7 +172,8 @@ class RegionColumns {
     }
 
     [[nodiscard]] std::size_t first_of(const Band& band) const noexcept {
-        return static_cast<std::size_t>(band.rect.y0 - region_.rect().y0) * static_cast<std::size_t>(region_.rect().width());
+        return static_cast<std::size_t>(band.rect.y0 - region_.rect().y0) *
+               static_cast<std::size_t>(region_.rect().width());
     }
 
     void visit_blocks(const Band& band) {

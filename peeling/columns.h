@@ -19,15 +19,16 @@ inline constexpr std::size_t block_lanes = 16;
 using LaneWords = std::array<std::uint32_t, block_lanes>;
 
 struct ColumnBlock {
-    std::size_t first = 0;      // its first pixel in the region
-    int count = 0;              // its pixels; the columns behind the region's last pixel are empty
-    std::uint32_t depth = 0;    // rows: of the highest column
+    std::size_t first = 0;        // its first pixel in the region
+    int count = 0;                // its pixels; the columns behind the region's last pixel are empty
+    std::uint32_t depth = 0;      // rows: of the highest column
     std::uint32_t nearest = ~0u;  // the least key
-    LaneWords visible{};        // heights
-    LaneWords hidden{};         // fragments at the opaque surface or behind it
-    LaneWords at_surface{};     // of these, the ones exactly at it
-    LaneWords has_ties{};       // not 0: a depth stands twice in the column
-    const std::uint64_t* rows = nullptr;  // rows of sixteen: the key above, below it where the colour stands; ~0 above a column's end
+    LaneWords visible{};          // heights
+    LaneWords hidden{};           // fragments at the opaque surface or behind it
+    LaneWords at_surface{};       // of these, the ones exactly at it
+    LaneWords has_ties{};         // not 0: a depth stands twice in the column
+    const std::uint64_t* rows =
+        nullptr;  // rows of sixteen: the key above, below it where the colour stands; ~0 above a column's end
     std::array<const float*, 4> color{};
 
     [[nodiscard]] std::uint32_t key(std::size_t lane, std::size_t k) const noexcept {

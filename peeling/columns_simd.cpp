@@ -4,7 +4,6 @@
 #define HWY_TARGET_INCLUDE "peeling/columns_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "peeling/arrivals.h"
 #include "peeling/keys-inl.h"
 #include "rasterizer/simd.h"
@@ -33,7 +32,13 @@ template <bool by_shader_z>
 class Appending {
   public:
     HWY_INLINE Appending(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive)
-        : to_{to}, in_{in}, alive_{alive}, count_{to.count}, word_{to.word}, stride_{to.stride}, ranks_{to.ranks},
+        : to_{to},
+          in_{in},
+          alive_{alive},
+          count_{to.count},
+          word_{to.word},
+          stride_{to.stride},
+          ranks_{to.ranks},
           places_{to.places} {}
 
     HWY_INLINE bool run() {
@@ -132,7 +137,8 @@ bool append_batch(Arrivals& to, const pipeline::FragmentBatch& in, const std::ui
 
 HWY_INLINE WordVec places_at(const ColumnBlock& block, std::size_t row, std::size_t lane) {
     WordVec place, key;
-    hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block.rows + row * block_lanes + lane), place, key);
+    hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block.rows + row * block_lanes + lane), place,
+                         key);
     return place;
 }
 
@@ -178,7 +184,8 @@ struct VectorRows {
         const Words d;
         WordVec highest = hn::Zero(d), hidden = hn::Zero(d);
         for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
-            const WordVec height = hn::LoadU(d, from.count + pixel + lane), behind = hn::LoadU(d, from.hidden + pixel + lane);
+            const WordVec height = hn::LoadU(d, from.count + pixel + lane),
+                          behind = hn::LoadU(d, from.hidden + pixel + lane);
             hn::StoreU(height, d, &block.visible[lane]);
             hn::StoreU(behind, d, &block.hidden[lane]);
             hn::StoreU(hn::LoadU(d, from.at_surface + pixel + lane), d, &block.at_surface[lane]);
@@ -190,36 +197,43 @@ struct VectorRows {
     }
     static std::uint32_t nearest(const std::uint64_t* row) {
         auto least = hn::LoadU(Wide{}, row);
-        for (std::size_t lane = step; lane < block_lanes; lane += step) least = hn::Min(least, hn::LoadU(Wide{}, row + lane));
+        for (std::size_t lane = step; lane < block_lanes; lane += step)
+            least = hn::Min(least, hn::LoadU(Wide{}, row + lane));
         return static_cast<std::uint32_t>(hn::GetLane(hn::MinOfLanes(Wide{}, least)) >> 32);
     }
     static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) {
         for (std::size_t lane = 0; lane < block_lanes; lane += step) {
             const auto height = hn::PromoteTo(Wide{}, hn::LoadU(hn::Rebind<std::uint32_t, Wide>{}, &visible[lane]));
             const auto is_in = hn::Lt(hn::Set(Wide{}, k), height);
-            hn::StoreU(hn::IfThenElse(is_in, hn::LoadU(Wide{}, words + lane), hn::Set(Wide{}, ~std::uint64_t{0})), Wide{}, row + lane);
+            hn::StoreU(hn::IfThenElse(is_in, hn::LoadU(Wide{}, words + lane), hn::Set(Wide{}, ~std::uint64_t{0})),
+                       Wide{}, row + lane);
         }
     }
-    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth, std::uint64_t* rows) {
+    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
+                              std::uint64_t* rows) {
         const bool is_full = std::ranges::all_of(visible, [depth](std::uint32_t height) { return height == depth; });
         for (std::size_t k = 0; is_full && k < depth; ++k)
             for (std::size_t lane = 0; lane < block_lanes; lane += step)
-                hn::StoreU(hn::LoadU(Wide{}, from.word + (depth - 1 - k) * from.stride + pixel + lane), Wide{}, rows + k * block_lanes + lane);
+                hn::StoreU(hn::LoadU(Wide{}, from.word + (depth - 1 - k) * from.stride + pixel + lane), Wide{},
+                           rows + k * block_lanes + lane);
         if (!is_full) gather_from_end(from, pixel, visible, depth, rows);
     }
-    static void gather_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth, std::uint64_t* rows) {
+    static void gather_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
+                                std::uint64_t* rows) {
         using Index = hn::RebindToSigned<Wide>;
         const auto least = hn::Set(Index{}, static_cast<std::int64_t>(pixel)), none = hn::Set(Index{}, -1);
         const auto stride = hn::Set(Index{}, static_cast<std::int64_t>(from.stride));
         for (std::size_t lane = 0; lane < block_lanes; lane += step) {
             HWY_ALIGN std::int64_t last[step];
             for (std::size_t i = 0; i < step; ++i)
-                last[i] = (std::int64_t{visible[lane + i]} - 1) * static_cast<std::int64_t>(from.stride) + static_cast<std::int64_t>(pixel + lane + i);
+                last[i] = (std::int64_t{visible[lane + i]} - 1) * static_cast<std::int64_t>(from.stride) +
+                          static_cast<std::int64_t>(pixel + lane + i);
             auto index = hn::Load(Index{}, last);
             for (std::size_t k = 0; k < depth; ++k, index = hn::Sub(index, stride)) {
                 const auto is_in = hn::RebindMask(Wide{}, hn::Lt(none, hn::Sub(index, least)));
                 const auto word = hn::GatherIndex(Wide{}, from.word, hn::Max(index, least));
-                hn::StoreU(hn::IfThenElse(is_in, word, hn::Set(Wide{}, ~std::uint64_t{0})), Wide{}, rows + k * block_lanes + lane);
+                hn::StoreU(hn::IfThenElse(is_in, word, hn::Set(Wide{}, ~std::uint64_t{0})), Wide{},
+                           rows + k * block_lanes + lane);
             }
         }
     }
@@ -233,7 +247,8 @@ struct VectorRows {
                 tied = hn::Or(tied, hn::IfThenZeroElse(hn::Eq(word, none), hn::VecFromMask(Wide{}, same)));
                 before = word;
             }
-            hn::StoreU(hn::TruncateTo(hn::Rebind<std::uint32_t, Wide>{}, tied), hn::Rebind<std::uint32_t, Wide>{}, &has_ties[lane]);
+            hn::StoreU(hn::TruncateTo(hn::Rebind<std::uint32_t, Wide>{}, tied), hn::Rebind<std::uint32_t, Wide>{},
+                       &has_ties[lane]);
         }
     }
 };

@@ -102,7 +102,8 @@ class GroupPeel {
     void max_into(const ColorLanes& values, ColorCodes& blended) {
         for (std::size_t c = 0; c < 4; ++c) {
             encode(ChannelType::unorm8, region_.profile().half_rounding, values[c], codes_, static_cast<int>(n_));
-            for (std::size_t i = 0; i < n_; ++i) blended[c][i] = std::max(blended[c][i], codes_[i] & near_place_.is_near[i]);
+            for (std::size_t i = 0; i < n_; ++i)
+                blended[c][i] = std::max(blended[c][i], codes_[i] & near_place_.is_near[i]);
         }
     }
 
@@ -188,7 +189,8 @@ struct Course {
         peel_both_ends(block, front, back, region.profile().blend_rounding);
         if (block.has_any_tie()) {
             GroupPeel peel{region, block, pixels_of(block, true), opaque_codes};
-            while (peel.pass()) {}
+            while (peel.pass()) {
+            }
             peel.result(front, back);
         }
         composite_block(front, back, FrontAlpha::covers, result + block.first);
@@ -199,7 +201,8 @@ struct Course {
 
     // Lane by lane, so that no count waits for the one before it; row 0 is nobody's.
     void count_depths(const ColumnBlock& block) {
-        if (pixels_by_depths.size() <= (block.depth + 1) * block_lanes) pixels_by_depths.resize((block.depth + 1) * block_lanes);
+        if (pixels_by_depths.size() <= (block.depth + 1) * block_lanes)
+            pixels_by_depths.resize((block.depth + 1) * block_lanes);
         LaneWords depths = block.visible;
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
             if (block.has_ties[lane] != 0) depths[lane] = distinct(block, lane);
@@ -209,20 +212,26 @@ struct Course {
     // Pixels that have something left after `passes` peels.
     [[nodiscard]] std::uint64_t left(std::size_t passes) const {
         const std::size_t first = std::min((2 * passes + 1) * block_lanes, pixels_by_depths.size());
-        return std::accumulate(pixels_by_depths.begin() + static_cast<std::ptrdiff_t>(first), pixels_by_depths.end(), std::uint64_t{0});
+        return std::accumulate(pixels_by_depths.begin() + static_cast<std::ptrdiff_t>(first), pixels_by_depths.end(),
+                               std::uint64_t{0});
     }
 };
 
 // What the draws and the quad of `dual` count; its clears and copies are done, or counted here where they repeat.
 Counters of_initialize(const RegionFragments& fragments) {
     const std::uint64_t alive = fragments.rasterized - fragments.masked;
-    return {.fragments_rasterized = fragments.rasterized, .alpha_killed = fragments.masked, .blended = alive,
-            .bytes_read = 4 * fragments.rasterized + 8 * alive, .bytes_written = 8 * alive};
+    return {.fragments_rasterized = fragments.rasterized,
+            .alpha_killed = fragments.masked,
+            .blended = alive,
+            .bytes_read = 4 * fragments.rasterized + 8 * alive,
+            .bytes_written = 8 * alive};
 }
 Counters of_peel(const RegionFragments& fragments, std::uint64_t area) {
     const std::uint64_t alive = fragments.rasterized - fragments.masked;
     constexpr std::uint64_t min_max = 8, color = 4, depth = 4, targets = min_max + 2 * color;
-    return {.fragments_rasterized = fragments.rasterized, .alpha_killed = fragments.masked, .blended = alive,
+    return {.fragments_rasterized = fragments.rasterized,
+            .alpha_killed = fragments.masked,
+            .blended = alive,
             .bytes_read = (min_max + color + depth) * fragments.rasterized + targets * alive +
                           (color + 2 * min_max + color) * area,  // the quad's loads and its blending
             .bytes_written = targets * (area + alive) + color * area};

@@ -32,7 +32,8 @@ FragmentLists visible_fragments(Region& region, Bookkeeping bookkeeping) {
     for (std::size_t i = 0; i < captured.size(); ++i) {
         if (!visible[i]) continue;
         const CapturedFragment& f = captured[i];
-        lists.fragments[next[f.pixel]++] = {by_shader_z ? ordered_code(f.shader_z) : f.code, f.exact_code, f.primitive, f.color};
+        lists.fragments[next[f.pixel]++] = {by_shader_z ? ordered_code(f.shader_z) : f.code, f.exact_code, f.primitive,
+                                            f.color};
     }
     return lists;
 }

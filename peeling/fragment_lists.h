@@ -12,7 +12,7 @@ struct KeyedFragment {
     std::uint32_t key = 0;         // in the algorithm's key: a stored code, or ordered_code(shader_z)
     std::uint32_t exact_code = 0;  // by DepthPath::exact
     std::uint32_t primitive = 0;
-    pipeline::Rgba color{};        // straight
+    pipeline::Rgba color{};  // straight
     friend bool operator==(const KeyedFragment&, const KeyedFragment&) = default;
 };
 

@@ -20,13 +20,15 @@ namespace {
 
 // What the passes count, summed over pixels. Index i is pass i, from 1.
 struct PassTallies {
-    std::vector<std::uint64_t> first_passed, no_longer_passed;  // fragments that begin, and cease, to pass the depth test there
-    std::vector<std::uint64_t> discarded;                       // by pixels that have a layer i - 1
-    std::vector<std::uint64_t> exhausted;                       // discarded from there on by pixels that have none
+    std::vector<std::uint64_t> first_passed,
+        no_longer_passed;                  // fragments that begin, and cease, to pass the depth test there
+    std::vector<std::uint64_t> discarded;  // by pixels that have a layer i - 1
+    std::vector<std::uint64_t> exhausted;  // discarded from there on by pixels that have none
 
     void make_room(std::size_t passes) {
         if (exhausted.size() > passes) return;
-        for (auto* const tally : {&first_passed, &no_longer_passed, &discarded, &exhausted}) tally->resize(2 * passes + 1);
+        for (auto* const tally : {&first_passed, &no_longer_passed, &discarded, &exhausted})
+            tally->resize(2 * passes + 1);
     }
 };
 
@@ -61,14 +63,16 @@ class ColumnTallies {
             }
             tallies_.exhausted[n + 2] += n * columns_[n];
         }
-        for (std::size_t i = 0; i < thresholds_.size(); ++i) tallies_.first_passed[i / block_lanes + 1] += thresholds_[i];
+        for (std::size_t i = 0; i < thresholds_.size(); ++i)
+            tallies_.first_passed[i / block_lanes + 1] += thresholds_[i];
     }
 
   private:
     // Without branches, and lane by lane, so that no count waits for the one before it.
     void add_untied(const ColumnBlock& block) {
         LaneWords heights;
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) heights[lane] = block.has_ties[lane] != 0 ? 0 : block.visible[lane];
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            heights[lane] = block.has_ties[lane] != 0 ? 0 : block.visible[lane];
         for (std::uint32_t k = 0; k < block.depth; ++k)
             for (std::size_t lane = 0; lane < block_lanes; ++lane)
                 thresholds_[before_[k * block_lanes + lane] * block_lanes + lane] += k < heights[lane] ? 1 : 0;
@@ -96,10 +100,11 @@ class ColumnTallies {
     }
 
     PassTallies& tallies_;
-    std::vector<std::uint64_t> columns_;     // untied ones, by height
-    std::vector<std::uint64_t> thresholds_;  // of their fragments, rows of sixteen, by lane: how many begin to pass after so many depths
-    std::vector<std::uint32_t> before_;   // by place in the block
-    std::vector<std::uint32_t> rank_;     // by place in a column: its depth, from 1
+    std::vector<std::uint64_t> columns_;  // untied ones, by height
+    std::vector<std::uint64_t>
+        thresholds_;  // of their fragments, rows of sixteen, by lane: how many begin to pass after so many depths
+    std::vector<std::uint32_t> before_;  // by place in the block
+    std::vector<std::uint32_t> rank_;    // by place in a column: its depth, from 1
 };
 
 void trace_layer(Region& region, const ColumnBlock& block, std::size_t lane, std::uint32_t k) {
@@ -175,7 +180,9 @@ BlockCodes cleared(const Region& region) {
 class PassCounters {
   public:
     PassCounters(const Region& region, const RegionFragments& fragments, const PassTallies& tallies)
-        : tallies_{tallies}, fragments_{fragments}, area_{region.rect().area()},
+        : tallies_{tallies},
+          fragments_{fragments},
+          area_{region.rect().area()},
           color_{bytes_per_pixel(region.frame().color_format)},
           depth_{bytes_per_pixel(target_format(region.frame().key_request().format))} {}
 
@@ -186,8 +193,11 @@ class PassCounters {
         const std::uint64_t arriving = fragments_.rasterized - fragments_.masked - discarded;
         const std::uint64_t loads = pass > 1 ? depth_ * fragments_.rasterized : 0;
         const std::uint64_t clear_and_copy = (color_ + depth_) * area_, quad = (2 * color_ + 2 * depth_) * area_;
-        return {.fragments_rasterized = fragments_.rasterized, .discarded = discarded, .alpha_killed = fragments_.masked,
-                .depth_killed = arriving - passed_, .blended = passed_,
+        return {.fragments_rasterized = fragments_.rasterized,
+                .discarded = discarded,
+                .alpha_killed = fragments_.masked,
+                .depth_killed = arriving - passed_,
+                .blended = passed_,
                 .bytes_read = loads + depth_ * arriving + depth_ * area_ + quad,
                 .bytes_written = (color_ + depth_) * passed_ + clear_and_copy + color_ * area_};
     }
@@ -211,8 +221,11 @@ class PassCounters {
 class Rgba8Blocks {
   public:
     explicit Rgba8Blocks(Region& region)
-        : region_{region}, target_{region.make_color()}, background_{region.words(region.opaque_color())},
-          result_{region.words(target_)}, before_{cleared(region)} {
+        : region_{region},
+          target_{region.make_color()},
+          background_{region.words(region.opaque_color())},
+          result_{region.words(target_)},
+          before_{cleared(region)} {
         for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
             result_[pixel] = background_[pixel] | 0xff000000u;
     }
@@ -250,7 +263,8 @@ class Rgba8Blocks {
 // The same in every other format, by the passes' own functions.
 class OtherBlocks {
   public:
-    explicit OtherBlocks(Region& region) : region_{region}, accumulated_{region.make_color()}, before_{cleared(region)} {
+    explicit OtherBlocks(Region& region)
+        : region_{region}, accumulated_{region.make_color()}, before_{cleared(region)} {
         fill();
     }
 

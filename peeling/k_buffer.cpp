@@ -16,7 +16,7 @@ using namespace pipeline;
 
 namespace {
 
-constexpr std::size_t k = 4;  // entries: a colour target each, and one for their depths
+constexpr std::size_t k = 4;      // entries: a colour target each, and one for their depths
 constexpr float no_entry = 2.0f;  // behind every depth
 
 struct Entry {
@@ -36,7 +36,8 @@ class KBuffer {
         region_.begin_iteration();
         insert_all();
         for (std::size_t i = 0; i < k; ++i) composite_entry(i);
-        overflow_.report(region_, Fault::buffer_overflow, "a fragment came after more than 4 deeper ones: composited too late");
+        overflow_.report(region_, Fault::buffer_overflow,
+                         "a fragment came after more than 4 deeper ones: composited too late");
         publish_over_background(region_, accumulated_, region_.opaque_color());
     }
 
@@ -61,7 +62,8 @@ class KBuffer {
             entries[e].depth = own.color(1)[e][i];
             for (std::size_t c = 0; c < 4; ++c) entries[e].color[c] = own.color(2 + static_cast<int>(e))[c][i];
         }
-        Entry fragment{depth_as_float(in.code[i], format_), {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
+        Entry fragment{depth_as_float(in.code[i], format_),
+                       {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
         if (fragment.depth < pushed_out_[in.pixel[i]]) overflow_.add(in.pixel[i]);
         std::size_t place = k;
         for (; place > 0 && entries[place - 1].depth > fragment.depth; --place) entries[place] = entries[place - 1];
@@ -81,23 +83,23 @@ class KBuffer {
         out.color[0][3][i] = entry.color[3];
         if (entry.depth == no_entry) return;
         pushed_out_[pixel] = std::max(pushed_out_[pixel], entry.depth);
-        if (region_.frame().trace)
-            region_.trace({pixel, depth_as_code(entry.depth, format_), 0, Side::front, false});
+        if (region_.frame().trace) region_.trace({pixel, depth_as_code(entry.depth, format_), 0, Side::front, false});
     }
 
     void composite_entry(std::size_t e) {
         PassState state = composite_state(accumulated_);
         state.reads = {depths_, colors_[e]};
-        static_cast<void>(region_.full_screen(state, [this, e](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            premultiply(own.color(1), out.color[0], lanes(in));
-            out.traced = true;
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                const float depth = own.color(0)[e][i];
-                out.alive[i] &= mask(depth != no_entry);
-                out.side[i] = Side::front;
-                out.key[i] = depth_as_code(depth, format_);
-            }
-        }));
+        static_cast<void>(
+            region_.full_screen(state, [this, e](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                premultiply(own.color(1), out.color[0], lanes(in));
+                out.traced = true;
+                for (std::size_t i = 0; i < lanes(in); ++i) {
+                    const float depth = own.color(0)[e][i];
+                    out.alive[i] &= mask(depth != no_entry);
+                    out.side[i] = Side::front;
+                    out.key[i] = depth_as_code(depth, format_);
+                }
+            }));
     }
 
     Region& region_;

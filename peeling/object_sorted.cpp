@@ -42,8 +42,8 @@ void composite(Region& region, const PrimitiveRange& object, Target accumulated)
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
     state.depth_target = region.opaque_depth();
     state.primitives = {&object, 1};
-    static_cast<void>(region.draw(
-        state, [](const FragmentBatch& in, const Loads&, Outputs& out) { composite_under(in, out); }));
+    static_cast<void>(
+        region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { composite_under(in, out); }));
 }
 
 // The first object that nothing occludes; the first of all, if each is occluded: a cycle.
@@ -53,7 +53,8 @@ std::size_t front_object(Region& region, const Objects& remaining, Target neares
         if (region.limit_reached(2)) return 0;
         if (!is_occluded(region, remaining, i, nearest)) return i;
     }
-    merge(region.diagnostics(), {Fault::out_of_order, 0, -1, -1, "no object lies in front of all others: the first is taken"});
+    merge(region.diagnostics(),
+          {Fault::out_of_order, 0, -1, -1, "no object lies in front of all others: the first is taken"});
     return 0;
 }
 

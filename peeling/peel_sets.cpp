@@ -18,7 +18,9 @@ std::span<const PrimitiveRange> as_span(const std::optional<PrimitiveRange>& ran
 class Peel {
   public:
     Peel(Region& region, const PeelSets& sets)
-        : region_{region}, sets_{sets}, ties_{region},
+        : region_{region},
+          sets_{sets},
+          ties_{region},
           published_{region.frame().formulation == Formulation::published} {
         region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
         region_.clear(peeled_, {.depth = 0.0f});  // as published: zNear, which strict comparisons lose (E23)
@@ -65,8 +67,10 @@ class Peel {
         state.primitives = as_span(sets_.ordered);
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             if (!from_the_start_) keep_behind(in, own.depth(0), out);
-            if (published_) keep_before(in, own.depth(1), out);  // loses what is at the layer's depth (E24)
-            else keep_up_to(in, own.depth(1), out);
+            if (published_)
+                keep_before(in, own.depth(1), out);  // loses what is at the layer's depth (E24)
+            else
+                keep_up_to(in, own.depth(1), out);
             keep_before(in, own.depth(2), out);
             composite_under(in, out);
         }));
@@ -80,7 +84,8 @@ class Peel {
         ties_.start();
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             keep_at(in, own.depth(0), out);
-            if (!published_) keep_before(in, own.depth(1), out);  // a finished pixel's layer is the opaque surface (E24)
+            if (!published_)
+                keep_before(in, own.depth(1), out);  // a finished pixel's layer is the opaque surface (E24)
             composite_under(in, out);
             ties_.add(in, out);
         }));

@@ -24,9 +24,9 @@ bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
 
 PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
     static_cast<void>(transparent(ListOrder::given));
-    const bool has_opaque = !s_.options.alpha && std::any_of(s_.list.materials.begin(), s_.list.materials.end(), [](const Material& m) {
-        return m.alpha_mode != AlphaMode::blend;
-    });
+    const bool has_opaque =
+        !s_.options.alpha && std::any_of(s_.list.materials.begin(), s_.list.materials.end(),
+                                         [](const Material& m) { return m.alpha_mode != AlphaMode::blend; });
     if (has_opaque) opaque_ = prepare(s_.list, s_.view, s_.raster, prepare_options(Selection::opaque));
     prepare_second();
 }
@@ -44,7 +44,8 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
 void PreparedLists::bin(int tile_size_px) {
     const Stopwatch watch{seconds_};
     const auto bin_one = [&](std::optional<PreparedDraw>& list) {
-        if (list && list->geometry.tile_size != tile_size_px) bin_triangles(list->geometry, tile_size_px, s_.options.threads);
+        if (list && list->geometry.tile_size != tile_size_px)
+            bin_triangles(list->geometry, tile_size_px, s_.options.threads);
     };
     std::ranges::for_each(transparent_, bin_one);
     bin_one(opaque_);
@@ -116,7 +117,9 @@ Ordering PreparedLists::ordering(ListOrder order) const {
             if (sort.rule == SortRule::none) return {};
             return [&sort](const auto& soup) { return SubmissionOrder{submission_order(soup, sort), {}}; };
         case ListOrder::back_to_front:
-            return [](const auto& soup) { return SubmissionOrder{submission_order(soup, {.rule = SortRule::reverse}), {}}; };
+            return [](const auto& soup) {
+                return SubmissionOrder{submission_order(soup, {.rule = SortRule::reverse}), {}};
+            };
         case ListOrder::sets:
         case ListOrder::objects: break;
     }

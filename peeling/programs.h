@@ -23,7 +23,9 @@ inline namespace strict {
 }
 
 // What is in front, over what it lets through of what is behind; premultiplied.
-[[nodiscard]] inline float composited(float front, float let_through, float behind) noexcept { return front + let_through * behind; }
+[[nodiscard]] inline float composited(float front, float let_through, float behind) noexcept {
+    return front + let_through * behind;
+}
 
 // out = (c a, a): what UNDER and additive blending expect.
 void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept;
@@ -68,7 +70,8 @@ inline void discard_peeled(const pipeline::Lanes<std::uint32_t>& code, const pip
 }  // namespace scalar
 
 // Publishes accumulated.rgb + accumulated.a * background, alpha 1: the end of every front-to-back composite.
-inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated, pipeline::Target background) {
+inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated,
+                                    pipeline::Target background) {
     using namespace pipeline;
     const Target result = region.make_color();
     PassState state;

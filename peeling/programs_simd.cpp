@@ -4,7 +4,6 @@
 #define HWY_TARGET_INCLUDE "peeling/programs_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "peeling/average.h"
 #include "peeling/min_max.h"
 #include "peeling/programs.h"
@@ -28,7 +27,8 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
     scalar::set(lanes, value, padded(count));
 }
 
-[[gnu::flatten]] void discard_lanes(const MaskLanes& code, const MaskLanes& peeled, MaskLanes& alive, std::size_t count) {
+[[gnu::flatten]] void discard_lanes(const MaskLanes& code, const MaskLanes& peeled, MaskLanes& alive,
+                                    std::size_t count) {
     scalar::discard_peeled(code, peeled, alive, padded(count));
 }
 
@@ -46,8 +46,8 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
     scalar::write_layers(color, front, place, next_front, back, padded(count));
 }
 
-[[gnu::flatten]] void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background, ColorLanes& out,
-                                    std::size_t count) {
+[[gnu::flatten]] void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background,
+                                    ColorLanes& out, std::size_t count) {
     scalar::resolve_average(sums, n, background, out, padded(count));
 }
 

@@ -19,7 +19,8 @@ namespace {
 void check_options(const RenderOptions& o) {
     const auto in_range = [](const char* option, int value, int low, int high) {
         if (value < low || value > high)
-            throw InputError("strata", option, std::to_string(low) + " to " + std::to_string(high), std::to_string(value));
+            throw InputError("strata", option, std::to_string(low) + " to " + std::to_string(high),
+                             std::to_string(value));
     };
     in_range("--size: width", o.width, 1, 16384);
     in_range("--size: height", o.height, 1, 16384);
@@ -30,18 +31,21 @@ void check_options(const RenderOptions& o) {
     in_range("the window's origin: y", o.window_origin[1], 0, 32768 - o.height);
     in_range("--compare-epsilon: units in the last place", o.compare_epsilon.ulps, 0, 1 << 24);
     if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
-        throw InputError("strata", "--compare-epsilon", "a number from 0 to 1", std::to_string(o.compare_epsilon.absolute));
+        throw InputError("strata", "--compare-epsilon", "a number from 0 to 1",
+                         std::to_string(o.compare_epsilon.absolute));
     in_range("--max-passes", o.max_passes, 0, 1000000);
     if (o.termination.rule == TerminationRule::fixed) in_range("--termination fixed", o.termination.passes, 1, 1000000);
     if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
-        throw InputError("strata", "--termination ratio", "a number of at least 0", std::to_string(o.termination.ratio));
+        throw InputError("strata", "--termination ratio", "a number of at least 0",
+                         std::to_string(o.termination.ratio));
 }
 
 // window_z is the chip's rule for vertex depths in buffer units and fixed-point codes.
 Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
     using rasterizer::DepthPath;
     if (auto lacking = check(profile, depth.format)) return lacking;
-    if (depth.format == DepthFormat::d16f) return Refusal{"peeling over 16-bit float depth", "", "use --depth d16 or d24"};
+    if (depth.format == DepthFormat::d16f)
+        return Refusal{"peeling over 16-bit float depth", "", "use --depth d16 or d24"};
     const bool has_chip_rule =
         profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
     const bool uses_chip_rule = depth.path == DepthPath::window_z || depth.reference == DepthPath::window_z;
@@ -75,7 +79,8 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
     const bool merges = algorithm.ties == TiePolicy::merged, drops = algorithm.ties == TiePolicy::unique;
     if (audit.lost_by_ties > 0 && (merges || drops))
         note(Fault::merged_ties, audit.ties,
-             std::to_string(audit.lost_by_ties) + (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
+             std::to_string(audit.lost_by_ties) +
+                 (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
     const bool orders = algorithm.exact || algorithm.order == ListOrder::objects;
     if (!orders || audit.order_errors.value_or(0) == 0) return;
     const bool limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed ||
@@ -109,7 +114,7 @@ struct Renderer::State {
     std::unique_ptr<const LightMap> light{};
     PreparedLists lists;
     std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
-    std::optional<int> deepest{};  // fragments of the deepest pixel, once somebody asked
+    std::optional<int> deepest{};                   // fragments of the deepest pixel, once somebody asked
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
         return algorithm.whole_frame ? Execution::literal : options.execution;
@@ -156,8 +161,9 @@ struct Renderer::State {
     void note_endless(const Frame& f, FrameResult& result) const {
         if (options.max_passes > 0 || f.max_passes == 0 || result.passes.geometry < f.max_passes) return;
         const std::string why =
-            !f.quantize_reference ? "the compared depth is not rounded like the stored one, so a fragment lies behind itself"
-                                  : "some fragments' compared depth lies behind the depth that they stored themselves";
+            !f.quantize_reference
+                ? "the compared depth is not rounded like the stored one, so a fragment lies behind itself"
+                : "some fragments' compared depth lies behind the depth that they stored themselves";
         merge(result.diagnostics, {Fault::endless, 0, -1, -1,
                                    "stopped after " + std::to_string(f.max_passes) +
                                        " geometry passes, twice what the deepest pixel needs: " + why});
@@ -204,7 +210,8 @@ struct Renderer::State {
         if (options.raster.depth_clamp)
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
-            return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "", "use depth_units or front_to_back"};
+            return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "",
+                           "use depth_units or front_to_back"};
         if (algorithm.compares_own_codes && !is_invariant())
             return Refusal{"choice of the depth that " + algorithm.name + " compares", "",
                            "use depth_units, front_to_back, dual or dual_independent"};
@@ -225,18 +232,20 @@ struct Renderer::State {
                         std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
                             std::to_string(counters.first_non_finite)});
         if (algorithm.run == find_algorithm("depth_units")->run)
-            merge(all, {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
+            merge(all,
+                  {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
         const auto needs = [&](Feature f) {
             return std::find(algorithm.features.begin(), algorithm.features.end(), f) != algorithm.features.end();
         };
         if (needs(Feature::ordered_rmw))
             merge(all, {Fault::emulator_extension, 0, -1, -1,
                         "STRATA_ordered_rmw: no device's programs read what they write, in order"});
-        const bool compares_in_program =
-            algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) && depth.format != DepthFormat::d32f;
+        const bool compares_in_program = algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) &&
+                                         depth.format != DepthFormat::d32f;
         const bool quantises = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         if (compares_in_program && (quantises || algorithm.compares_own_codes))
-            merge(all, {Fault::depth_quantized, 0, -1, -1, "the program converts its z like a depth write before it compares"});
+            merge(all, {Fault::depth_quantized, 0, -1, -1,
+                        "the program converts its z like a depth write before it compares"});
     }
 };
 
@@ -253,14 +262,19 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     raster.viewport = {0, 0, options.width, options.height};
     raster.depth_format = depth.format;
     auto light = light_of(list, profile, raster, options.threads);
-    state_ = std::unique_ptr<State>(new State{
-        .profile = profile,
-        .options = options,
-        .depth = depth,
-        .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
-        .light = nullptr,
-        .lists = PreparedLists{{.list = list, .view = first, .profile = profile, .options = options, .raster = raster,
-                                .depth = depth, .light = light.get()}}});
+    state_ = std::unique_ptr<State>(
+        new State{.profile = profile,
+                  .options = options,
+                  .depth = depth,
+                  .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
+                  .light = nullptr,
+                  .lists = PreparedLists{{.list = list,
+                                          .view = first,
+                                          .profile = profile,
+                                          .options = options,
+                                          .raster = raster,
+                                          .depth = depth,
+                                          .light = light.get()}}});
     state_->light = std::move(light);
 }
 
@@ -273,7 +287,8 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
         try {
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
-            result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
+            result.frame =
+                run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
             if (!algorithm.compares_own_codes) state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
@@ -328,7 +343,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }
-const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept { 
+const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept {
     return state_->lists.transparent(ListOrder::given).geometry.counters;
 }
 

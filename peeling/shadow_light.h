@@ -18,6 +18,7 @@ struct LightMap {
 
 // `eye` lends its conventions: clip depth, y direction, depth range.
 [[nodiscard]] LightMap light_map(const pipeline::DrawList& list, const pipeline::DeviceProfile& profile,
-                                 const rasterizer::RasterState& eye, const rasterizer::DepthRequest& depth, int threads);
+                                 const rasterizer::RasterState& eye, const rasterizer::DepthRequest& depth,
+                                 int threads);
 
 }  // namespace strata::peeling

@@ -26,11 +26,13 @@ Keys centroid_keys(const TriangleSoup& soup) {
 }
 
 void sort_exactly(Numbers& numbers, const Keys& keys) {
-    std::stable_sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
 }
 
 void sort_reversed(Numbers& numbers, const Keys& keys) {
-    std::stable_sort(numbers.begin(), numbers.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
 }
 
 void sort_into_buckets(Numbers& numbers, const Keys& keys, int buckets) {

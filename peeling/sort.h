@@ -18,9 +18,9 @@ enum class SortRule : std::uint8_t { none, exact, bucket, reverse, shuffle };
 
 struct Sort {
     SortRule rule = SortRule::none;
-    int buckets = 256;      // bucket: at least 1
-    double fraction = 0;    // shuffle: 0 to 1, of the triangles
-    std::uint64_t seed = 0; // shuffle
+    int buckets = 256;       // bucket: at least 1
+    double fraction = 0;     // shuffle: 0 to 1, of the triangles
+    std::uint64_t seed = 0;  // shuffle
     friend bool operator==(const Sort&, const Sort&) = default;
 };
 

@@ -30,12 +30,16 @@ Capture capture(Region& region, Target stencil, int pass) {
                        region.make(target_format(region.frame().key_request().format), k)};
     region.clear(into.depth, {.depth = 1.0f});  // a sample that stays empty: nothing visible lies there
     for (int s = 0; s < k; ++s)
-        region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + k * pass)}, static_cast<std::uint8_t>(1u << s));
+        region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + k * pass)},
+                     static_cast<std::uint8_t>(1u << s));
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::always, .write = true};
     state.depth_target = into.depth;
     state.stencil = {.enabled = true,
-                     .front = {.func = CompareFunc::equal, .ref = 2, .fail = StencilOp::decr, .depth_fail = StencilOp::decr,
+                     .front = {.func = CompareFunc::equal,
+                               .ref = 2,
+                               .fail = StencilOp::decr,
+                               .depth_fail = StencilOp::decr,
                                .pass = StencilOp::decr},
                      .back = {}};
     state.stencil_target = stencil;
@@ -108,7 +112,8 @@ void report_overflow(Region& region, Target stencil) {
     const std::uint32_t* const last = region.storage(stencil).stencil(k - 1);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
         if (last[pixel] == 0) lost.add(pixel);
-    lost.report(region, Fault::buffer_overflow, "more fragments than the passes have captured: the later ones are lost");
+    lost.report(region, Fault::buffer_overflow,
+                "more fragments than the passes have captured: the later ones are lost");
 }
 
 }  // namespace

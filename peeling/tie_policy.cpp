@@ -44,9 +44,7 @@ std::vector<KeyedFragment> in_policy_order(std::span<const KeyedFragment> fragme
             for_each_group(sorted, [](auto begin, auto end, std::size_t) { std::reverse(begin, end); });
             break;
         case TiePolicy::unique:
-        case TiePolicy::merged:
-            sorted.erase(std::unique(sorted.begin(), sorted.end(), same_key), sorted.end());
-            break;
+        case TiePolicy::merged: sorted.erase(std::unique(sorted.begin(), sorted.end(), same_key), sorted.end()); break;
         case TiePolicy::first_then_last: {
             // Every peel takes one key from each end; a single key in the middle counts as near.
             const std::size_t groups = for_each_group(sorted, [](auto, auto, std::size_t) {});

@@ -15,7 +15,8 @@ class Arena {
   public:
     // Uninitialised; for plain values only. Lives until reset.
     template <class T>
-    requires std::is_trivially_copyable_v<T> [[nodiscard]] std::span<T> take(std::size_t count) {
+    requires std::is_trivially_copyable_v<T>
+    [[nodiscard]] std::span<T> take(std::size_t count) {
         const std::size_t bytes = (count * sizeof(T) + alignment - 1) / alignment * alignment;
         if (blocks_.empty() || used_ + bytes > blocks_.back().size) grow(bytes);
         T* const begin = reinterpret_cast<T*>(blocks_.back().begin() + used_);

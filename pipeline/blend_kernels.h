@@ -97,7 +97,8 @@ void fill_factor(BlendFactor f, const BlendOperands& in, ValueLanes& out, std::s
 
 // Any term: factors first, then the equation. Rare and long: one copy for all instruction sets.
 template <class Arithmetic>
-[[gnu::noinline]] void blend_general(const BlendTerm& term, const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
+[[gnu::noinline]] void blend_general(const BlendTerm& term, const BlendOperands& in, ValueLanes& out,
+                                     std::size_t count) noexcept {
     alignas(64) ValueLanes src, dst;
     fill_factor<Arithmetic>(term.src, in, src, count);
     fill_factor<Arithmetic>(term.dst, in, dst, count);

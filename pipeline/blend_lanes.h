@@ -41,7 +41,8 @@ struct PlainHalves {
 };
 
 template <class Halves>
-void store(ChannelType type, HalfRounding rounding, const float* values, std::uint32_t* codes, std::size_t count) noexcept {
+void store(ChannelType type, HalfRounding rounding, const float* values, std::uint32_t* codes,
+           std::size_t count) noexcept {
     if (type == ChannelType::half && rounding == HalfRounding::nearest_even)
         return Halves::encode_nearest(values, codes, count);
     encode(type, rounding, values, codes, count);
@@ -105,8 +106,9 @@ void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexce
     }
     if (job.channels < 4) d[3].fill(1.0f);
     blend_channels<FloatArithmetic<denormals, nan_rule>>(
-        job, constant, s, d,
-        [&](std::size_t c, const Lanes<float>& out) { store<Halves>(type, rounding, out.data(), job.codes[c].data(), job.count); });
+        job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
+            store<Halves>(type, rounding, out.data(), job.codes[c].data(), job.count);
+        });
 }
 
 template <class Halves>

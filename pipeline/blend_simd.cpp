@@ -5,7 +5,6 @@
 #define HWY_TARGET_INCLUDE "pipeline/blend_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "pipeline/blend_lanes.h"
 #include "rasterizer/simd.h"
 

@@ -40,10 +40,13 @@ struct Unorm8Arithmetic {
         return std::bit_cast<float>(std::max(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
     }
 
-    [[nodiscard]] static constexpr float signed_value(float code) noexcept { return code < 128.0f ? code : code - 256.0f; }
+    [[nodiscard]] static constexpr float signed_value(float code) noexcept {
+        return code < 128.0f ? code : code - 256.0f;
+    }
     [[nodiscard]] static constexpr float clamped(float v) noexcept { return v < 0.0f ? 0.0f : v > 255.0f ? 255.0f : v; }
 
-    template <BlendEquation equation, bool keeps_s = false, bool keeps_d = false>  // as in blend_float.h; a product here
+    template <BlendEquation equation, bool keeps_s = false,
+              bool keeps_d = false>  // as in blend_float.h; a product here
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
         if constexpr (equation == BlendEquation::min) return lesser(s, d);
         if constexpr (equation == BlendEquation::max) return greater(s, d);

@@ -23,7 +23,8 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
             "a depth test needs a depth target");
     require(!state.stencil.enabled || (state.stencil_target.exists() && has_stencil(format(state.stencil_target))),
             "a stencil test needs a stencil target");
-    for (const Target t : state.color) require(!t.exists() || is_color(format(t)), "a colour output needs a colour target");
+    for (const Target t : state.color)
+        require(!t.exists() || is_color(format(t)), "a colour output needs a colour target");
     int samples = 0;
     const auto agrees = [&](Target t) {
         const int own = targets.at(static_cast<std::size_t>(t.id)).samples();

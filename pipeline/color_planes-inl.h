@@ -4,7 +4,6 @@
 // Rule     The colours of FragmentValues::fill with ColorInterpolation::exact_plane.
 // Tests    tests/peeling/execution_test.cpp: against literal execution
 #include "hwy/highway.h"
-
 #include "rasterizer/row_walk-inl.h"
 
 #if defined(STRATA_PIPELINE_COLOR_PLANES_INL_H) == defined(HWY_TARGET_TOGGLE)
@@ -18,19 +17,20 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 namespace raster = rasterizer::HWY_NAMESPACE;
-using rasterizer::DrawnTriangle;
-using rasterizer::FilterPlane;
-using rasterizer::RationalPlane;
 using raster::F32;
 using raster::F64;
 using raster::U32;
 using raster::V32;
+using rasterizer::DrawnTriangle;
+using rasterizer::FilterPlane;
+using rasterizer::RationalPlane;
 
 // The colour of a triangle: planes before the division by the one of 1 / w, that of a grey once, and constants. Loops over four
 // channels without branches, so that they become vectors: most triangles have few rows to share what is found here.
 class ColorPlanes {
   public:
-    HWY_INLINE explicit ColorPlanes(const DrawnTriangle& triangle) : geometry_{triangle.geometry}, index_{triangle.index} {
+    HWY_INLINE explicit ColorPlanes(const DrawnTriangle& triangle)
+        : geometry_{triangle.geometry}, index_{triangle.index} {
         for (std::size_t i = 0; i < 3; ++i) {
             const rasterizer::ClipVertex& v = geometry_.vertices[triangle.record.vertex[i]];
             value_[i] = triangle.record.front_facing ? v.front : v.back;
@@ -41,8 +41,7 @@ class ColorPlanes {
             varies_[c] = (bits(0, c) ^ bits(1, c)) | (bits(0, c) ^ bits(2, c));
             varying |= varies_[c];
         }
-        for (const Channels& v : value_)
-            colorful |= (bits_of(v[0]) ^ bits_of(v[1])) | (bits_of(v[0]) ^ bits_of(v[2]));
+        for (const Channels& v : value_) colorful |= (bits_of(v[0]) ^ bits_of(v[1])) | (bits_of(v[0]) ^ bits_of(v[2]));
         is_flat_ = varying == 0;
         is_grey_ = colorful == 0;
         has_w_ = !is_flat_ && !(w_[0] == 1.0f && w_[1] == 1.0f && w_[2] == 1.0f);

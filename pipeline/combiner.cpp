@@ -50,9 +50,7 @@ constexpr std::int32_t one = 255, half = 128;
 }
 
 [[nodiscard]] constexpr bool holds_value(Reg r) noexcept { return static_cast<std::size_t>(r) < combiner_registers; }
-[[nodiscard]] constexpr bool is_written(Reg r) noexcept {
-    return r >= Reg::primary_color && r <= Reg::spare1;
-}
+[[nodiscard]] constexpr bool is_written(Reg r) noexcept { return r >= Reg::primary_color && r <= Reg::spare1; }
 
 void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string{"combiner state: "} + what);
@@ -61,7 +59,8 @@ void require(bool holds, const char* what) {
 void check(const CombinerPortion& p, bool is_alpha) {
     for (const Input& input : {p.a, p.b, p.c, p.d})
         require(holds_value(input.source), "an input of a general stage names no register that it has");
-    for (const Reg r : {p.ab, p.cd, p.sum}) require(r == Reg::discard || is_written(r), "an output names no writable register");
+    for (const Reg r : {p.ab, p.cd, p.sum})
+        require(r == Reg::discard || is_written(r), "an output names no writable register");
     const bool dots = p.ab_product == CombinerProduct::dot || p.cd_product == CombinerProduct::dot;
     require(!(dots && is_alpha), "alpha portions have no dot product");
     require(!(dots && p.sum != Reg::discard), "a stage with a dot product has no sum");
@@ -129,7 +128,7 @@ void CombinerUnit::run_portion(const CombinerPortion& p, bool is_alpha, std::siz
     for (std::size_t ch = first; ch < end; ++ch)
         for (std::size_t i = 0; i < count; ++i) {
             const std::int32_t ab = product(a, b, p.ab_product, ch, i), cd = product(c, d, p.cd_product, ch, i);
-            const std::int32_t sum = p.sum_rule == CombinerSum::add                      ? ab + cd
+            const std::int32_t sum = p.sum_rule == CombinerSum::add                ? ab + cd
                                      : takes_cd(p.sum_rule, at(Reg::spare0)[3][i]) ? cd
                                                                                    : ab;
             result_[0][ch][i] = scaled(p, rounded(ab));
@@ -162,9 +161,10 @@ void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
     const Operand g{value_of(f.g.source), f.g, f.g.component == CombinerComponent::own ? std::size_t{3} : 0};
     for (std::size_t ch = 0; ch < 3; ++ch)
         for (std::size_t i = 0; i < count; ++i) {
-            const std::int32_t spare0 = std::max(at(Reg::spare0)[ch][i], 0), secondary = at(Reg::secondary_color)[ch][i];
-            const std::int32_t sum = (f.inverts_spare0 ? one - spare0 : spare0) +
-                                     (f.inverts_secondary_color ? one - secondary : secondary);
+            const std::int32_t spare0 = std::max(at(Reg::spare0)[ch][i], 0),
+                               secondary = at(Reg::secondary_color)[ch][i];
+            const std::int32_t sum =
+                (f.inverts_spare0 ? one - spare0 : spare0) + (f.inverts_secondary_color ? one - secondary : secondary);
             sum_[ch][i] = f.clamps_color_sum ? std::min(sum, one) : sum;
             product_[ch][i] = rounded(e.at(ch, i) * second.at(ch, i));
         }

@@ -18,9 +18,19 @@
 namespace strata::pipeline {
 
 enum class CombinerRegister : std::uint8_t {
-    zero, constant_color0, constant_color1, primary_color, secondary_color,
-    texture0, texture1, texture2, texture3, spare0, spare1,
-    spare0_plus_secondary_color, e_times_f,  // of the final stage, inputs A to D alone
+    zero,
+    constant_color0,
+    constant_color1,
+    primary_color,
+    secondary_color,
+    texture0,
+    texture1,
+    texture2,
+    texture3,
+    spare0,
+    spare1,
+    spare0_plus_secondary_color,
+    e_times_f,  // of the final stage, inputs A to D alone
     discard
 };
 inline constexpr std::size_t combiner_registers = 11;  // those that hold a value
@@ -30,7 +40,7 @@ enum class CombinerMapping : std::uint8_t {
     unsigned_invert,    // 1 - clamp(e, 0, 1)
     expand_normal,      // 2 max(0, e) - 1
     expand_negate,
-    half_bias_normal,   // max(0, e) - 128/255
+    half_bias_normal,  // max(0, e) - 128/255
     half_bias_negate,
     signed_identity,
     signed_negate
@@ -89,8 +99,8 @@ struct Combiners {
 // What the combiners start from: colours in [0,1], rounded to 8 bits on the way in.
 struct CombinerSources {
     const ColorLanes* primary = nullptr;
-    const ColorLanes* secondary = nullptr;                   // null: 0
-    std::array<const ColorLanes*, 4> texture{};              // null: 0
+    const ColorLanes* secondary = nullptr;       // null: 0
+    std::array<const ColorLanes*, 4> texture{};  // null: 0
 };
 
 class CombinerUnit {

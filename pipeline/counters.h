@@ -8,11 +8,11 @@ namespace strata::pipeline {
 // (loads of programs, tests, blending, clears, copies; full-screen passes included).
 struct Counters {
     std::uint64_t fragments_rasterized = 0;
-    std::uint64_t discarded = 0;       // by a fragment program
-    std::uint64_t alpha_killed = 0;    // alpha test, a material's MASK cutoff included
+    std::uint64_t discarded = 0;     // by a fragment program
+    std::uint64_t alpha_killed = 0;  // alpha test, a material's MASK cutoff included
     std::uint64_t stencil_killed = 0;
     std::uint64_t depth_killed = 0;
-    std::uint64_t blended = 0;         // reached the render targets
+    std::uint64_t blended = 0;  // reached the render targets
     std::uint64_t bytes_read = 0, bytes_written = 0;
     friend bool operator==(const Counters&, const Counters&) = default;
 

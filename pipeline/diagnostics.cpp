@@ -6,9 +6,8 @@
 namespace strata::pipeline {
 
 void merge(std::vector<Diagnostic>& all, const Diagnostic& one) {
-    const auto same = std::find_if(all.begin(), all.end(), [&](const Diagnostic& d) {
-        return d.fault == one.fault && d.detail == one.detail;
-    });
+    const auto same = std::find_if(all.begin(), all.end(),
+                                   [&](const Diagnostic& d) { return d.fault == one.fault && d.detail == one.detail; });
     if (same == all.end()) {
         const auto later = std::find_if(all.begin(), all.end(), [&](const Diagnostic& d) {
             return std::tie(d.fault, d.detail) > std::tie(one.fault, one.detail);

@@ -8,20 +8,20 @@
 namespace strata::pipeline {
 
 enum class Fault : std::uint8_t {
-    stencil_saturated,      // INCR or DECR met its limit
-    half_saturated,         // an fp16 sum or count stopped growing or overflowed
-    early_end,              // a query ended the peel while fragments were left
-    endless,                // a peel found the same fragments again and again (a listing as printed, or its depths), and was stopped
-    truncated,              // --max-passes, fixed:N or ratio:R ended the peel while fragments were left
-    merged_ties,            // equal depths met in one layer: colours mixed or fragments lost
-    depth_quantized,        // a program had to quantise its z like the buffer before comparing
-    non_finite_vertices,    // triangles dropped for NaN or infinite coordinates
-    count_limit,            // a count in the stencil buffer reached what its pass allows: more iterations, no wrong picture
-    equal_at_bound,         // fragments of equal depth at the bound of a peel
-    buffer_overflow,        // more fragments at a pixel than its k entries can hold or order
-    as_published,           // a listing as printed lost, repeated or misplaced fragments
-    out_of_order,           // what an algorithm takes for sorted is not front to back
-    emulator_extension,     // a feature no real device had (STRATA_depth_units ...)
+    stencil_saturated,  // INCR or DECR met its limit
+    half_saturated,     // an fp16 sum or count stopped growing or overflowed
+    early_end,          // a query ended the peel while fragments were left
+    endless,  // a peel found the same fragments again and again (a listing as printed, or its depths), and was stopped
+    truncated,            // --max-passes, fixed:N or ratio:R ended the peel while fragments were left
+    merged_ties,          // equal depths met in one layer: colours mixed or fragments lost
+    depth_quantized,      // a program had to quantise its z like the buffer before comparing
+    non_finite_vertices,  // triangles dropped for NaN or infinite coordinates
+    count_limit,      // a count in the stencil buffer reached what its pass allows: more iterations, no wrong picture
+    equal_at_bound,   // fragments of equal depth at the bound of a peel
+    buffer_overflow,  // more fragments at a pixel than its k entries can hold or order
+    as_published,     // a listing as printed lost, repeated or misplaced fragments
+    out_of_order,     // what an algorithm takes for sorted is not front to back
+    emulator_extension,  // a feature no real device had (STRATA_depth_units ...)
 };
 
 [[nodiscard]] constexpr std::string_view name(Fault fault) noexcept {

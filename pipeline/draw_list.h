@@ -57,11 +57,11 @@ struct Instance {
 // A light that casts shadows: how it sees the scene, and how its shadow map is made and looked at. What it does not see
 // keeps `ambient` of its colour.
 struct ShadowLight {
-    Matrix view = identity, projection = identity;  // world to the light's eye, to its clip space
-    int size_px = 512;                              // of the square shadow map
-    float ambient = 0.5f;                           // 0 to 1
+    Matrix view = identity, projection = identity;    // world to the light's eye, to its clip space
+    int size_px = 512;                                // of the square shadow map
+    float ambient = 0.5f;                             // 0 to 1
     float offset_factor = 0.0f, offset_units = 0.0f;  // polygon offset of the shadow map's depths
-    bool percentage_closer = true;                  // four comparisons, weighted; false: the nearest texel's
+    bool percentage_closer = true;                    // four comparisons, weighted; false: the nearest texel's
     friend bool operator==(const ShadowLight&, const ShadowLight&) = default;
 };
 

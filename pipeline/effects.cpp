@@ -28,7 +28,8 @@ std::uint32_t count_fragments(const PreparedDraw& list, std::size_t tile, std::v
 
 }  // namespace
 
-void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs, int threads) {
+void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs,
+          int threads) {
     const FloatEnvironment ours;
     parallel_for(list.geometry.bin_start.size() - 1, threads, [&](std::size_t tile) {
         auto nothing = [](const FragmentBatch&) {};

@@ -17,11 +17,12 @@
 namespace strata::pipeline {
 
 // The arrays of a fragment that a geometry pass over triangles of these materials must have computed.
-[[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const MaterialNeeds& materials, Effects effects,
-                                                          DepthOutcome depth = DepthOutcome::open) {
+[[nodiscard]] inline rasterizer::FragmentNeeds pass_needs(const PassState& state, const MaterialNeeds& materials,
+                                                          Effects effects, DepthOutcome depth = DepthOutcome::open) {
     rasterizer::FragmentNeeds needs = state.needs;
-    if (effects == Effects::all) return {true, true, needs.exact_code, true, true, true, needs.reference,
-                                        static_cast<rasterizer::UnitMask>(needs.units | materials.shadow)};
+    if (effects == Effects::all)
+        return {true, true, needs.exact_code, true,
+                true, true, needs.reference,  static_cast<rasterizer::UnitMask>(needs.units | materials.shadow)};
     needs.code |= needs.reference || (state.depth.enabled && depth == DepthOutcome::open) || state.depth_unit_count > 0;
     needs.facing |= state.stencil.enabled && state.stencil.two_sided;
     needs.color |= materials.color;
@@ -68,7 +69,8 @@ struct TileCensus {
     friend bool operator==(const TileCensus&, const TileCensus&) = default;
 };
 // Rasterizes every tile with these values and does nothing with them: for whoever holds a watch.
-void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs, int threads);
+void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const rasterizer::FragmentNeeds& needs,
+          int threads);
 // The fragments of the deepest pixel, before any test.
 [[nodiscard]] std::uint32_t deepest_pixel(const PreparedDraw& list);
 [[nodiscard]] TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque);

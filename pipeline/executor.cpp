@@ -31,16 +31,22 @@ class FrameRun {
   public:
     FrameRun(const Frame& frame, const Body& body, Execution execution, int threads,
              const std::function<void(double)>& progress)
-        : frame_{frame}, body_{body}, threads_{threads}, progress_{progress},
+        : frame_{frame},
+          body_{body},
+          threads_{threads},
+          progress_{progress},
           extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
         const auto& geometry = frame.transparent->geometry;
-        const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
+        const std::size_t tiles =
+            static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
         regions_.resize(extent_ == Extent::frame ? 1 : tiles);
         twin_.assign(regions_.size(), no_twin);
         const rasterizer::Rect rect = frame.rect();
-        result_.color = Image::for_overwrite(frame.published_format.value_or(frame.color_format), rect.width(), rect.height());
+        result_.color =
+            Image::for_overwrite(frame.published_format.value_or(frame.color_format), rect.width(), rect.height());
         if (frame.nearest_depth)
-            result_.depth = Image::for_overwrite(target_format(frame.key_request().format), rect.width(), rect.height());
+            result_.depth =
+                Image::for_overwrite(target_format(frame.key_request().format), rect.width(), rect.height());
     }
 
     FrameResult finish() {
@@ -66,12 +72,14 @@ class FrameRun {
         const auto row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels());
         for (int y = 0; y < part.height; ++y)
             std::copy_n(part.codes.begin() + static_cast<std::ptrdiff_t>(part.index(0, y)), row,
-                        whole.codes.begin() + static_cast<std::ptrdiff_t>(whole.index(
-                                                  at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
+                        whole.codes.begin() + static_cast<std::ptrdiff_t>(
+                                                  whole.index(at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
     }
 
     [[nodiscard]] bool is_blank(std::size_t r) const {
-        const auto is_empty = [&](const PreparedDraw* list) { return list == nullptr || list->geometry.bin(r).empty(); };
+        const auto is_empty = [&](const PreparedDraw* list) {
+            return list == nullptr || list->geometry.bin(r).empty();
+        };
         return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.alike_where_blank &&
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
     }
@@ -110,8 +118,8 @@ class FrameRun {
     void copy(std::size_t from, std::size_t to, Image& image) const {
         const auto row = static_cast<std::size_t>(rect(from).width()) * static_cast<std::size_t>(image.channels());
         const auto at = [&](std::size_t r, int y) {
-            return image.codes.begin() +
-                   static_cast<std::ptrdiff_t>(image.index(rect(r).x0 - frame_.rect().x0, rect(r).y0 - frame_.rect().y0 + y));
+            return image.codes.begin() + static_cast<std::ptrdiff_t>(image.index(rect(r).x0 - frame_.rect().x0,
+                                                                                 rect(r).y0 - frame_.rect().y0 + y));
         };
         for (int y = 0; y < rect(from).height(); ++y) std::copy_n(at(from, y), row, at(to, y));
     }
@@ -155,7 +163,8 @@ class FrameRun {
         for (const RegionRun& r : regions_) {
             std::size_t next = d + 1;
             if (r.decisions.size() <= next || r.decisions[d].answer != answer) continue;
-            while (next < r.decisions.size() && continues(frame_.termination, frame_.rect(), r.decisions[next].own)) ++next;
+            while (next < r.decisions.size() && continues(frame_.termination, frame_.rect(), r.decisions[next].own))
+                ++next;
             longest = std::max(longest, next - d - 1);
         }
         return longest;
@@ -179,7 +188,8 @@ class FrameRun {
             std::vector<std::size_t> again;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
                 if (regions_[r].decisions.empty() || is_idle(regions_[r], d)) continue;
-                if (d >= regions_[r].decisions.size() || regions_[r].decisions[d].answer != answers[d]) again.push_back(r);
+                if (d >= regions_[r].decisions.size() || regions_[r].decisions[d].answer != answers[d])
+                    again.push_back(r);
             }
             std::vector<bool> script = answers;
             if (!again.empty()) script.insert(script.end(), certain_after(d, answers[d]), true);

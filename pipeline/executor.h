@@ -25,15 +25,15 @@ struct RegionTrace {
     std::vector<TraceEntry> entries;
 };
 
-struct Work {  // what was really done; may differ by execution
-    std::uint64_t fragments = 0;       // rasterized
+struct Work {                     // what was really done; may differ by execution
+    std::uint64_t fragments = 0;  // rasterized
     std::uint64_t regions = 0, reruns = 0;
     int tile_size = 0;
 };
 
 struct FrameResult {
     Image color;
-    Image depth;                // nearest visible key, when asked for
+    Image depth;  // nearest visible key, when asked for
     std::vector<KeptLayer> layers;
     int iterations = 0;
     PassCount passes;

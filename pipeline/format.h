@@ -14,7 +14,22 @@ using rasterizer::DepthRounding;
 // Colour formats hold 1, 2 or 4 channels; depth and stencil have targets of their own (d24s8 is a d24 beside an s8).
 // The narrow formats of GeForce3's surfaces hold 8-bit codes as the blender reads them back (narrow.h).
 enum class Format : std::uint8_t {
-    rgba8, rgba16f, rgba32f, r16f, r32f, rg32f, d16, d24, d24s8, d32f, s8, d16f, x8r8g8b8, x1a7r8g8b8, r5g6b5, x1r5g5b5
+    rgba8,
+    rgba16f,
+    rgba32f,
+    r16f,
+    r32f,
+    rg32f,
+    d16,
+    d24,
+    d24s8,
+    d32f,
+    s8,
+    d16f,
+    x8r8g8b8,
+    x1a7r8g8b8,
+    r5g6b5,
+    x1r5g5b5
 };
 
 enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil };

@@ -34,7 +34,7 @@ void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visi
 }
 
 std::size_t FragmentStore::packed_bytes(std::size_t count) const noexcept {
-    static const FragmentBatch shape{};  // only the types of its arrays are looked at
+    static const FragmentBatch shape{};         // only the types of its arrays are looked at
     std::size_t bytes = sizeof(std::uint32_t);  // `alive`, whether it is kept or not
     for_each_array(needs_, shape, [&](const auto& array) { bytes += sizeof(array[0]); });
     return count * bytes;
@@ -71,7 +71,8 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
         used_bytes_ = 0;
     }
     std::byte* at = chunks_[used_chunks_ - 1].data() + used_bytes_;
-    const bool has_dead = std::any_of(alive.begin(), alive.begin() + batch.count, [](std::uint32_t a) { return a == 0; });
+    const bool has_dead =
+        std::any_of(alive.begin(), alive.begin() + batch.count, [](std::uint32_t a) { return a == 0; });
     batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead});
     const auto pack = [&](const auto& array) {
         std::memcpy(at, array.data(), count * sizeof(array[0]));
@@ -100,8 +101,10 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     };
     batch.count = packed.count;
     batch.material = packed.material;
-    if (packed.has_dead) unpack(alive);
-    else std::fill_n(alive.begin(), packed.count, ~0u);
+    if (packed.has_dead)
+        unpack(alive);
+    else
+        std::fill_n(alive.begin(), packed.count, ~0u);
     for_each_array(needs_, batch, unpack);
 }
 

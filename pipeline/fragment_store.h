@@ -51,7 +51,7 @@ class FragmentStore {
     rasterizer::FragmentNeeds needs_;
     std::uint64_t limit_ = 0;
     std::vector<UninitializedVector<std::byte>> chunks_;  // kept from region to region: memory is asked for once
-    std::size_t used_chunks_ = 0, used_bytes_ = 0;      // the latter of the last chunk in use
+    std::size_t used_chunks_ = 0, used_bytes_ = 0;        // the latter of the last chunk in use
     std::vector<Packed> batches_;
 };
 

@@ -16,8 +16,8 @@ enum class Execution : std::uint8_t { literal, tiled, replay };
 enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
 struct Termination {
     TerminationRule rule = TerminationRule::exact;
-    double ratio = 0;       // ratio: stop when the count is below ratio * width * height
-    int passes = 0;         // fixed: that many geometry passes, no query
+    double ratio = 0;  // ratio: stop when the count is below ratio * width * height
+    int passes = 0;    // fixed: that many geometry passes, no query
     friend bool operator==(const Termination&, const Termination&) = default;
 };
 
@@ -27,10 +27,25 @@ enum class DepthKey : std::uint8_t { shader_z, stored_code };
 // Of a listing with errata: repaired as little as it takes, or as it was printed.
 enum class Formulation : std::uint8_t { resolved, published };
 
-enum class Effects : std::uint8_t { needed, all };  // all: simulate every stage even where nothing calls for it; same bits
+enum class Effects : std::uint8_t {
+    needed,
+    all
+};  // all: simulate every stage even where nothing calls for it; same bits
 
 // What a pass may simulate though nobody calls for it: values of its fragments, and stages with a state that changes nothing.
-enum class Effect : std::uint8_t { none, color, texcoord, shader_z, code, facing, loads, alpha_test, stencil_test, depth_test, blending };
+enum class Effect : std::uint8_t {
+    none,
+    color,
+    texcoord,
+    shader_z,
+    code,
+    facing,
+    loads,
+    alpha_test,
+    stencil_test,
+    depth_test,
+    blending
+};
 
 // What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
 struct Replay {
@@ -57,8 +72,10 @@ struct Frame {
     Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
-    Effect once_more = Effect::none;  // simulated once more than its state asks for; same bits, and what it costs can be measured
-    bool alike_where_blank = false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
+    Effect once_more =
+        Effect::none;  // simulated once more than its state asks for; same bits, and what it costs can be measured
+    bool alike_where_blank =
+        false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
     bool needs_frame = false;  // its texture lookups go anywhere: literal, whatever execution is asked for
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
     const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/shadow_stage.h)
@@ -66,7 +83,8 @@ struct Frame {
     bool keep_layers = false;
     bool trace = false;
     bool nearest_depth = false;  // also make the frame's Z
-    PassLog* pass_log = nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/effects.h)
+    PassLog* pass_log =
+        nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/effects.h)
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
     // Whether to simulate an effect that changes nothing.

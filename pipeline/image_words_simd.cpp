@@ -4,7 +4,6 @@
 #define HWY_TARGET_INCLUDE "pipeline/image_words_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "pipeline/image_words.h"
 #include "rasterizer/simd.h"
 

@@ -30,14 +30,15 @@ struct PassState {
     std::array<Blend, max_color_targets> blend{};  // unequal equations or factors need has_independent_blend
     std::array<Target, max_reads> reads{};         // what the program may load, at its own pixel and sample 0 only
     bool ordered_rmw = false;                      // reads may overlap what is written (STRATA_ordered_rmw)
-    std::uint8_t sample_mask = 0xff;               // multisample rasterization off: a fragment covers every masked sample
+    std::uint8_t sample_mask = 0xff;  // multisample rasterization off: a fragment covers every masked sample
     std::array<DepthUnit, max_depth_units> depth_units{};
     int depth_unit_count = 0;
-    std::array<Target, 4> textures{};              // depth targets that texture units sample, anywhere in the region
-    bool replaces_depth = false;                   // the program may leave another depth (Outputs::depth)
-    rasterizer::FragmentNeeds needs;               // what the program looks at; the stages add what they need themselves
-    std::span<const PrimitiveRange> primitives{};  // of a geometry pass: these alone, ascending and disjoint; empty: all
-    bool saturates_by_design = false;              // a stencil count that stops at its limit is what the listing wants
+    std::array<Target, 4> textures{};  // depth targets that texture units sample, anywhere in the region
+    bool replaces_depth = false;       // the program may leave another depth (Outputs::depth)
+    rasterizer::FragmentNeeds needs;   // what the program looks at; the stages add what they need themselves
+    std::span<const PrimitiveRange>
+        primitives{};                  // of a geometry pass: these alone, ascending and disjoint; empty: all
+    bool saturates_by_design = false;  // a stencil count that stops at its limit is what the listing wants
 };
 
 // What a program may load: the declared reads, gathered at the fragments' own pixels.
@@ -81,7 +82,9 @@ struct Outputs {
 
 // Called with a batch in which no pixel occurs twice. In full-screen passes only `pixel`, `x`, `y` and `count` are set.
 template <class P>
-concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& own, Outputs& out) { p(in, own, out); };
+concept FragmentProgram = requires(P& p, const FragmentBatch& in, const Loads& own, Outputs& out) {
+    p(in, own, out);
+};
 
 // A query's answer in one region. It cannot be read: a tile's number is not the frame's. Region::any turns it into a branch.
 class Count {

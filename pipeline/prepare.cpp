@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "pipeline/quotient_rows.h"
 #include "pipeline/matrix.h"
+#include "pipeline/quotient_rows.h"
 #include "pipeline/shadow_stage.h"
 #include "pipeline/vertex_stage.h"
 #include "rasterizer/depth_bound.h"
@@ -75,7 +75,8 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
             const std::array<float, 4> rq = rows(mesh.positions[i]);
             if (extras.has_rq) extras.values.insert(extras.values.end(), {rq[2], rq[3]});
             if (!extras.has_units) continue;
-            for (const auto& unit : coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]))
+            for (const auto& unit :
+                 coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]))
                 extras.values.insert(extras.values.end(), unit.begin(), unit.end());
         }
     }
@@ -86,7 +87,9 @@ DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& pri
     DrawPart part{primitives, 1, 0};
     if (geometry.state.depth_clamp) return {primitives, 0, 1};
     const double units = z_units(geometry.state, geometry.rules);
-    const auto before = [](const rasterizer::TriangleRecord& t, std::uint32_t primitive) { return t.primitive < primitive; };
+    const auto before = [](const rasterizer::TriangleRecord& t, std::uint32_t primitive) {
+        return t.primitive < primitive;
+    };
     const auto begin = geometry.triangles.begin(), end = geometry.triangles.end();
     const auto first = std::lower_bound(begin, end, primitives.first, before);
     const auto last = std::lower_bound(first, end, primitives.last, before);
@@ -115,7 +118,8 @@ MaterialStage material_stage(const DrawList& list, const Material& material, flo
 rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options) {
     rasterizer::TriangleSoup soup;
     for (const Instance& instance : list.instances)
-        if (is_selected(list.materials[instance.material], options.selection)) append(list, instance, view, options, soup);
+        if (is_selected(list.materials[instance.material], options.selection))
+            append(list, instance, view, options, soup);
     return soup;
 }
 

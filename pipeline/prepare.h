@@ -25,13 +25,13 @@ namespace strata::pipeline {
 struct MaterialStage {
     const Texture* texture = nullptr;  // into the draw list, which must outlive this
     AlphaTest mask;                    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha
-    float alpha_scale = 1.0f;          // of what MASK keeps: after the test, so that it cuts at the material's own alpha
+    float alpha_scale = 1.0f;  // of what MASK keeps: after the test, so that it cuts at the material's own alpha
 };
 
 // What some materials call for in every pass.
 struct MaterialNeeds {
-    bool texcoord = false;  // one of them has a texture
-    bool color = false;     // one of them tests its alpha, so that even a depth-only pass must shade
+    bool texcoord = false;            // one of them has a texture
+    bool color = false;               // one of them tests its alpha, so that even a depth-only pass must shade
     rasterizer::UnitMask shadow = 0;  // what a shadow lookup of every fragment's colour looks at
     friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
 };
@@ -64,12 +64,13 @@ using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>
 
 struct PrepareOptions {
     Selection selection = Selection::all;
-    float alpha_scale = 1.0f;     // --alpha: every alpha times this, at the vertex; a MASK material's after its test
-    bool depth_quotient = false;  // also r and q of every vertex, for perspective_rq and depth_replace (quotient_rows.h)
-    Ordering order{};  // none: as listed
+    float alpha_scale = 1.0f;  // --alpha: every alpha times this, at the vertex; a MASK material's after its test
+    bool depth_quotient =
+        false;           // also r and q of every vertex, for perspective_rq and depth_replace (quotient_rows.h)
+    Ordering order{};    // none: as listed
     int tile_size = 32;  // 0: not binned yet
     int threads = 0;
-    CoordinateUnits units{};  // texture units that somebody looks at
+    CoordinateUnits units{};       // texture units that somebody looks at
     bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h
 };
 

@@ -170,9 +170,9 @@ constexpr std::array fields{
     integer<&Interpolation::vertex_color_bits>(
         "raster.vertex_color_bits", {9, 24},
         {"[M] interpolation_hypothesis.h: all of 3,944 greys", unweighted, unweighted, unweighted}),
-    choice<&Interpolation::perspective_color>("raster.perspective_color", perspective_color_names,
-                                              {"[A] nv2a-fragment.md 8: equal w alone is measured", unweighted,
-                                               unweighted, unweighted}),
+    choice<&Interpolation::perspective_color>(
+        "raster.perspective_color", perspective_color_names,
+        {"[A] nv2a-fragment.md 8: equal w alone is measured", unweighted, unweighted, unweighted}),
     choice<&Interpolation::texture_coordinates>(
         "raster.texture_coordinates", coordinate_names,
         {"[M] cut_coordinates.h: 41,274 coordinates, for equal w", "[D] 3: D3D 11.3 15.10", ours, unmeasured}),
@@ -200,8 +200,8 @@ constexpr std::array fields{
                                 {"[M] 2: no such format", "[M] 2: Z32F among G80's depth formats", ours, opengl}),
     boolean<&Profile::has_d16f>(
         "has_d16f", {"[M] nv2a-geometry.md 4: 98 pictures", "[M] 2: not among G80's depth formats", ours, opengl}),
-    boolean<&Profile::has_narrow_surfaces>(
-        "has_narrow_surfaces", {"[M] nv2a-fragment.md R10", "[A] 2: none is emulated", ours, opengl}),
+    boolean<&Profile::has_narrow_surfaces>("has_narrow_surfaces",
+                                           {"[M] nv2a-fragment.md R10", "[A] 2: none is emulated", ours, opengl}),
     boolean<&Profile::has_float_targets>(
         "has_float_targets", {"[D] 8: NV30 had the first, without blending", "[D] 8: Bavoil and Myers", ours, opengl}),
     boolean<&Profile::has_unclamped_depth_clear>(
@@ -221,7 +221,8 @@ constexpr std::array fields{
     boolean<&Profile::has_depth_clamp>(
         "has_depth_clamp", {"[M] 1: clamped when depth clamp is on", "[D] 1: NV_depth_clamp", ours, opengl}),
     boolean<&Profile::has_depth_replace>(
-        "has_depth_replace", {"[D] 5: NV_texture_shader", "[D] decisions.md 4: refused", ours, "[A] as geforce8_dx101"}),
+        "has_depth_replace",
+        {"[D] 5: NV_texture_shader", "[D] decisions.md 4: refused", ours, "[A] as geforce8_dx101"}),
     boolean<&Profile::has_sequential_depth_units>(
         "has_sequential_depth_units",
         {"[A] decisions.md 4: an emulator extension", "[A] decisions.md 4: an emulator extension", ours,

@@ -28,7 +28,7 @@ Matrix depth_texture_matrix(const Matrix& projection, const rasterizer::RasterSt
 }
 
 VertexTransform quotient_rows(const View& view, const Matrix& model, const rasterizer::RasterState& state,
-                           const rasterizer::RasterRules& rules) {
+                              const rasterizer::RasterRules& rules) {
     const double units = rasterizer::z_units(state, rules);
     const Matrix texture = depth_texture_matrix(view.projection, state);
     return {view.vertex_path, with_scaled_row(texture_transform(texture, view.view, model), 2, units),

@@ -20,6 +20,6 @@ namespace strata::pipeline {
 
 // Object space to (0, 0, r, q), r in the units of vertex z.
 [[nodiscard]] VertexTransform quotient_rows(const View& view, const Matrix& model, const rasterizer::RasterState& state,
-                                         const rasterizer::RasterRules& rules);
+                                            const rasterizer::RasterRules& rules);
 
 }  // namespace strata::pipeline

@@ -35,22 +35,33 @@ std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, c
 bool read_words(const Texels& from, std::size_t first, std::size_t count, std::uint32_t* out) {
     const std::uint32_t* const words = from.plane(0).words + first;
     const bool is_bytes = from.channels == 4 && from.bits_per_channel == 8;
-    if (is_bytes) widen_words(words, count, out);
-    else if (from.channels == 1 && from.bits_per_channel == 32) std::copy_n(words, count, out);
-    else return false;
+    if (is_bytes)
+        widen_words(words, count, out);
+    else if (from.channels == 1 && from.bits_per_channel == 32)
+        std::copy_n(words, count, out);
+    else
+        return false;
     return true;
 }
 
 std::uint64_t bytes(const TargetStorage& s) {
-    return s.pixels() * static_cast<std::uint64_t>(s.samples()) * static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
+    return s.pixels() * static_cast<std::uint64_t>(s.samples()) *
+           static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
 }
 
 }  // namespace
 
 Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script,
                ScratchPool* pool)
-    : frame_{frame}, rect_{rect}, tile_{tile}, extent_{extent}, script_{std::move(script)}, rasterizer_{rect},
-      pool_{pool}, scratch_{pool == nullptr ? std::make_unique<Scratch>() : pool->take()}, records_(1) {
+    : frame_{frame},
+      rect_{rect},
+      tile_{tile},
+      extent_{extent},
+      script_{std::move(script)},
+      rasterizer_{rect},
+      pool_{pool},
+      scratch_{pool == nullptr ? std::make_unique<Scratch>() : pool->take()},
+      records_(1) {
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
     counts_ = false;
@@ -107,8 +118,8 @@ void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Targ
     const auto [x0, y0, x1, y1] = from_rect;
     const rasterizer::Rect written =
         rasterizer::intersection(rect_, rasterizer::intersection({x0 + dx, y0 + dy, x1 + dx, y1 + dy}, frame_.rect()));
-    if (intersection(rasterizer::Rect{written.x0 - dx, written.y0 - dy, written.x1 - dx, written.y1 - dy}, rect_).area() !=
-        written.area())
+    if (intersection(rasterizer::Rect{written.x0 - dx, written.y0 - dy, written.x1 - dx, written.y1 - dy}, rect_)
+            .area() != written.area())
         throw NeedsFrame{};
     for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
     const std::uint64_t moved = written.area() * static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel);
@@ -166,7 +177,8 @@ Target Region::nearest_depth() {
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
     state.depth_target = nearest;
-    state.needs = {.shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
+    state.needs = {
+        .shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
     static_cast<void>(draw_depth(state));
     counts_ = true;
     return nearest;
@@ -176,11 +188,16 @@ std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
     counts_ = bookkeeping == Bookkeeping::counted;
     std::vector<CapturedFragment> all;
     PassState state;
-    state.needs = {.shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
+    state.needs = {
+        .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
     static_cast<void>(draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
             if (out.alive[i] == 0) continue;
-            all.push_back({in.pixel[i], in.primitive[i], in.code[i], in.exact_code[i], in.shader_z[i],
+            all.push_back({in.pixel[i],
+                           in.primitive[i],
+                           in.code[i],
+                           in.exact_code[i],
+                           in.shader_z[i],
                            {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}});
         }
     }));
@@ -220,9 +237,10 @@ Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
     Rgba color{0, 0, 0, 1};
     for (int c = 0; c < format.channels; ++c) {
         const std::uint32_t code = from.code(pixel, c, sample);
-        color[static_cast<std::size_t>(c)] = format.type == ChannelType::unorm8 ? from_unorm8(static_cast<std::uint8_t>(code))
-                                             : format.type == ChannelType::half ? half_to_float(static_cast<std::uint16_t>(code))
-                                                                                : std::bit_cast<float>(code);
+        color[static_cast<std::size_t>(c)] =
+            format.type == ChannelType::unorm8 ? from_unorm8(static_cast<std::uint8_t>(code))
+            : format.type == ChannelType::half ? half_to_float(static_cast<std::uint16_t>(code))
+                                               : std::bit_cast<float>(code);
     }
     return color;
 }
@@ -255,13 +273,15 @@ void Region::read_row(const TargetStorage& from, int y, std::uint32_t* out) cons
             Lanes<std::uint32_t>& pixel = scratch_->screen.pixel;
             for (std::size_t i = 0; i < count; ++i) pixel[i] = static_cast<std::uint32_t>(first + x + i);
             from.gather(pixel, static_cast<int>(count), static_cast<int>(sample), codes);
-            if (samples * channels == 1) std::copy_n(codes[0].begin(), count, out + x);
+            if (samples * channels == 1)
+                std::copy_n(codes[0].begin(), count, out + x);
             else if (samples == 1 && channels == 4)
                 for (std::size_t i = 0; i < count; ++i)
                     for (std::size_t c = 0; c < 4; ++c) out[(x + i) * 4 + c] = codes[c][i];
             else
                 for (std::size_t c = 0; c < channels; ++c)
-                    for (std::size_t i = 0; i < count; ++i) out[((x + i) * samples + sample) * channels + c] = codes[c][i];
+                    for (std::size_t i = 0; i < count; ++i)
+                        out[((x + i) * samples + sample) * channels + c] = codes[c][i];
         }
     }
 }

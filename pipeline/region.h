@@ -115,7 +115,8 @@ class Region {
     }
     template <FragmentProgram P>
     Drawn draw(const PassState& state, List list, P&& program) {
-        return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent, program);
+        return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent,
+                         program);
     }
     // The same over a list that is not the frame's; whoever draws one needs a frame that is one region (surface.h).
     template <FragmentProgram P>
@@ -177,7 +178,7 @@ class Region {
     void looked_at(std::uint64_t fragments) noexcept { fragments_drawn_ += fragments; }
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
     [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
-    [[nodiscard]] Arena& arena() noexcept;  // free again when the region is gone
+    [[nodiscard]] Arena& arena() noexcept;                          // free again when the region is gone
     void count(const Counters& counters, const PassCount& passes);  // what a pass would have counted
     [[nodiscard]] static Count counted(std::uint64_t own) noexcept { return Count{own}; }
     void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
@@ -188,7 +189,9 @@ class Region {
     // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
     [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;  // as a program would load it
     void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
-    [[nodiscard]] const TargetStorage& storage(Target target) const { return storages_[static_cast<std::size_t>(target.id)]; }
+    [[nodiscard]] const TargetStorage& storage(Target target) const {
+        return storages_[static_cast<std::size_t>(target.id)];
+    }
     [[nodiscard]] Image image(Target target) const;
     void write_image(Target target, Image& frame) const;  // into this region's place in an image of the frame
 
@@ -199,7 +202,9 @@ class Region {
     [[nodiscard]] int iterations() const noexcept { return iterations_; }
     [[nodiscard]] bool probed() const noexcept { return probed_; }  // the last iteration was an idle probe
     [[nodiscard]] std::vector<KeptLayer>& layers() noexcept { return layers_; }
-    [[nodiscard]] std::size_t idle_layers() const noexcept { return idle_layers_; }  // the last ones, kept while idle: empty
+    [[nodiscard]] std::size_t idle_layers() const noexcept {
+        return idle_layers_;
+    }  // the last ones, kept while idle: empty
     [[nodiscard]] std::vector<TraceEntry>& trace() noexcept { return trace_; }
     [[nodiscard]] std::vector<Diagnostic>& diagnostics() noexcept { return diagnostics_; }
     [[nodiscard]] Target published() const noexcept { return published_; }
@@ -217,8 +222,8 @@ class Region {
 
     void begin_pass(const PassState& state, PassKind kind);
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
-    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
-                   rasterizer::BatchSink sink);
+    void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
+                   std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
                         const bool& goes_on);
     void replay(rasterizer::BatchSink sink);
@@ -236,14 +241,17 @@ class Region {
     void load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch);
     [[nodiscard]] const MaterialNeeds& needs_of_tile(const PreparedDraw& list);
     void finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn);
-    void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn);
+    void finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                       Drawn& drawn);
     std::uint64_t test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                          Lanes<std::uint32_t>& alive);  // answers how many pass
-    std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample, Lanes<std::uint32_t>& alive);
+    std::uint64_t test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                               Lanes<std::uint32_t>& alive);
     void test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
     void idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out);
     void idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive);
-    void idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color, const TargetStorage& target, int sample);
+    void idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
+                    const TargetStorage& target, int sample);
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);
@@ -278,17 +286,21 @@ class Region {
     std::optional<TargetStorage> idle_stencil_;
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
     bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
-    enum class Source : std::uint8_t { rasterizer, captured, store };  // captured: rasterized, and kept for later passes
+    enum class Source : std::uint8_t {
+        rasterizer,
+        captured,
+        store
+    };  // captured: rasterized, and kept for later passes
     Source source_ = Source::rasterizer;
     PassKind kind_ = PassKind::geometry;
     int pass_samples_ = 1;
     bool samples_textures_ = false;  // somebody looks at the colours of this pass
     bool takes_shadow_ = false;      // and they are shadowed
     std::uint64_t tallied_ = 0;
-    bool counts_ = true;          // false during the emulator's own work (opaque priming, capture)
-    IterationRecord uncounted_;   // where that work is counted instead
+    bool counts_ = true;         // false during the emulator's own work (opaque priming, capture)
+    IterationRecord uncounted_;  // where that work is counted instead
     int geometry_passes_ = 0;
-    int idle_from_ = -1;   // index of the record whose counters every further iteration repeats; -1: never idle
+    int idle_from_ = -1;  // index of the record whose counters every further iteration repeats; -1: never idle
     bool probing_ = false, probed_ = false;
     int iterations_ = 0;
     std::size_t counted_record_ = 0;

@@ -25,8 +25,8 @@ void Region::idle_tests(const PassState& state, const FragmentBatch& batch, Lane
     if (frame_.idles(Effect::depth_test, state.depth.enabled)) {
         constexpr DepthTest passes_all{.enabled = true, .func = CompareFunc::always, .write = false};
         TargetStorage& depth = at(opaque_depth_);
-        static_cast<void>(test_depth(passes_all, depth_format(depth.format()), depth.depth_plane(0), at_pixels, batch.code.data(),
-                                     alive.data()));
+        static_cast<void>(test_depth(passes_all, depth_format(depth.format()), depth.depth_plane(0), at_pixels,
+                                     batch.code.data(), alive.data()));
     }
     if (!frame_.idles(Effect::stencil_test, state.stencil.enabled)) return;
     if (!idle_stencil_) idle_stencil_.emplace(Format::s8, 1, rect_.area());
@@ -35,13 +35,13 @@ void Region::idle_tests(const PassState& state, const FragmentBatch& batch, Lane
     gather_codes(stencil, at_pixels, &s.stencil_stored);
     std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
     constexpr StencilTest keeps{.enabled = true, .two_sided = false, .front = {}, .back = {}};
-    static_cast<void>(stencil_test(keeps, {batch.front_facing.data(), s.depth_pass.data(), alive.data(), s.stencil_stored.data(),
-                                           s.saturated.data(), batch.count}));
+    static_cast<void>(stencil_test(keeps, {batch.front_facing.data(), s.depth_pass.data(), alive.data(),
+                                           s.stencil_stored.data(), s.saturated.data(), batch.count}));
     scatter_codes(stencil, at_pixels, alive.data(), 1, &s.stencil_stored);
 }
 
-void Region::idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color, const TargetStorage& target,
-                        int sample) {
+void Region::idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
+                        const TargetStorage& target, int sample) {
     Blend again = blending;
     again.enabled = true;
     const FormatInfo format = info(target.format());

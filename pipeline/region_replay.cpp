@@ -51,7 +51,8 @@ void Region::count_coverage(std::span<std::uint32_t> coverage) {
 }
 
 // Twice as many triangles each time: whoever has had enough soon is asked soon, and few batches end early for it.
-void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink, const bool& goes_on) {
+void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
+                            const bool& goes_on) {
     const PreparedDraw& list = *frame_.transparent;
     needs.color |= needs_of_tile(list).color;  // MASK decides which fragments there are
     needs.texcoord |= needs_of_tile(list).texcoord && needs.color;
@@ -80,7 +81,8 @@ void Region::replay(rasterizer::BatchSink sink) {
 DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& list) const {
     using rasterizer::DepthPath;
     const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
-                          state.depth_target == opaque_depth_ && !state.stencil.enabled && state.depth_unit_count == 0 && !state.replaces_depth;
+                          state.depth_target == opaque_depth_ && !state.stencil.enabled &&
+                          state.depth_unit_count == 0 && !state.replaces_depth;
     const rasterizer::DepthRequest depth = frame_.key_request();
     const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
     if (!is_plain || !has_bound || state.needs.code || !opaque_depth_is_cleared_ || extent_ == Extent::frame ||

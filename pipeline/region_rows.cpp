@@ -60,8 +60,8 @@ Drawn Region::draw_depth(const PassState& state) {
     if (!is_nearest || !is_one_sample(state.depth_target) || !draws_rows(state, list))
         return draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {});
     begin_pass(state, PassKind::geometry);
-    const rasterizer::DepthDrawn rows = draw_depth_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(), rect_,
-                                                        at(state.depth_target).depth_plane(0).words);
+    const rasterizer::DepthDrawn rows = draw_depth_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
+                                                        rect_, at(state.depth_target).depth_plane(0).words);
     count_rows(state, rows);
     Drawn drawn;
     drawn.passed.own_ = rows.passed;
@@ -70,15 +70,16 @@ Drawn Region::draw_depth(const PassState& state) {
 
 bool Region::sums_suit_rows(const PassState& state) const {
     const auto is_sum = [&](std::size_t k, Format format) {
-        return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format && state.blend[k] == blend_mode::sum;
+        return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format &&
+               state.blend[k] == blend_mode::sum;
     };
     const PreparedDraw& list = *frame_.transparent;
     const bool is_tested = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = false};
     const bool counts = state.color[1].exists();
     return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
            (!counts || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
-           profile().raster.color == rasterizer::ColorInterpolation::exact_plane &&
-           draws_rows(state, list) && list.needs.shadow == 0 && !needs_in(list, tile_).texcoord;
+           profile().raster.color == rasterizer::ColorInterpolation::exact_plane && draws_rows(state, list) &&
+           list.needs.shadow == 0 && !needs_in(list, tile_).texcoord;
 }
 
 Drawn Region::draw_sum_rows(const PassState& state) {
@@ -89,17 +90,18 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     const SumPlanes planes{{sums.plane(0).words, sums.plane(1).words},
                            counts ? at(state.color[1]).texels(0).plane(0).words : nullptr,
                            is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
-    const rasterizer::DepthDrawn rows =
-        add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(), rect_, planes,
-                     profile().denormals == DenormalRule::flush);
+    const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
+                                                     rect_, planes, profile().denormals == DenormalRule::flush);
     count_rows(state, rows);
-    for (std::size_t k = 0; k < (counts ? 2u : 1u); ++k) count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);
+    for (std::size_t k = 0; k < (counts ? 2u : 1u); ++k)
+        count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);
     Drawn drawn;
     drawn.passed.own_ = rows.passed;
     return drawn;
 }
 
-std::optional<ScreenWords> Region::full_screen_words(const PassState& state, std::span<const Format> reads, Format color) {
+std::optional<ScreenWords> Region::full_screen_words(const PassState& state, std::span<const Format> reads,
+                                                     Format color) {
     const auto is = [&](Target t, Format format) { return is_one_sample(t) && storage(t).format() == format; };
     const auto first_read = state.reads.begin();
     if (extent_ != Extent::tile || frame_.effects != Effects::needed || !is(state.color[0], color) ||

@@ -48,12 +48,17 @@ const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorL
     if (info(format).bytes_per_pixel != 2 || !is_narrow(format)) return source;
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-            cut[c][i] = c == 3 ? source[c][i] : unorm8_value(narrowed(format, static_cast<int>(c), to_unorm8(source[c][i])));
+            cut[c][i] =
+                c == 3 ? source[c][i] : unorm8_value(narrowed(format, static_cast<int>(c), to_unorm8(source[c][i])));
     return cut;
 }
-Blend idle(const Blend& blending) { return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask}; }
+Blend idle(const Blend& blending) {
+    return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask};
+}
 
-std::uint64_t pixel_bytes(const TargetStorage& s) { return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel); }
+std::uint64_t pixel_bytes(const TargetStorage& s) {
+    return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
+}
 
 }  // namespace
 
@@ -80,7 +85,8 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
         return;
     }
     ++record().passes.full_screen;
-    for (std::size_t k = 0; k < state.color.size(); ++k)  // a quad's traffic is every pixel's, whatever its program discards
+    for (std::size_t k = 0; k < state.color.size();
+         ++k)  // a quad's traffic is every pixel's, whatever its program discards
         if (state.color[k].exists()) count_color_bytes(state.blend[k], at(state.color[k]), rect_.area());
 }
 
@@ -117,7 +123,8 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
     record().counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
     const MaterialStage& material = list.materials[batch.material];
     if (material.texture != nullptr && samples_textures_) {
-        sample(*material.texture, profile().texture_filter, batch.texcoord[0], batch.texcoord[1], scratch_->texel, batch.count);
+        sample(*material.texture, profile().texture_filter, batch.texcoord[0], batch.texcoord[1], scratch_->texel,
+               batch.count);
         for (std::size_t c = 0; c < 4; ++c)
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
                 batch.color[c][i] *= scratch_->texel[c][i];
@@ -159,8 +166,8 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
     if (state.alpha.enabled) {
         const std::uint64_t before = alive_count(out, batch.count);
         const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
-        alpha_test(state.alpha, is_eight_bit_alpha(profile().alpha_test, type), out.color[0][3].data(), out.alive.data(),
-                   batch.count);
+        alpha_test(state.alpha, is_eight_bit_alpha(profile().alpha_test, type), out.color[0][3].data(),
+                   out.alive.data(), batch.count);
         record().counters.alpha_killed += before - alive_count(out, batch.count);
     }
     if (frame_.idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
@@ -169,7 +176,8 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
     drawn.tallied = Count{tallied_};
 }
 
-void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample, Drawn& drawn) {
+void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                           Drawn& drawn) {
     Lanes<std::uint32_t>& alive = scratch_->alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
     if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
@@ -187,8 +195,8 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
 void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
-            trace_.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0, out.side[i],
-                              kind_ == PassKind::geometry});
+            trace_.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
+                              out.side[i], kind_ == PassKind::geometry});
 }
 
 void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {

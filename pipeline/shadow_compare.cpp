@@ -60,8 +60,7 @@ void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, co
     const double max = depth.max(), half = rules.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
     const double units = units_of(depth, rules);
     if (has(depth, DepthFormat::d16f)) {
-        for (std::size_t i = 0; i < count; ++i)
-            codes[i] = rasterizer::to_d16f_code(r[i] * static_cast<float>(units));
+        for (std::size_t i = 0; i < count; ++i) codes[i] = rasterizer::to_d16f_code(r[i] * static_cast<float>(units));
         return;
     }
     for (std::size_t i = 0; i < count; ++i) {

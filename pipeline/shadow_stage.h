@@ -26,7 +26,8 @@ struct ShadowStage {
                                            const rasterizer::RasterState& state, const DeviceProfile& profile);
 
 // How `light` has its map looked at. The image outlives the stage.
-[[nodiscard]] ShadowStage shadow_stage(const ShadowLight& light, const Image& map, const rasterizer::RasterState& state);
+[[nodiscard]] ShadowStage shadow_stage(const ShadowLight& light, const Image& map,
+                                       const rasterizer::RasterState& state);
 
 // Colours of the batch, with the coordinates of shadow_unit; `scratch` is free to be used.
 void cast_shadow(const ShadowStage& stage, const DeviceProfile& profile, rasterizer::FragmentBatch& batch,

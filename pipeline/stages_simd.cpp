@@ -4,12 +4,11 @@
 // written out. Tests: tests/pipeline/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages_simd.cpp"
-#include "hwy/foreach_target.h"
-#include "hwy/highway.h"
-
 #include <algorithm>
 #include <cassert>
 
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
 #include "pipeline/alpha_test.h"
 #include "pipeline/convert.h"
 #include "pipeline/lane_words.h"
@@ -145,7 +144,8 @@ HWY_INLINE void scatter_word(Plane plane, const PixelLanes& at, const Word* aliv
         WordVec value = hn::LoadU(d, &codes[0][i]);
         for (int k = 1; k < per_word<channels, bits>; ++k)
             value = hn::Or(value, hn::ShiftLeftSame(hn::LoadU(d, &codes[k][i]), k * bits));
-        if (kept != 0) value = hn::Or(hn::AndNot(hn::Set(d, kept), value), hn::And(hn::Set(d, kept), load(plane, group)));
+        if (kept != 0)
+            value = hn::Or(hn::AndNot(hn::Set(d, kept), value), hn::And(hn::Set(d, kept), load(plane, group)));
         store(plane, group, hn::And(group.in_batch, is_set(alive + i)), value);
     }
 }
@@ -183,8 +183,7 @@ HWY_INLINE WordMask passing(DepthFormat format, WordVec code, WordVec stored) {
 }
 
 template <CompareFunc func>
-DepthResult test(bool writes, DepthFormat format, Plane plane, const PixelLanes& at, const Word* codes,
-                 Word* alive) {
+DepthResult test(bool writes, DepthFormat format, Plane plane, const PixelLanes& at, const Word* codes, Word* alive) {
     const Words d;
     DepthResult result;
     for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
@@ -200,12 +199,11 @@ DepthResult test(bool writes, DepthFormat format, Plane plane, const PixelLanes&
     return result;
 }
 
-DepthResult test_plane(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at,
-                       const Word* codes, Word* alive) {
+DepthResult test_plane(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* codes,
+                       Word* alive) {
     DepthResult result;
-    with_compare(state.enabled ? state.func : CompareFunc::always, [&](auto func) {
-        result = test<func()>(writes_depth(state), format, plane, at, codes, alive);
-    });
+    with_compare(state.enabled ? state.func : CompareFunc::always,
+                 [&](auto func) { result = test<func()>(writes_depth(state), format, plane, at, codes, alive); });
     return result;
 }
 
@@ -242,14 +240,16 @@ HWY_INLINE WordVec sum_of_halves(FloatVec source, WordVec stored) {
 }
 
 template <bool flushes, int channels>
-HWY_INLINE void add_to_word(Plane plane, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source) {
+HWY_INLINE void add_to_word(Plane plane, const PixelLanes& at, const Word* alive,
+                            const rasterizer::Lanes<float>* source) {
     const Words d;
     for (std::size_t i = 0; i < at.count; i += hn::Lanes(d)) {
         const Group group = group_at(at, i);
         const WordVec stored = load(plane, group);
         WordVec sum = sum_of_halves<flushes>(hn::LoadU(Floats{}, &source[0][i]), hn::And(stored, hn::Set(d, 0xffffu)));
         if constexpr (channels == 2) {
-            const WordVec upper = sum_of_halves<flushes>(hn::LoadU(Floats{}, &source[1][i]), hn::ShiftRight<16>(stored));
+            const WordVec upper =
+                sum_of_halves<flushes>(hn::LoadU(Floats{}, &source[1][i]), hn::ShiftRight<16>(stored));
             sum = hn::Or(sum, hn::ShiftLeft<16>(upper));
         }
         store(plane, group, hn::And(group.in_batch, is_set(alive + i)), sum);
@@ -269,9 +269,12 @@ template <bool flushes>
 void add_to_words(const Texels&, const PixelLanes&, const Word*, const rasterizer::Lanes<float>*) {}
 #endif
 
-bool add(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source, bool flushes) {
-    if (flushes) add_to_words<true>(to, at, alive, source);
-    else add_to_words<false>(to, at, alive, source);
+bool add(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source,
+         bool flushes) {
+    if (flushes)
+        add_to_words<true>(to, at, alive, source);
+    else
+        add_to_words<false>(to, at, alive, source);
     return has_halves;
 }
 

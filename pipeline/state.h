@@ -16,7 +16,8 @@ struct AlphaTest {  // passes if alpha FUNC ref; GL 2.1 4.1.4
 
 enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
 
-struct StencilFace {  // passes if (ref & func_mask) FUNC (stored & func_mask): the reference is on the left; GL 2.1 4.1.5
+struct
+    StencilFace {  // passes if (ref & func_mask) FUNC (stored & func_mask): the reference is on the left; GL 2.1 4.1.5
     CompareFunc func = CompareFunc::always;
     std::uint8_t ref = 0, func_mask = 0xff, write_mask = 0xff;
     StencilOp fail = StencilOp::keep, depth_fail = StencilOp::keep, pass = StencilOp::keep;
@@ -39,13 +40,31 @@ struct DepthTest {  // off: no depth write either, and the stencil acts as if de
 
 // The signed ones read the source byte as two's complement and ignore both factors: d + s', d - s'. NV2A alone
 // (nv2a-fragment.md R3); OpenGL has no such equations.
-enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max, signed_add, signed_reverse_subtract };
+enum class BlendEquation : std::uint8_t {
+    add,
+    subtract,
+    reverse_subtract,
+    min,
+    max,
+    signed_add,
+    signed_reverse_subtract
+};
 
 enum class BlendFactor : std::uint8_t {
-    zero, one,
-    src_color, one_minus_src_color, dst_color, one_minus_dst_color,
-    src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha,
-    constant_color, one_minus_constant_color, constant_alpha, one_minus_constant_alpha,
+    zero,
+    one,
+    src_color,
+    one_minus_src_color,
+    dst_color,
+    one_minus_dst_color,
+    src_alpha,
+    one_minus_src_alpha,
+    dst_alpha,
+    one_minus_dst_alpha,
+    constant_color,
+    one_minus_constant_color,
+    constant_alpha,
+    one_minus_constant_alpha,
     src_alpha_saturate
 };
 

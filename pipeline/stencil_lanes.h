@@ -52,7 +52,8 @@ inline void finish(const StencilFace& face, StencilOp op, const Mask& chosen, co
 }
 
 // One face's test for the lanes in `subject`; `survivors` gathers who passes stencil and depth. Answers how many fail.
-inline int test_face(const StencilFace& face, const Mask& subject, const StencilLanes& lanes, Mask& survivors) noexcept {
+inline int test_face(const StencilFace& face, const Mask& subject, const StencilLanes& lanes,
+                     Mask& survivors) noexcept {
     const auto count = static_cast<std::size_t>(lanes.count);
     const std::uint32_t* const depth_pass = lanes.depth_pass;
     Mask passed, fail, depth_fail, pass;

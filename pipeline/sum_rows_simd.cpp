@@ -3,7 +3,6 @@
 #define HWY_TARGET_INCLUDE "pipeline/sum_rows_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "pipeline/color_planes-inl.h"
 #include "pipeline/sum_rows.h"
 
@@ -119,9 +118,9 @@ struct SumOf {
             const auto v = raster::plane_at(filter_, b);
             auto unsure = hn::Zero(U32{});
             V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
-            if constexpr (!unsnapped)
-                z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, row);
-            return raster::nearer(raster::codes(z, to_code_), hn::LoadU(U32{}, planes_.opaque + row.pixel), to_code_.is_fixed);
+            if constexpr (!unsnapped) z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, row);
+            return raster::nearer(raster::codes(z, to_code_), hn::LoadU(U32{}, planes_.opaque + row.pixel),
+                                  to_code_.is_fixed);
         }
 
         SumState& state_;
@@ -136,8 +135,8 @@ struct SumOf {
 };
 
 template <bool is_tested, bool flushes>
-void add_all(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles, const rasterizer::Rect& region,
-             SumState& state) {
+void add_all(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
+             const rasterizer::Rect& region, SumState& state) {
     raster::RowWalk<SumOf<is_tested, flushes>::template Shade, SumState>{state, geometry, region}.draw(triangles);
 }
 
@@ -149,8 +148,8 @@ void add_all(const rasterizer::Geometry&, std::span<const std::uint32_t>, const 
 #endif
 
 rasterizer::DepthDrawn add_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
-                                const rasterizer::Rect& region, const rasterizer::DepthConversion& to_code, double units,
-                                const SumPlanes& planes, bool flushes) {
+                                const rasterizer::Rect& region, const rasterizer::DepthConversion& to_code,
+                                double units, const SumPlanes& planes, bool flushes) {
     SumState state{planes, to_code, units};
     if (planes.opaque == nullptr && flushes) add_all<false, true>(geometry, triangles, region, state);
     if (planes.opaque == nullptr && !flushes) add_all<false, false>(geometry, triangles, region, state);

@@ -11,8 +11,13 @@ namespace strata::pipeline {
 
 struct Surface::State {
     State(const DeviceProfile& p, const SurfaceLayout& l)
-        : profile{p}, layout{l}, list{empty(l)}, frame{make_frame(p, l, list)},
-          region{frame, frame.rect(), 0, Extent::frame}, color{region.make(l.color)}, depth{region.make_depth()},
+        : profile{p},
+          layout{l},
+          list{empty(l)},
+          frame{make_frame(p, l, list)},
+          region{frame, frame.rect(), 0, Extent::frame},
+          color{region.make(l.color)},
+          depth{region.make_depth()},
           stencil{region.make(Format::s8)} {}
 
     static PreparedDraw empty(const SurfaceLayout& layout) {

@@ -30,7 +30,7 @@ struct DrawState {
     StencilTest stencil{};
     DepthTest depth{};
     Blend blend{};
-    std::uint8_t color_mask = 0xf;            // bit 0 r, 1 g, 2 b, 3 a
+    std::uint8_t color_mask = 0xf;                  // bit 0 r, 1 g, 2 b, 3 a
     std::optional<rasterizer::Rect> window_clip{};  // half-open, like every Rect
     rasterizer::CullFace cull = rasterizer::CullFace::none;
     rasterizer::FrontFace front_face = rasterizer::FrontFace::counter_clockwise;  // as seen
@@ -61,7 +61,7 @@ class Surface {
     // occlusion query reports.
     std::uint64_t draw(const DrawState& state, rasterizer::TriangleSoup soup);
 
-    [[nodiscard]] Image color() const;    // as rgba8: what the blender would read
+    [[nodiscard]] Image color() const;  // as rgba8: what the blender would read
     [[nodiscard]] Image depth() const;
     [[nodiscard]] Image stencil() const;  // zero without a stencil buffer
 

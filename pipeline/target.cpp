@@ -22,7 +22,10 @@ Texels layout(Format format) noexcept { return {{}, info(format).channels, bits_
 }  // namespace
 
 TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels)
-    : format_{format}, samples_{samples}, pixels_{pixels}, layout_{layout(format)},
+    : format_{format},
+      samples_{samples},
+      pixels_{pixels},
+      layout_{layout(format)},
       words_(static_cast<std::size_t>(samples) * words_per_sample()) {}
 
 void TargetStorage::write_zeros() const noexcept {
@@ -61,7 +64,8 @@ void TargetStorage::fill_stencil(std::uint8_t value, unsigned sample_mask) {
 
 void TargetStorage::fill_word(std::uint32_t value, std::size_t word, unsigned sample_mask) {
     for (int sample = 0; sample < samples_; ++sample)
-        if ((sample_mask >> sample & 1u) != 0) std::fill_n(texels(sample).plane(word).words, pixels_ + spare_words, value);
+        if ((sample_mask >> sample & 1u) != 0)
+            std::fill_n(texels(sample).plane(word).words, pixels_ + spare_words, value);
 }
 
 }  // namespace strata::pipeline

@@ -30,7 +30,8 @@ struct ClearValue {
     std::uint8_t stencil = 0;
 };
 
-using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;  // per channel: u8 codes, half bits or binary32 bits, zero-extended
+using ColorCodes =
+    std::array<Lanes<std::uint32_t>, 4>;  // per channel: u8 codes, half bits or binary32 bits, zero-extended
 using ColorLanes = std::array<Lanes<float>, 4>;
 
 // Planes of 32-bit words, row-major: so that any pixels of a batch are fetched and put back by vector, whatever the
@@ -53,13 +54,15 @@ class TargetStorage {
     // As add_halves of lane_words.h; of an fp16 target.
     [[nodiscard]] bool add(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
                            const ColorLanes& source, bool flushes) {
-        return add_halves(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, alive.data(), source.data(), flushes);
+        return add_halves(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, alive.data(), source.data(),
+                          flushes);
     }
 
     [[nodiscard]] Texels texels(int sample) const noexcept {
         if (!has_words_) write_zeros();
         Texels result = layout_;
-        result.first = {const_cast<std::uint32_t*>(words_.data()) + static_cast<std::size_t>(sample) * words_per_sample(), pixels_};
+        result.first = {
+            const_cast<std::uint32_t*>(words_.data()) + static_cast<std::size_t>(sample) * words_per_sample(), pixels_};
         return result;
     }
     [[nodiscard]] Plane depth_plane(int sample) noexcept { return texels(sample).plane(0); }

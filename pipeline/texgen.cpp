@@ -72,7 +72,8 @@ VertexCoordinates::VertexCoordinates(const CoordinateUnits& units, const View& v
         const Matrix planes = planes_of(unit, modelview), texture = in_depth_units(unit, unit.matrix);
         const Matrix whole = all ? in_depth_units(unit, product(unit.matrix, planes)) : planes;
         units_.push_back({unit.enabled, all, generated,
-                          VertexTransform{view.vertex_path, whole, all ? texture : identity, planes}, to_binary32(texture)});
+                          VertexTransform{view.vertex_path, whole, all ? texture : identity, planes},
+                          to_binary32(texture)});
     }
 }
 

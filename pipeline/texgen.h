@@ -65,7 +65,7 @@ class VertexCoordinates {
     struct Unit {
         bool enabled = false, all_generated = false;
         std::array<bool, 4> generated{};
-        VertexTransform of_position;            // all generated: matrix . planes . modelview; else planes . modelview
+        VertexTransform of_position;             // all generated: matrix . planes . modelview; else planes . modelview
         std::array<float, 16> of_coordinates{};  // the texture matrix, where some coordinate is given
     };
     std::vector<Unit> units_;

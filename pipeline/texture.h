@@ -6,7 +6,10 @@
 
 namespace strata::pipeline {
 
-enum class TextureTarget : std::uint8_t { two_d, rectangle };  // rectangle: unnormalised coordinates (NV_texture_rectangle)
+enum class TextureTarget : std::uint8_t {
+    two_d,
+    rectangle
+};  // rectangle: unnormalised coordinates (NV_texture_rectangle)
 enum class TextureFilter : std::uint8_t { nearest, linear };
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 

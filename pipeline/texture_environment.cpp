@@ -89,7 +89,8 @@ struct Sources {
 }
 
 [[nodiscard]] CombinerPortion combined(const CombineState& state, const Sources& s) {
-    const Input a = argument(state.argument[0], s), b = argument(state.argument[1], s), c = argument(state.argument[2], s);
+    const Input a = argument(state.argument[0], s), b = argument(state.argument[1], s),
+                c = argument(state.argument[2], s);
     const Input not_c{c.source, c.mapping == Map::unsigned_invert ? Map::unsigned_identity : Map::unsigned_invert,
                       c.component};
     constexpr Input minus_one{Reg::zero, Map::expand_normal};  // 2 * 0 - 1

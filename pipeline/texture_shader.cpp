@@ -56,9 +56,9 @@ void look_up(const HiloTexture& texture, const DeviceProfile& profile, const Lan
     nearest_texels({texture.target, texture.wrap_s, texture.width}, snap, s, column, static_cast<int>(count));
     nearest_texels({texture.target, texture.wrap_t, texture.height}, snap, t, row, static_cast<int>(count));
     for (std::size_t i = 0; i < count; ++i) {
-        const auto [high, low] = texture.texels[static_cast<std::size_t>(row.first[i]) *
-                                                    static_cast<std::size_t>(texture.width) +
-                                                static_cast<std::size_t>(column.first[i])];
+        const auto [high, low] =
+            texture.texels[static_cast<std::size_t>(row.first[i]) * static_cast<std::size_t>(texture.width) +
+                           static_cast<std::size_t>(column.first[i])];
         const float x = hilo_component(high, texture.is_signed), y = hilo_component(low, texture.is_signed);
         const float rest = (1.0f - x * x) - y * y;
         own.xyz[0][i] = x;
@@ -77,8 +77,7 @@ void look_up(const StageRun& run, const Lanes<float>& s, const Lanes<float>& t) 
         sample(*texture.color, profile.texture_filter, s, t, own.rgba, static_cast<int>(run.count));
     } else {
         Lanes<float> r{};
-        if (texture.reference == CompareReference::r_over_q)
-            divide(run, 2, r);
+        if (texture.reference == CompareReference::r_over_q) divide(run, 2, r);
         shadow_compare(run.machine.texels[run.number], texture.compare, profile, {s, t, r}, own.rgba,
                        static_cast<int>(run.count));
     }
@@ -137,8 +136,7 @@ struct DepthRule {
     double least, greatest, units, half;
     bool is_float, clamps;
 
-    explicit DepthRule(const ShaderMachine& m)
-        : is_float{m.depth.format == DepthFormat::d32f}, clamps{m.depth_clamp} {
+    explicit DepthRule(const ShaderMachine& m) : is_float{m.depth.format == DepthFormat::d32f}, clamps{m.depth_clamp} {
         const rasterizer::RasterRules& rules = m.profile->raster;
         const bool scaled = rules.window_z == rasterizer::WindowZ::buffer_units && !is_float;
         const double max = is_float ? 1.0 : rasterizer::max_code(m.depth.format), range = scaled ? max : 1.0;
@@ -177,7 +175,10 @@ void run_stage(const StageRun& run, ShaderOp op) {
         case ShaderOp::dot_product: dot(run); return clear(run.own().rgba, run.count);
         case ShaderOp::dot_product_texture_2d:
         case ShaderOp::dot_product_texture_rectangle: dot(run); return look_up(run, run.before().dot, run.own().dot);
-        case ShaderOp::dot_product_depth_replace: dot(run); replace_depth(run); return clear(run.own().rgba, run.count);
+        case ShaderOp::dot_product_depth_replace:
+            dot(run);
+            replace_depth(run);
+            return clear(run.own().rgba, run.count);
     }
 }
 

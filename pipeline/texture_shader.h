@@ -24,8 +24,15 @@
 namespace strata::pipeline {
 
 enum class ShaderOp : std::uint8_t {
-    none, texture_2d, texture_rectangle, pass_through, cull_fragment,
-    dot_product, dot_product_texture_2d, dot_product_texture_rectangle, dot_product_depth_replace
+    none,
+    texture_2d,
+    texture_rectangle,
+    pass_through,
+    cull_fragment,
+    dot_product,
+    dot_product_texture_2d,
+    dot_product_texture_rectangle,
+    dot_product_depth_replace
 };
 
 // A coordinate's test in CULL_FRAGMENT: the fragment dies if any of the four fails. 0 and -0 are not negative; NaN fails both.
@@ -92,8 +99,8 @@ struct ShaderMachine {
 
 // What one stage hands on.
 struct StageResult {
-    ColorLanes rgba;                             // the texture's colour, for the combiners
-    std::array<rasterizer::Lanes<float>, 3> xyz; // what a dot product multiplies with
+    ColorLanes rgba;                              // the texture's colour, for the combiners
+    std::array<rasterizer::Lanes<float>, 3> xyz;  // what a dot product multiplies with
     rasterizer::Lanes<float> dot;
 };
 

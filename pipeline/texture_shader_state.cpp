@@ -24,7 +24,7 @@ bool is_lookup(ShaderOp op) {
 
 TextureTarget target_of(ShaderOp op) {
     return op == ShaderOp::texture_2d || op == ShaderOp::dot_product_texture_2d ? TextureTarget::two_d
-                                                                               : TextureTarget::rectangle;
+                                                                                : TextureTarget::rectangle;
 }
 
 Result result_of(ShaderOp op) {

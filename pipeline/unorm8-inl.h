@@ -4,7 +4,6 @@
 // Rule     unorm8_value and to_unorm8 of unorm8.h, to the bit; `Words` is a tag of 32-bit words.
 // Tests    tests/pipeline/unorm8_test.cpp: every code, and values at and beside every boundary; tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
-
 #include "pipeline/unorm8.h"
 
 #if defined(STRATA_PIPELINE_UNORM8_INL_H) == defined(HWY_TARGET_TOGGLE)

@@ -17,7 +17,8 @@ struct VertexLanes {
 struct VertexKernels {
     // By VertexPath::separate; `m` column-major.
     void (*transform)(const std::array<float, 16>& m, const Vec3* positions, VertexLanes& out) noexcept;
-    void (*light)(const std::array<float, 9>& m, const Vec3& toward_eye, const Vec3* normals, VertexLanes& out) noexcept;
+    void (*light)(const std::array<float, 9>& m, const Vec3& toward_eye, const Vec3* normals,
+                  VertexLanes& out) noexcept;
 };
 
 // Those of the chosen set; null for scalar.

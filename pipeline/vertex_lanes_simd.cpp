@@ -3,7 +3,6 @@
 #define HWY_TARGET_INCLUDE "pipeline/vertex_lanes_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
-
 #include "pipeline/vertex_lanes.h"
 #include "rasterizer/simd.h"
 
@@ -25,7 +24,8 @@ void transform(const std::array<float, 16>& m, const Vec3* positions, VertexLane
         V x, y, z;
         hn::LoadInterleaved3(F{}, positions[i].data(), x, y, z);
         for (std::size_t r = 0; r < 4; ++r)
-            hn::Store(hn::Add(sum_of_three(x, m[r], y, m[4 + r], z, m[8 + r]), set(m[12 + r])), F{}, &out.position[r][i]);
+            hn::Store(hn::Add(sum_of_three(x, m[r], y, m[4 + r], z, m[8 + r]), set(m[12 + r])), F{},
+                      &out.position[r][i]);
     }
 }
 
@@ -56,7 +56,9 @@ HWY_AFTER_NAMESPACE();
 namespace strata::pipeline {
 HWY_EXPORT(vertex_table);
 
-const VertexKernels* vertex_kernels() noexcept { return simd_is_scalar() ? nullptr : HWY_DYNAMIC_DISPATCH(vertex_table)(); }
+const VertexKernels* vertex_kernels() noexcept {
+    return simd_is_scalar() ? nullptr : HWY_DYNAMIC_DISPATCH(vertex_table)();
+}
 
 }  // namespace strata::pipeline
 #endif

@@ -32,10 +32,12 @@ Vec3 light_direction(const Matrix& view) {
 
 }  // namespace
 
-VertexStage::VertexStage(const Mesh& mesh, const Material& material, const View& view, const Matrix& model, float alpha_scale)
+VertexStage::VertexStage(const Mesh& mesh, const Material& material, const View& view, const Matrix& model,
+                         float alpha_scale)
     : mesh_{mesh},
       material_{material},
-      clip_{view.vertex_path, product(product(view.projection, view.view), model), view.projection, product(view.view, model)},
+      clip_{view.vertex_path, product(product(view.projection, view.view), model), view.projection,
+            product(view.view, model)},
       normal_{normal_matrix(model)},
       light_{light_direction(view.view)},
       alpha_scale_{alpha_scale},

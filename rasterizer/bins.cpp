@@ -135,9 +135,8 @@ void bin_triangles(Geometry& geometry, int tile_size, int threads) {
     geometry.bin_triangles.resize(geometry.bin_start[tiles]);
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* next) {
         for (std::size_t i = begin; i < end; ++i)
-            walk.visit(geometry.triangles[i], [&](std::size_t tile) {
-                geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i);
-            });
+            walk.visit(geometry.triangles[i],
+                       [&](std::size_t tile) { geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i); });
     });
 }
 

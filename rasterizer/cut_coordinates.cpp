@@ -36,7 +36,8 @@ struct CutSum {
 
     [[nodiscard]] double at(const OuterWeights& b) const noexcept {
         const double p0 = b.b0 * first, p2 = b.b2 * last;
-        const int k = std::max({exponent_of(middle), exponent_of(b.b0) + exponent_of(first), exponent_of(b.b2) + exponent_of(last)});
+        const int k = std::max(
+            {exponent_of(middle), exponent_of(b.b0) + exponent_of(first), exponent_of(b.b2) + exponent_of(last)});
         if (k < -400 || k > 400) return (middle + p0) + p2;  // 0, infinities and NaN
         const double unit = power_of_two(k - 23), units = power_of_two(23 - k);
         const auto cut = [units](double v) { return static_cast<double>(static_cast<std::int64_t>(v * units)); };

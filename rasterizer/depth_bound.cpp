@@ -9,7 +9,8 @@ namespace strata::rasterizer {
 namespace {
 
 // |dz/dx| + |dz/dy| over the unsnapped positions, per pixel. Without an area there the plane is the snapped one.
-[[nodiscard]] double steepness(const Geometry& geometry, const TriangleRecord& triangle, const std::array<double, 3>& z) {
+[[nodiscard]] double steepness(const Geometry& geometry, const TriangleRecord& triangle,
+                               const std::array<double, 3>& z) {
     const auto at = [&](std::size_t i) { return geometry.corners[triangle.vertex[i]].unsnapped; };
     const auto [x0, y0] = at(0);
     const double x1 = double{at(1)[0]} - x0, y1 = double{at(1)[1]} - y0;
@@ -23,7 +24,9 @@ namespace {
 }  // namespace
 
 double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
-    const auto larger = [](double a, double b) { return a > b ? a : b; };  // without a branch, as std::max of a list is not
+    const auto larger = [](double a, double b) {
+        return a > b ? a : b;
+    };  // without a branch, as std::max of a list is not
     double greatest = -std::numeric_limits<double>::infinity(), size = 0.0;
     const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
     const double beyond = geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
@@ -32,7 +35,8 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
         const std::uint32_t i = triangles[k];
         if (k + 2 * ahead < triangles.size()) {
             __builtin_prefetch(&geometry.triangles[triangles[k + 2 * ahead]]);
-            for (const std::uint32_t v : geometry.triangles[triangles[k + ahead]].vertex) __builtin_prefetch(&geometry.corners[v]);
+            for (const std::uint32_t v : geometry.triangles[triangles[k + ahead]].vertex)
+                __builtin_prefetch(&geometry.corners[v]);
         }
         const std::array<double, 3> z = geometry.depths(i);
         double most = larger(larger(z[0], z[1]), z[2]);

@@ -50,9 +50,10 @@ struct FragmentNeeds {
     UnitMask units = 0;
     friend bool operator==(const FragmentNeeds&, const FragmentNeeds&) = default;
     [[nodiscard]] friend constexpr FragmentNeeds operator|(FragmentNeeds a, FragmentNeeds b) noexcept {
-        return {a.shader_z || b.shader_z, a.code || b.code,         a.exact_code || b.exact_code,
-                a.color || b.color,       a.texcoord || b.texcoord, a.facing || b.facing,
-                a.reference || b.reference, static_cast<UnitMask>(a.units | b.units)};
+        return {a.shader_z || b.shader_z,     a.code || b.code,
+                a.exact_code || b.exact_code, a.color || b.color,
+                a.texcoord || b.texcoord,     a.facing || b.facing,
+                a.reference || b.reference,   static_cast<UnitMask>(a.units | b.units)};
     }
 };
 

@@ -61,7 +61,8 @@ void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, cons
                         int first, FragmentBatch& batch) noexcept {
     std::array<std::array<std::int32_t, 3>, color_channels> codes{};
     for (std::size_t c = 0; c < color_channels; ++c)
-        for (std::size_t i = 0; i < 3; ++i) codes[c][i] = to_color_code(t.attribute[i][c], hypothesis.vertex_color_bits);
+        for (std::size_t i = 0; i < 3; ++i)
+            codes[c][i] = to_color_code(t.attribute[i][c], hypothesis.vertex_color_bits);
     const ColorWeights weights{t.inverse_w, lanes.edges->area(), hypothesis.perspective_color};
     for (int i = 0; i < lanes.count; ++i) {
         const std::array<std::int32_t, 3> w = weights.at(lanes.edge_values(i));
@@ -138,10 +139,8 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
     }
     const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
     if (plane.is_constant()) return false;
-    const DepthLanes out{to_code(),
-                         needs_.shader_z ? &batch.shader_z[f] : nullptr,
-                         needs_.code ? &batch.code[f] : nullptr,
-                         needs_attributes_ ? &weights.b1[f] : nullptr,
+    const DepthLanes out{to_code(), needs_.shader_z ? &batch.shader_z[f] : nullptr,
+                         needs_.code ? &batch.code[f] : nullptr, needs_attributes_ ? &weights.b1[f] : nullptr,
                          needs_attributes_ ? &weights.b2[f] : nullptr};
     return !kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.is_exact()}, &batch.x[f], &batch.y[f],
                            batch.count - first, out);
@@ -198,7 +197,8 @@ int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const Tri
     if (depth_.format == DepthFormat::d16f && by_chip) {  // [M] Depth_buffer: every word of four captures
         const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
         for (int i = 0; i < lanes.count; ++i)
-            out[i] = std::clamp(to_d16f_code(cut_to_binary32(rule.value(lanes.edge_values(i)))), least_code_, greatest_code_);
+            out[i] = std::clamp(to_d16f_code(cut_to_binary32(rule.value(lanes.edge_values(i)))), least_code_,
+                                greatest_code_);
         return 0;
     }
     if (depth_.format == DepthFormat::d16f) {

@@ -118,8 +118,8 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
 
 Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads) {
     const FloatEnvironment ours;
-    assert(soup.extras.values.size() == soup.extras.stride * soup.vertices.size() &&
-           soup.extras.stride <= max_extras && "extras are those of the soup's vertices");
+    assert(soup.extras.values.size() == soup.extras.stride * soup.vertices.size() && soup.extras.stride <= max_extras &&
+           "extras are those of the soup's vertices");
     assert(std::max(state.viewport.width(), state.viewport.height()) <= 0xffff && "a PixelBox holds the viewport");
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
     for_chunks(soup.vertices.size(), threads,
@@ -138,7 +138,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
         }
         chunks[c] = std::move(chunk);
     });
-   Geometry geometry;
+    Geometry geometry;
     geometry.state = state;
     geometry.rules = rules;
     geometry.vertices = std::move(soup.vertices);

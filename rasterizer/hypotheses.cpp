@@ -24,8 +24,10 @@ void vary_quotients(List& list) {
     list.vary(subject, "interpolant_bits", &DepthHypothesis::interpolant_bits, 16, 24);
     list.vary(subject, "interpolant_bits=double", [](RasterRules& r) { r.hypothesis.interpolant_bits = full_double; });
     list.vary(subject, "divide=exact", [](RasterRules& r) { r.hypothesis.divide = DivideRule::exact; });
-    list.vary(subject, "divide=cut_reciprocal", [](RasterRules& r) { r.hypothesis.divide = DivideRule::cut_reciprocal; });
-    list.vary(subject, "divide=low_reciprocal", [](RasterRules& r) { r.hypothesis.divide = DivideRule::low_reciprocal; });
+    list.vary(subject, "divide=cut_reciprocal",
+              [](RasterRules& r) { r.hypothesis.divide = DivideRule::cut_reciprocal; });
+    list.vary(subject, "divide=low_reciprocal",
+              [](RasterRules& r) { r.hypothesis.divide = DivideRule::low_reciprocal; });
 }
 
 void vary_window_depth(List& list) {

@@ -16,7 +16,7 @@ enum class Subject : std::uint8_t {
     window_depth,   // depths that are written
     texture_depth,  // depths made of r and q: replaced, or compared with a texel
     color,
-    coordinates     // of textures
+    coordinates  // of textures
 };
 
 struct NamedHypothesis {

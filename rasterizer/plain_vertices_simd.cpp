@@ -4,8 +4,8 @@
 #include "hwy/foreach_target.h"  // compiles this file once a target
 #include "hwy/highway.h"
 #include "rasterizer/clip.h"
-#include "rasterizer/simd.h"
 #include "rasterizer/plain_vertices.h"
+#include "rasterizer/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::rasterizer::HWY_NAMESPACE {
@@ -18,8 +18,8 @@ using VF = hn::Vec<F>;
 constexpr std::size_t lanes = hn::MaxLanes(F{});
 
 constexpr int components = sizeof(ClipVertex) / sizeof(float), first_attribute = 4;
-alignas(64) constexpr std::int32_t component_of[plain_vertex_count] = {
-    0,  14,  28,  42,  56,  70,  84,  98,  112, 126, 140, 154, 168, 182, 196, 210};
+alignas(64) constexpr std::int32_t component_of[plain_vertex_count] = {0,   14,  28,  42,  56,  70,  84,  98,
+                                                                       112, 126, 140, 154, 168, 182, 196, 210};
 static_assert(component_of[1] == components);
 
 // The greatest magnitude yet, as bits: infinities and NaN are the greatest.
@@ -27,7 +27,9 @@ class Magnitude {
   public:
     HWY_INLINE Magnitude() : greatest_{hn::Zero(I{})} {}
     HWY_INLINE void add(VF v) { greatest_ = hn::Max(greatest_, hn::BitCast(I{}, hn::Abs(v))); }
-    HWY_INLINE hn::Mask<F> is_finite() const { return hn::RebindMask(F{}, hn::Lt(greatest_, hn::Set(I{}, 0x7f800000))); }
+    HWY_INLINE hn::Mask<F> is_finite() const {
+        return hn::RebindMask(F{}, hn::Lt(greatest_, hn::Set(I{}, 0x7f800000)));
+    }
 
   private:
     hn::Vec<I> greatest_;
@@ -60,7 +62,8 @@ struct CornerLanes {
 
 HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vertices, CornerLanes& out) {
     const F d;
-    const auto component = [&](int c) HWY_ATTR { return hn::GatherIndex(d, vertices + c, hn::Load(I{}, component_of)); };
+    const auto component = [&](int c)
+                               HWY_ATTR { return hn::GatherIndex(d, vertices + c, hn::Load(I{}, component_of)); };
     const VF p[4] = {component(0), component(1), component(2), component(3)};
     const VF inverse_w = hn::Div(hn::Set(d, 1.0f), p[3]), guard = hn::Set(d, r.guard);
     Magnitude magnitude;
@@ -90,7 +93,8 @@ std::uint32_t set_up(const PlainVertexRules& rules, const ClipVertex* vertices, 
         hn::StoreMaskBits(F{}, set_up_lanes(rules, &vertices[first].x, own), bits);
         plain |= (static_cast<std::uint32_t>(bits[1]) << 8 | bits[0]) << first;
         for (std::size_t i = 0; i < lanes; ++i)
-            corners[first + i] = {{own.x[i], own.y[i]}, {own.unsnapped_x[i], own.unsnapped_y[i]}, own.z[i], own.inverse_w[i]};
+            corners[first + i] = {
+                {own.x[i], own.y[i]}, {own.unsnapped_x[i], own.unsnapped_y[i]}, own.z[i], own.inverse_w[i]};
     }
     return plain;
 }

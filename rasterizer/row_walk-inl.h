@@ -103,7 +103,9 @@ class TermTable {
 };
 
 template <class Shade>
-concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b) { shade(at, b); };
+concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b) {
+    shade(at, b);
+};
 
 template <template <bool> class Shade, class State>
 class RowWalk {
@@ -141,11 +143,15 @@ class RowWalk {
         const DrawnTriangle triangle{geometry_, index, group_, k};
         const bool unsnapped = triangle.weights.kind == PixelWeights::Kind::unsnapped;
         if constexpr (takes_pixels<Shade<true>>) {
-            if (unsnapped) draw_pixels<true>(coverage, triangle, k);
-            else draw_pixels<false>(coverage, triangle, k);
+            if (unsnapped)
+                draw_pixels<true>(coverage, triangle, k);
+            else
+                draw_pixels<false>(coverage, triangle, k);
         } else {
-            if (unsnapped) draw_bits<true, widest>(coverage, triangle, k);
-            else draw_bits<false, widest>(coverage, triangle, k);
+            if (unsnapped)
+                draw_bits<true, widest>(coverage, triangle, k);
+            else
+                draw_bits<false, widest>(coverage, triangle, k);
         }
     }
 
@@ -169,7 +175,8 @@ class RowWalk {
             const Pixels at{hn::Add(first, hn::Add(column, hn::Mul(row, width))),
                             hn::Add(hn::BitCast(di, column), hn::Set(di, x0)),
                             hn::Add(hn::BitCast(di, row), hn::Set(di, y0)), hn::RebindMask(F32{}, covered)};
-            shade(at, weights.at(weights.column_terms(hn::PromoteTo(F64{}, at.x)), weights.row_terms(hn::PromoteTo(F64{}, at.y))));
+            shade(at, weights.at(weights.column_terms(hn::PromoteTo(F64{}, at.x)),
+                                 weights.row_terms(hn::PromoteTo(F64{}, at.y))));
         }
         shade.finish(count);
     }

@@ -54,7 +54,7 @@ struct RasterRules {
     DepthRounding depth_rounding = DepthRounding::nearest;
     OffsetUnit offset_unit = OffsetUnit::format;
     ColorInterpolation color = ColorInterpolation::exact_plane;
-    DepthHypothesis hypothesis{};              // what is assumed of the depth paths
+    DepthHypothesis hypothesis{};             // what is assumed of the depth paths
     InterpolationHypothesis interpolation{};  // and of colours and texture coordinates
     friend bool operator==(const RasterRules&, const RasterRules&) = default;
 };

@@ -40,7 +40,8 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       clipper_{state, rules},
       window_{state, rules},
       plain_rules_{window_.plain_rules(state.clip_depth)},
-      set_up_plain_{clipper_.holds_view_volume() && extras.stride == 0 && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
+      set_up_plain_{clipper_.holds_view_volume() && extras.stride == 0 && plain_rules_ ? rasterizer::set_up_plain()
+                                                                                       : nullptr},
       vertices_{vertices},
       extras_{extras},
       corners_(vertices.size()),
@@ -106,7 +107,8 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
     const Rect box = intersection(centre_box(p, rules_.subpixel_bits), state_.viewport);
     if (box.area() == 0) return Fate::outside;
-    out.triangles.push_back({piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front});
+    out.triangles.push_back(
+        {piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front});
     if (state_.polygon_offset.enabled) {
         const std::array z{a->z, b->z, c->z};
         const double offset = polygon_offset(p, z, state_, rules_);

@@ -30,7 +30,8 @@ std::atomic<Simd>& chosen() noexcept {
 }  // namespace
 
 std::vector<Simd> available_simd() {
-    static const std::int64_t machine = hwy::SupportedTargets() & HWY_TARGETS;  // before any choice narrows what Highway sees
+    static const std::int64_t machine =
+        hwy::SupportedTargets() & HWY_TARGETS;  // before any choice narrows what Highway sees
     std::vector<Simd> all{Simd::scalar};
     for (const Simd simd : {Simd::sse4, Simd::avx2, Simd::avx512})
         if ((machine & target_of(simd)) != 0) all.push_back(simd);

@@ -48,10 +48,14 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
             if (!names(needs_.units, u, c)) continue;
             float* const out = &batch.unit[u][c][static_cast<std::size_t>(first)];
             const Corners value{v[0][4 * u + c], v[1][4 * u + c], v[2][4 * u + c]};
-            if (cut) cut_coordinates(value, own, out);
-            else if (!is_plain) fallbacks += interpolate(value, w, own, h, out);
-            else if (is_constant(value)) varying.add(value[0], out);
-            else varying.add({{value[0] * w[0], value[1] * w[1], value[2] * w[2]}}, out);  // products in binary32
+            if (cut)
+                cut_coordinates(value, own, out);
+            else if (!is_plain)
+                fallbacks += interpolate(value, w, own, h, out);
+            else if (is_constant(value))
+                varying.add(value[0], out);
+            else
+                varying.add({{value[0] * w[0], value[1] * w[1], value[2] * w[2]}}, out);  // products in binary32
         }
         if (varying.count + varying.constant_count > 0) fallbacks += fill_varying(varying, own);
     }

@@ -76,8 +76,7 @@ struct Dyadic {
 class WindowZ24 {
   public:
     WindowZ24(const std::array<double, 3>& z, std::int64_t area, const DepthHypothesis& hypothesis = {}) noexcept
-        : reciprocal_{static_cast<std::uint64_t>(area), hypothesis.reciprocal_bits},
-          sum_bits_{hypothesis.sum_bits} {
+        : reciprocal_{static_cast<std::uint64_t>(area), hypothesis.reciprocal_bits}, sum_bits_{hypothesis.sum_bits} {
         for (std::size_t i = 0; i < 3; ++i) z_[i] = static_cast<float>(z[i]);
         for (std::size_t i = 0; i < 3; ++i) {
             const Dyadic d = as_dyadic(z_[i]);

@@ -116,7 +116,8 @@ LookAt parse_look_at(const Place& camera) {
     if (!(result.near > 0)) camera["near"].fail("a distance above 0");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
     if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
-    if (!(squared_sine(result.center - result.eye, result.up) > 1e-24)) camera["up"].fail("a direction across the line of sight");
+    if (!(squared_sine(result.center - result.eye, result.up) > 1e-24))
+        camera["up"].fail("a direction across the line of sight");
     return result;
 }
 

@@ -83,9 +83,11 @@ const std::vector<ProceduralScene>& procedural_scenes() {
         {"random", "seed=S,triangles=N",
          "triangle soup with exact ties for tests (0 to 10000000, default 1000; seed default 1)"},
         {"planes", "count=N,gap=G,cells=C",
-         "N parallel planes, G / 2^20 apart, each cut into a grid of its own (1 to 64, default 6; 0 to 1048576, default "
+         "N parallel planes, G / 2^20 apart, each cut into a grid of its own (1 to 64, default 6; 0 to 1048576, "
+         "default "
          "65536; 1 to 256, default 8)"},
-        {"shadow-demo", "", "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
+        {"shadow-demo", "",
+         "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
     };
     return scenes;
 }

@@ -17,9 +17,15 @@ pipeline::Mesh quad(const char* name, const std::array<pipeline::Vec3, 4>& corne
     return mesh;
 }
 
-pipeline::Material material(const char* name, pipeline::Rgba color, pipeline::AlphaMode mode, const SceneOptions& options) {
+pipeline::Material material(const char* name, pipeline::Rgba color, pipeline::AlphaMode mode,
+                            const SceneOptions& options) {
     const pipeline::Rgba encoded = from_encoded(color, options.color_space);
-    return {.name = name, .front = encoded, .back = encoded, .alpha_mode = mode, .double_sided = true, .unlit = !options.light};
+    return {.name = name,
+            .front = encoded,
+            .back = encoded,
+            .alpha_mode = mode,
+            .double_sided = true,
+            .unlit = !options.light};
 }
 
 }  // namespace
@@ -28,11 +34,12 @@ Scene make_shadow_demo(const SceneOptions& options) {
     using pipeline::AlphaMode;
     Scene scene;
     scene.name = "shadow-demo";
-    scene.list.meshes = {std::move(make_teapot(options, 16).list.meshes[0]),
-                         quad("ground", {{{-4.3f, -0.01f, 4.5f}, {4.7f, -0.01f, 4.5f}, {4.7f, -0.01f, -4.5f}, {-4.3f, -0.01f, -4.5f}}},
-                              {0, 1, 0}),
-                         quad("pane", {{{2.2f, 0.0f, 3.4f}, {4.2f, 0.0f, 0.6f}, {4.2f, 2.2f, 0.6f}, {2.2f, 2.2f, 3.4f}}},
-                              {0.814f, 0, 0.581f})};
+    scene.list.meshes = {
+        std::move(make_teapot(options, 16).list.meshes[0]),
+        quad("ground", {{{-4.3f, -0.01f, 4.5f}, {4.7f, -0.01f, 4.5f}, {4.7f, -0.01f, -4.5f}, {-4.3f, -0.01f, -4.5f}}},
+             {0, 1, 0}),
+        quad("pane", {{{2.2f, 0.0f, 3.4f}, {4.2f, 0.0f, 0.6f}, {4.2f, 2.2f, 0.6f}, {2.2f, 2.2f, 3.4f}}},
+             {0.814f, 0, 0.581f})};
     scene.list.materials = {material("teapot", {0.85f, 0.35f, 0.15f, 1}, AlphaMode::opaque, options),
                             material("ground", {0.75f, 0.75f, 0.7f, 1}, AlphaMode::opaque, options),
                             material("pane", {0.2f, 0.5f, 0.9f, 0.4f}, AlphaMode::blend, options)};

@@ -10,7 +10,9 @@ inline namespace strict {
 
 using Vector = glm::dvec3;
 
-[[nodiscard]] inline double dot(const Vector& a, const Vector& b) noexcept { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+[[nodiscard]] inline double dot(const Vector& a, const Vector& b) noexcept {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
 
 [[nodiscard]] inline Vector cross(const Vector& a, const Vector& b) noexcept {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

@@ -78,7 +78,8 @@ Scene make_volume_beam(const SceneOptions& options, int slices, BeamOrder order)
         scene.list.materials.push_back(
             {.name = name, .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = !options.light});
     }
-    scene.list.instances = {{.mesh = 0, .material = 0, .arrives_sorted = order == BeamOrder::near}, {.mesh = 1, .material = 1}};
+    scene.list.instances = {{.mesh = 0, .material = 0, .arrives_sorted = order == BeamOrder::near},
+                            {.mesh = 1, .material = 1}};
     scene.bounds = bounds_of(scene.list);
     return scene;
 }

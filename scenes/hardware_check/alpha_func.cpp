@@ -11,7 +11,8 @@ using Color = std::array<float, 4>;
 // From `left` to `right` in x 64..576.
 TriangleSoup ramp(float top, const Color& left, const Color& right) {
     TriangleSoup soup;
-    add_quad(soup, {at(64, top, 0, left), at(576, top, 0, right), at(576, top + 64, 0, right), at(64, top + 64, 0, left)});
+    add_quad(soup,
+             {at(64, top, 0, left), at(576, top, 0, right), at(576, top + 64, 0, right), at(64, top + 64, 0, left)});
     return soup;
 }
 

@@ -40,7 +40,8 @@ std::uint32_t wide_word(int x, int y, int side) {
 }
 
 std::uint32_t narrow_word(int x, int y, int side) {
-    const float last = static_cast<float>(side - 1), fx = static_cast<float>(x) / last, fy = static_cast<float>(y) / last;
+    const float last = static_cast<float>(side - 1), fx = static_cast<float>(x) / last,
+                fy = static_cast<float>(y) / last;
     const float near = nearness(static_cast<float>(x), static_cast<float>(y), last / 2.0f);
     const float rising = 15.0f * fx, falling = 15.0f * (1.0f - fx);
     const std::uint32_t middle = cut(rising * (1.0f - fy) + falling * fy);
@@ -50,7 +51,8 @@ std::uint32_t narrow_word(int x, int y, int side) {
 }  // namespace
 
 pipeline::Texture radial_pattern(const TexelFormat& format, int side) {
-    return texture_of(format, side, [&](int x, int y) { return format.is_wide ? wide_word(x, y, side) : narrow_word(x, y, side); });
+    return texture_of(format, side,
+                      [&](int x, int y) { return format.is_wide ? wide_word(x, y, side) : narrow_word(x, y, side); });
 }
 
 pipeline::Texture flat_pattern(const TexelFormat& format, int side, std::uint32_t word) {

@@ -56,8 +56,10 @@ pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) 
     const bool is_16_bit = layout.format == Format::r5g6b5 || layout.format == Format::x1r5g5b5;
     for (std::size_t i = 0; i < texture.texels.size(); ++i) {
         std::uint8_t& code = texture.texels[i];
-        if (i % 4 == 3) code = texel_alpha(layout, code);
-        else if (is_16_bit) code = widened(code, layout.format == Format::r5g6b5 && i % 4 == 1 ? 6 : 5);
+        if (i % 4 == 3)
+            code = texel_alpha(layout, code);
+        else if (is_16_bit)
+            code = widened(code, layout.format == Format::r5g6b5 && i % 4 == 1 ? 6 : 5);
     }
     return texture;
 }
@@ -104,7 +106,8 @@ std::optional<BlendFactor> added_factor(std::string_view name) {
 }
 
 const Layout* find_layout(std::string_view name) {
-    const auto* const found = std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
+    const auto* const found =
+        std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
     return found == std::end(layouts) ? nullptr : found;
 }
 
@@ -117,9 +120,11 @@ Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layo
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xff555555));
     for (std::size_t k = 0; k < blended_formats.size(); ++k) {
-        pipeline::Texture shown = as_texels(patterned(profile, layout->format, {true, term, term}, blended_formats[k]), *layout);
+        pipeline::Texture shown =
+            as_texels(patterned(profile, layout->format, {true, term, term}, blended_formats[k]), *layout);
         for (std::size_t i = 3; i < shown.texels.size(); i += 4) shown.texels[i] = 255;
-        place(window, shown, 32.0f + 144.0f * static_cast<float>(k % 4), 92.0f + 144.0f * static_cast<float>(k / 4), {});
+        place(window, shown, 32.0f + 144.0f * static_cast<float>(k % 4), 92.0f + 144.0f * static_cast<float>(k / 4),
+              {});
     }
     return {Picture{.image = window.color()}, {}};
 }

@@ -16,9 +16,9 @@ using pipeline::Surface;
 constexpr Argb pale = 0x33333333, black = 0xff000000;
 constexpr std::uint8_t colors = 7, alpha = 8;
 
-constexpr std::string_view spot_factors[] = {"0",       "1",      "srcRGB",   "1-srcRGB", "srcA",
-                                             "1-srcA",  "dstA",   "1-dstA",   "dstRGB",   "1-dstRGB",
-                                             "srcAsat", "cRGB",   "1-cRGB",   "cA",       "1-cA"};
+constexpr std::string_view spot_factors[] = {"0",       "1",    "srcRGB", "1-srcRGB", "srcA",
+                                             "1-srcA",  "dstA", "1-dstA", "dstRGB",   "1-dstRGB",
+                                             "srcAsat", "cRGB", "1-cRGB", "cA",       "1-cA"};
 
 struct Square {
     float x, y, side;
@@ -91,7 +91,8 @@ pipeline::Image spot_picture(const DeviceProfile& profile, BlendEquation equatio
 }
 
 pipeline::Image detailed_picture(const DeviceProfile& profile, const Blend& state) {
-    Surface large = target(profile, 256, 256, 16), left = target(profile, 64, 256, 16), right = target(profile, 64, 256, 16);
+    Surface large = target(profile, 256, 256, 16), left = target(profile, 64, 256, 16),
+            right = target(profile, 64, 256, 16);
     alpha_stack(large, {0, 0, 256}, 24, state);
     color_stack(left, {0, 0, 64}, state);
     full_stack(right, {0, 0, 64}, state);

@@ -63,7 +63,8 @@ Picture surface_picture(const pipeline::DeviceProfile& profile, const Layout& la
                 const pipeline::PixelCode t = texel(layout, clear_words[k], mark, x, y);
                 texture.texels.insert(texture.texels.end(), t.begin(), t.end());
             }
-        place(window, texture, 48.0f + 144.0f * static_cast<float>(k % 4), 128.0f + 144.0f * static_cast<float>(k / 4), {});
+        place(window, texture, 48.0f + 144.0f * static_cast<float>(k % 4), 128.0f + 144.0f * static_cast<float>(k / 4),
+              {});
     }
     return {.image = window.color()};
 }

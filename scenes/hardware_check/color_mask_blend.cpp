@@ -13,8 +13,9 @@ using Color = std::array<float, 4>;
 TriangleSoup ramp(float left, float fade) {
     const float right = left + 71, top = 180, bottom = 300;
     TriangleSoup soup;
-    add_quad(soup, {at(left, top, 0, Color{1, 0, 0, 0.5f * fade}), at(right, top, 0, Color{0.5f, 0.5f, 0.5f, fade}),
-                    at(right, bottom, 0, Color{0, 0, 1, 0.9f * fade}), at(left, bottom, 0, Color{0, 1, 0, 0.75f * fade})});
+    add_quad(soup,
+             {at(left, top, 0, Color{1, 0, 0, 0.5f * fade}), at(right, top, 0, Color{0.5f, 0.5f, 0.5f, fade}),
+              at(right, bottom, 0, Color{0, 0, 1, 0.9f * fade}), at(left, bottom, 0, Color{0, 1, 0, 0.75f * fade})});
     return soup;
 }
 

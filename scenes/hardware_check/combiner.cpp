@@ -74,7 +74,8 @@ TriangleSoup world_quad(int number) {
         return v;
     };
     TriangleSoup soup;
-    add_quad(soup, {corner(left, top), corner(left + width, top), corner(left + width, top - height), corner(left, top - height)});
+    add_quad(soup, {corner(left, top), corner(left + width, top), corner(left + width, top - height),
+                    corner(left, top - height)});
     return soup;
 }
 
@@ -87,8 +88,9 @@ Picture mux(const pipeline::DeviceProfile& profile) {
         pipeline::CombinerSum rule;
     };
     using pipeline::CombinerSum;
-    constexpr Case cases[] = {{0x82, CombinerSum::mux_low_bit}, {0x82, CombinerSum::mux}, {0x81, CombinerSum::mux_low_bit},
-                              {0x81, CombinerSum::mux},         {0, CombinerSum::mux_low_bit}, {0, CombinerSum::mux}};
+    constexpr Case cases[] = {{0x82, CombinerSum::mux_low_bit}, {0x82, CombinerSum::mux},
+                              {0x81, CombinerSum::mux_low_bit}, {0x81, CombinerSum::mux},
+                              {0, CombinerSum::mux_low_bit},    {0, CombinerSum::mux}};
     Surface surface{profile, {}};
     surface.clear_color(unpack(dark));
     for (int k = 0; k < 6; ++k) {
@@ -97,8 +99,8 @@ Picture mux(const pipeline::DeviceProfile& profile) {
         combiners.stages[0].constant[0] = codes(0, 0, 0, cases[k].alpha);
         combiners.stages[0].alpha = {.a = constant0, .b = one, .ab = Reg::spare0};
         combiners.stages[1].constant = {codes(255, 0, 0, 255), codes(0, 0, 255, 255)};
-        combiners.stages[1].rgb = {.a = constant0, .b = one, .c = constant1, .d = one, .sum = Reg::primary_color,
-                                   .sum_rule = cases[k].rule};
+        combiners.stages[1].rgb = {
+            .a = constant0, .b = one, .c = constant1, .d = one, .sum = Reg::primary_color, .sum_rule = cases[k].rule};
         combiners.stages[1].alpha = {.a = one, .b = one, .ab = Reg::primary_color};
         draw(surface, combiners, world_quad(k));
     }
@@ -122,7 +124,8 @@ Picture flags(const pipeline::DeviceProfile& profile) {
     const CombinerPortion to_spare0{.c = constant0, .d = one, .ab = Reg::secondary_color, .cd = Reg::spare0};
     const CombinerPortion to_secondary{.c = constant0, .d = one, .ab = Reg::spare0, .cd = Reg::secondary_color};
     const CombinerInput sum{.source = Reg::spare0_plus_secondary_color};
-    const FinalCombiner halved{.a = constant0, .b = sum, .g = one, .constant = {half}}, whole{.a = one, .b = sum, .g = one};
+    const FinalCombiner halved{.a = constant0, .b = sum, .g = one, .constant = {half}},
+        whole{.a = one, .b = sum, .g = one};
     FinalCombiner clamped = halved, inverts_spare0 = whole, inverts_secondary = whole;
     clamped.clamps_color_sum = true;
     inverts_spare0.inverts_spare0 = true;
@@ -146,12 +149,10 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
         CombinerBias bias;
         CombinerScale scale;
     };
-    constexpr Operation operations[] = {{CombinerBias::none, CombinerScale::by_one},
-                                        {CombinerBias::by_negative_half, CombinerScale::by_one},
-                                        {CombinerBias::none, CombinerScale::by_two},
-                                        {CombinerBias::by_negative_half, CombinerScale::by_two},
-                                        {CombinerBias::none, CombinerScale::by_four},
-                                        {CombinerBias::none, CombinerScale::by_half}};
+    constexpr Operation operations[] = {
+        {CombinerBias::none, CombinerScale::by_one},  {CombinerBias::by_negative_half, CombinerScale::by_one},
+        {CombinerBias::none, CombinerScale::by_two},  {CombinerBias::by_negative_half, CombinerScale::by_two},
+        {CombinerBias::none, CombinerScale::by_four}, {CombinerBias::none, CombinerScale::by_half}};
     Surface surface{profile, {}};
     draw_checkerboard(surface);
     for (int k = 0; k < 6; ++k) {
@@ -172,12 +173,16 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
 // The final stage's product of E and F, and its sum of spare0 and secondary colour.
 Picture special_inputs(const pipeline::DeviceProfile& profile) {
     Combiners product;
-    product.final_stage = {.d = {.source = Reg::e_times_f}, .e = constant0, .f = constant1, .g = one,
+    product.final_stage = {.d = {.source = Reg::e_times_f},
+                           .e = constant0,
+                           .f = constant1,
+                           .g = one,
                            .constant = {codes(255, 191, 127, 255), codes(127, 127, 127, 127)}};
     Combiners sum = product;
     sum.final_stage.d = {.source = Reg::spare0_plus_secondary_color};
     sum.stages.resize(1);
-    sum.stages[0].rgb = {.a = constant0, .b = one, .c = constant1, .d = one, .ab = Reg::spare0, .cd = Reg::secondary_color};
+    sum.stages[0].rgb = {
+        .a = constant0, .b = one, .c = constant1, .d = one, .ab = Reg::spare0, .cd = Reg::secondary_color};
     sum.stages[0].constant = {codes(63, 127, 191, 0), codes(178, 127, 38, 127)};
     Combiners inverts_spare0 = sum, inverts_secondary = sum;
     inverts_spare0.final_stage.inverts_spare0 = true;

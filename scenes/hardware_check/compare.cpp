@@ -56,7 +56,8 @@ std::uint32_t their_word(const Picture& drawn, const Image& capture, int x, int 
 }
 
 bool is_hidden(const Picture& drawn, int x, int y) {
-    return std::any_of(drawn.hidden.begin(), drawn.hidden.end(), [&](const rasterizer::Rect& r) { return contains(r, x, y); });
+    return std::any_of(drawn.hidden.begin(), drawn.hidden.end(),
+                       [&](const rasterizer::Rect& r) { return contains(r, x, y); });
 }
 
 bool is_label(const Picture& drawn, const Image& capture, int x, int y) {
@@ -72,7 +73,8 @@ std::int64_t difference(Reading reading, std::uint32_t ours, std::uint32_t their
     if (reading == Reading::color) {
         std::int64_t worst = 0;
         for (int shift = 0; shift < 32; shift += 8)
-            worst = std::max(worst, std::abs(std::int64_t{theirs >> shift & 0xff} - std::int64_t{ours >> shift & 0xff}));
+            worst =
+                std::max(worst, std::abs(std::int64_t{theirs >> shift & 0xff} - std::int64_t{ours >> shift & 0xff}));
         return worst;
     }
     const bool has_depth = reading == Reading::depth24 && (ours ^ theirs) > 0xff;
@@ -120,9 +122,12 @@ Image difference_picture(const Picture& drawn, const Image& capture) {
         const std::int64_t d = difference(drawn.reading, our_word(drawn, x, y), their_word(drawn, capture, x, y));
         const auto size = static_cast<std::uint32_t>(std::min<std::int64_t>(255, 96 + 16 * std::abs(d)));
         Pixel rgba{0, 0, 0, 255};
-        if (!is_compared(drawn, capture, x, y)) rgba = {255, 255, 255, 255};
-        else if (d > 0) rgba = {size, 0, 0, 255};
-        else if (d < 0) rgba = {0, size, size, 255};
+        if (!is_compared(drawn, capture, x, y))
+            rgba = {255, 255, 255, 255};
+        else if (d > 0)
+            rgba = {size, 0, 0, 255};
+        else if (d < 0)
+            rgba = {0, size, size, 255};
         std::copy(rgba.begin(), rgba.end(), shown.codes.begin() + static_cast<std::ptrdiff_t>(shown.index(x, y)));
     });
     return shown;

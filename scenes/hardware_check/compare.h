@@ -33,6 +33,7 @@ struct Comparison {
 [[nodiscard]] rasterizer::Rect label_box(const Picture& drawn, const pipeline::Image& capture);
 // Digest of the words outside a rectangle and the hidden ones, those inside taken as 0: of the picture, or of the capture.
 [[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn);
-[[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn, const pipeline::Image& capture);
+[[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn,
+                                         const pipeline::Image& capture);
 
 }  // namespace strata::scenes::hardware_check

@@ -60,7 +60,9 @@ std::vector<Slope> window_slopes(DepthFormat format) {
     constexpr int columns = 31, rows = 32;
     const std::uint32_t max = rasterizer::max_code(format);
     const float step = static_cast<float>(max) / static_cast<float>(columns * rows + 3 + 1);
-    const auto cut = [&](float k) { return value_of(format, static_cast<float>(static_cast<std::int64_t>(k > 0 ? k : 0))); };
+    const auto cut = [&](float k) {
+        return value_of(format, static_cast<float>(static_cast<std::int64_t>(k > 0 ? k : 0)));
+    };
     std::vector<Slope> slopes;
     float z_left = 0, offset = step * 0.75f;
     for (int row = 0; row < rows; ++row)
@@ -68,7 +70,8 @@ std::vector<Slope> window_slopes(DepthFormat format) {
             const float x = 134.0f + 12.0f * static_cast<float>(column), y = 48.0f + 12.0f * static_cast<float>(row);
             const float left = cut(z_left), right = cut(z_left + offset), scale = static_cast<float>(max);
             const Color on_left = grey(z_left / scale), on_right = grey((z_left + offset) / scale);
-            slopes.push_back({{x, y, x + 8, y + 8}, {left, right, right, left}, {on_left, on_right, on_right, on_left}});
+            slopes.push_back(
+                {{x, y, x + 8, y + 8}, {left, right, right, left}, {on_left, on_right, on_right, on_left}});
             z_left += step;
             offset = -offset;
         }
@@ -81,7 +84,8 @@ std::vector<Slope> window_slopes(DepthFormat format) {
     const Color upper = rgb(share(first), 0.5f, share(first)), lower = rgb(0.5f, share(half), share(half));
     slopes.push_back({{502, 45, 510, 435}, {first, first, half, half}, {upper, upper, lower, lower}});
     const float top = code(static_cast<std::uint32_t>(std::uint64_t{max - 1} * 2 / 3)), end = code(max - 1);
-    slopes.push_back({{128, 40, 512, 440}, {top, top, end, end}, {rgb(0, 1, 0), rgb(1, 0, 0), rgb(0.4f, 0.3f, 0), rgb(0, 0, 1)}});
+    slopes.push_back(
+        {{128, 40, 512, 440}, {top, top, end, end}, {rgb(0, 1, 0), rgb(1, 0, 0), rgb(0.4f, 0.3f, 0), rgb(0, 0, 1)}});
     return slopes;
 }
 
@@ -128,8 +132,10 @@ Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, 
     return {.reading = s.format == DepthFormat::d24 ? Reading::depth24 : Reading::depth16, .image = surface.depth()};
 }
 
-const Drawing colors_unknown{std::nullopt, "how the chip weighs colours where w differs is not known (nv2a-fragment.md 8)"};
-const Drawing float_colors{std::nullopt, "its colours were computed from float depths; no capture was at hand to confirm how"};
+const Drawing colors_unknown{std::nullopt,
+                             "how the chip weighs colours where w differs is not known (nv2a-fragment.md 8)"};
+const Drawing float_colors{std::nullopt,
+                           "its colours were computed from float depths; no capture was at hand to confirm how"};
 const Drawing z24_float{std::nullopt, "24-bit float depth is out of scope (nv2a-geometry.md 4)"};
 
 }  // namespace

@@ -36,7 +36,8 @@ bool take_flag(std::string_view& name, std::string_view key, bool& flag) {
 Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile) {
     bool w_buffer = false, clamp = false, bias = false, full = false, by_program = false;
     const bool known = take_flag(name, "depth_clamp_W", w_buffer) && take_flag(name, "_C", clamp) &&
-                       take_flag(name, "_ZB", bias) && take_flag(name, "_FR", full) && take_flag(name, "_VSH", by_program);
+                       take_flag(name, "_ZB", bias) && take_flag(name, "_FR", full) &&
+                       take_flag(name, "_VSH", by_program);
     if (name.starts_with("depth_equal_")) return {std::nullopt, "equality of two draws in this range is not described"};
     if (!known || !name.empty()) return unknown_name;
     if (w_buffer) return {std::nullopt, "the w buffer is not emulated"};

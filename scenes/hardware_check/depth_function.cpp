@@ -8,8 +8,9 @@ namespace {
 
 using pipeline::CompareFunc;
 
-constexpr CompareFunc columns[] = {CompareFunc::always, CompareFunc::never,   CompareFunc::less,     CompareFunc::equal,
-                                   CompareFunc::lequal, CompareFunc::greater, CompareFunc::notequal, CompareFunc::gequal};
+constexpr CompareFunc columns[] = {CompareFunc::always,   CompareFunc::never,  CompareFunc::less,
+                                   CompareFunc::equal,    CompareFunc::lequal, CompareFunc::greater,
+                                   CompareFunc::notequal, CompareFunc::gequal};
 constexpr float backdrop = 0xdc87, behind = 0xe11f, front = 0xd666;
 
 pipeline::DrawState with(CompareFunc func) { return {.depth = {.enabled = true, .func = func, .write = true}}; }
@@ -31,7 +32,8 @@ Drawing draw_depth_function(std::string_view name, const pipeline::DeviceProfile
     surface.clear_depth(0xffff);
     for (const float top : {64.0f, 200.0f, 320.0f})  // the last row names no function: the one in force stays
         for (std::size_t k = 0; k < std::size(columns); ++k)
-            draw_column(surface, 32.0f + 40.0f * static_cast<float>(k), top, top == 320 ? CompareFunc::always : columns[k]);
+            draw_column(surface, 32.0f + 40.0f * static_cast<float>(k), top,
+                        top == 320 ? CompareFunc::always : columns[k]);
     if (shows_depth) return {Picture{.reading = Reading::depth16, .image = surface.depth()}, {}};
     return {Picture{.image = surface.color()}, {}};
 }

@@ -32,8 +32,9 @@ inline constexpr double cotangent = 2.414213562373095;  // of 22.5 degrees
 // A world point in the window, without the viewport's offset.
 [[nodiscard]] inline ClipVertex project(double x, double y, double z, double units, const std::array<float, 4>& color) {
     const double w = z + 7.0;
-    return at(static_cast<float>(320.0 + 240.0 * cotangent * x / w), static_cast<float>(240.0 - 240.0 * cotangent * y / w),
-              static_cast<float>(window_z(z, units)), color, static_cast<float>(w));
+    return at(static_cast<float>(320.0 + 240.0 * cotangent * x / w),
+              static_cast<float>(240.0 - 240.0 * cotangent * y / w), static_cast<float>(window_z(z, units)), color,
+              static_cast<float>(w));
 }
 
 }  // namespace strata::scenes::hardware_check

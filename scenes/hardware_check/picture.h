@@ -24,10 +24,10 @@ inline constexpr int picture_width = 640, picture_height = 480;
 
 // How a capture's bytes are read and compared.
 enum class Reading : std::uint8_t {
-    color,        // r g b a
-    drawn,        // which pixels differ from `background`, nothing else
-    depth16,      // a 16-bit word shown as R5G6B5
-    depth24       // a 24-bit word in A R G, the stencil in B
+    color,    // r g b a
+    drawn,    // which pixels differ from `background`, nothing else
+    depth16,  // a 16-bit word shown as R5G6B5
+    depth24   // a 24-bit word in A R G, the stencil in B
 };
 
 // What may differ; 0 and 0: nothing. A pixel that differs by more than `units` (1/255 or depth units) is always too much.
@@ -39,10 +39,10 @@ struct Bound {
 
 struct Picture {
     Reading reading = Reading::color;
-    pipeline::Image image{};              // rgba8, d16, d24 or d16f
-    pipeline::Image stencil{};            // beside depth24 where the test has one, else empty
+    pipeline::Image image{};    // rgba8, d16, d24 or d16f
+    pipeline::Image stencil{};  // beside depth24 where the test has one, else empty
     std::array<std::uint8_t, 4> background{};
-    std::vector<rasterizer::Rect> hidden{};   // not compared, beside label pixels: (255, 255, 255, 0) in color pictures
+    std::vector<rasterizer::Rect> hidden{};  // not compared, beside label pixels: (255, 255, 255, 0) in color pictures
     Bound bound{};
     std::vector<std::uint64_t> reports{};  // what occlusion queries answered, in order
 };
@@ -60,9 +60,10 @@ using Subjects = std::uint8_t;  // a set: bit s for rasterizer::Subject s
 struct Suite {
     std::string_view name;  // the folder's
     Drawing (*draw)(std::string_view picture, const pipeline::DeviceProfile& profile);
-    Subjects tells = 0;     // whether a hypothesis on a subject is right
+    Subjects tells = 0;  // whether a hypothesis on a subject is right
     // Of a suite whose test loaded images: with `textures`, the folder that holds them. `draw` does without.
-    Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile, const std::string& textures) = nullptr;
+    Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile,
+                         const std::string& textures) = nullptr;
 };
 
 [[nodiscard]] std::span<const Suite> suites();

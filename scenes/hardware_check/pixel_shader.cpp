@@ -30,14 +30,13 @@ TriangleSoup square(float x, float y, float side, const std::array<Units, 4>& un
     const auto corner = [&](std::size_t k, float px, float py) {
         return TexturedCorner{px, py, {unit[k][0], unit[k][1], unit[k][2]}};
     };
-    return textured_quad({corner(0, left, top), corner(1, right, top), corner(2, right, bottom), corner(3, left, bottom)}, color);
+    return textured_quad(
+        {corner(0, left, top), corner(1, right, top), corner(2, right, bottom), corner(3, left, bottom)}, color);
 }
 
 // The large square in the middle.
 constexpr int middle_x = 192, middle_y = 112, middle_side = 256;
-TriangleSoup middle(const std::array<Units, 4>& unit) {
-    return square(middle_x, middle_y, middle_side, unit);
-}
+TriangleSoup middle(const std::array<Units, 4>& unit) { return square(middle_x, middle_y, middle_side, unit); }
 
 // Unit 0 steps over the bump map's texels, two pixels each; units 1 and 2 hold the rows of the matrix that its texels meet.
 using Rows = std::array<std::array<float, 3>, 2>;
@@ -82,7 +81,8 @@ Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
 
 using Vector = std::array<double, 3>;
 std::array<float, 3> direction(const Vector& from, const Vector& to) {
-    const double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2], length = std::sqrt(x * x + y * y + z * z);
+    const double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2],
+                 length = std::sqrt(x * x + y * y + z * z);
     return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
@@ -101,10 +101,11 @@ Picture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image
 }
 
 // What each of the units 0, 1 and 2 holds at a corner.
-constexpr std::array<Units, 4> planes{{{{{0, 0.1f, -0.02f, -0.25f}, {-0.1f, -0.1f, 0.02f, 0.25f}, {-0.1f, -0.1f, -0.1f, 0.1f}}},
-                                       {{{1, -0.3f, 1, 0}, {0.1f, 0.3f, -0.2f, -0.01f}, {0.1f, -0.1f, -0.1f, -0.1f}}},
-                                       {{{-1, -0.1f, -0.1f, 0.5f}, {1, 0.1f, 0.1f, -0.25f}, {-0.1f, 0.1f, -0.1f, -0.1f}}},
-                                       {{{-0.1f, 2, 3, 0.25f}, {0.1f, -0.6f, 1.1f, -0.35f}, {-0.1f, -0.1f, 0.1f, -0.1f}}}}};
+constexpr std::array<Units, 4> planes{
+    {{{{0, 0.1f, -0.02f, -0.25f}, {-0.1f, -0.1f, 0.02f, 0.25f}, {-0.1f, -0.1f, -0.1f, 0.1f}}},
+     {{{1, -0.3f, 1, 0}, {0.1f, 0.3f, -0.2f, -0.01f}, {0.1f, -0.1f, -0.1f, -0.1f}}},
+     {{{-1, -0.1f, -0.1f, 0.5f}, {1, 0.1f, 0.1f, -0.25f}, {-0.1f, 0.1f, -0.1f, -0.1f}}},
+     {{{-0.1f, 2, 3, 0.25f}, {0.1f, -0.6f, 1.1f, -0.35f}, {-0.1f, -0.1f, 0.1f, -0.1f}}}}};
 
 // Three draws over a dark square, each culled by one unit. Bits 3 to 0 of `flags`: s t r q die where they are not negative.
 void draw_culled(Surface& surface, float x, float y, unsigned flags) {
@@ -116,7 +117,8 @@ void draw_culled(Surface& surface, float x, float y, unsigned flags) {
         path.shader = {};
         path.shader[unit].op = ShaderOp::cull_fragment;
         for (std::size_t c = 0; c < 4; ++c)
-            path.shader[unit].cull[c] = (flags >> (3 - c) & 1u) != 0 ? pipeline::CullMode::less : pipeline::CullMode::gequal;
+            path.shader[unit].cull[c] =
+                (flags >> (3 - c) & 1u) != 0 ? pipeline::CullMode::less : pipeline::CullMode::gequal;
         surface.draw({.path = &path}, square(x, y, side, planes, colors[unit]));
     }
 }
@@ -145,14 +147,17 @@ std::optional<Texture> load(const std::string& textures, const std::string& name
     if (textures.empty() || !std::filesystem::exists(path)) return std::nullopt;
     return as_texture(read_images(path).front().image);
 }
-Drawing needs(const std::string& name) { return {std::nullopt, "needs textures/" + name + ".png, which the test loads"}; }
+Drawing needs(const std::string& name) {
+    return {std::nullopt, "needs textures/" + name + ".png, which the test loads"};
+}
 
 }  // namespace
 
 Drawing draw_pixel_shader_with(std::string_view name, const DeviceProfile& profile, const std::string& textures) {
     if (name == "ClipPlane") return {clip_plane(profile), {}};
     if (name == "Passthru") return {pass_through(profile), {}};
-    for (const std::string_view bumped : {"BumpEnvMap", "BumpEnvMapLuminance", "StageDependentAlphaRed", "StageDependentGreenBlue"})
+    for (const std::string_view bumped :
+         {"BumpEnvMap", "BumpEnvMapLuminance", "StageDependentAlphaRed", "StageDependentGreenBlue"})
         if (name == bumped) return {std::nullopt, "its texture shader operation is not described"};
     if (name != "DotZW" && name != "DotST") return unknown_name;
     const std::string bump_name = "water_bump_map", image_name = "bump_map_test_image";

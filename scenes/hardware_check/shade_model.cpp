@@ -42,7 +42,15 @@ std::vector<Triangle> strip(std::size_t vertices) {
 
 std::vector<Primitive> primitives() {
     return {{"Tri",
-             {{left, top}, {0, top}, {left, 0}, {right, top}, {0.1, bottom}, {0.25, 0}, {-0.4, bottom}, {-1.4, -1.4}, {0, 0}},
+             {{left, top},
+              {0, top},
+              {left, 0},
+              {right, top},
+              {0.1, bottom},
+              {0.25, 0},
+              {-0.4, bottom},
+              {-1.4, -1.4},
+              {0, 0}},
              {{{0, 1, 2}, {0, 2}}, {{3, 4, 5}, {3, 5}}, {{6, 7, 8}, {6, 8}}}},
             {"TriStrip",
              {{left, 0}, {-2.25, top}, {-2, bottom}, {-1.3, 1.6}, {0, -1.5}, {0.4, 1}, {1.4, -0.6}, {right, top}},
@@ -51,7 +59,14 @@ std::vector<Primitive> primitives() {
              {{0, -0.75}, {-2.25, bottom}, {-2, top}, {-0.6, 0.65}, {0, 1.5}, {0.4, 1}, {2.4, 0.6}, {right, bottom}},
              fan(8, false)},
             {"Quad",
-             {{left, top}, {-0.4, top}, {-0.4, bottom}, {left, bottom}, {0.15, top}, {right, top}, {right, bottom}, {0, bottom}},
+             {{left, top},
+              {-0.4, top},
+              {-0.4, bottom},
+              {left, bottom},
+              {0.15, top},
+              {right, top},
+              {right, bottom},
+              {0, bottom}},
              {{{0, 1, 2}, {3, 3}}, {{0, 2, 3}, {3, 3}}, {{4, 5, 6}, {7, 7}}, {{4, 6, 7}, {7, 7}}}},
             {"QuadStrip",
              {{left, bottom}, {left, top}, {0, -1.35}, {0, 1}, {right, bottom}, {right, top}},
@@ -66,14 +81,16 @@ constexpr Argb vertex_colors[] = {0xff0000ff, 0xff00ff00, 0xffff0000, 0xffcccccc
 ClipVertex window_vertex(const Point& p, Argb color) {
     constexpr double scale = 240.0 * cotangent / eye_distance;
     const auto cut = [](double v) { return next_below(static_cast<float>(v)); };
-    return at(cut(320.0 + p[0] * scale), cut(240.0 - p[1] * scale), 0, to_float(color), static_cast<float>(eye_distance));
+    return at(cut(320.0 + p[0] * scale), cut(240.0 - p[1] * scale), 0, to_float(color),
+              static_cast<float>(eye_distance));
 }
 
 TriangleSoup shaded(const Primitive& primitive, bool flat, std::size_t provoking) {
     TriangleSoup soup;
     for (const Triangle& t : primitive.triangles) {
         const auto vertex = [&](std::size_t k) {
-            return window_vertex(primitive.points[t.corner[k]], vertex_colors[flat ? t.provoking[provoking] : t.corner[k]]);
+            return window_vertex(primitive.points[t.corner[k]],
+                                 vertex_colors[flat ? t.provoking[provoking] : t.corner[k]]);
         };
         add_triangle(soup, vertex(0), vertex(1), vertex(2));
     }

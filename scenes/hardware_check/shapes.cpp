@@ -33,7 +33,8 @@ void add_quad(TriangleSoup& soup, const std::array<ClipVertex, 4>& corner) {
 
 void add_box(TriangleSoup& soup, const Box& b, Argb color, float z) {
     const std::array<float, 4> c = to_float(color);
-    add_quad(soup, {at(b.left, b.top, z, c), at(b.right, b.top, z, c), at(b.right, b.bottom, z, c), at(b.left, b.bottom, z, c)});
+    add_quad(soup, {at(b.left, b.top, z, c), at(b.right, b.top, z, c), at(b.right, b.bottom, z, c),
+                    at(b.left, b.bottom, z, c)});
 }
 
 TriangleSoup box(const Box& where, Argb color, float z) {

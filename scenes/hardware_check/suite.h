@@ -18,7 +18,8 @@ Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& p
 Drawing draw_depth_function(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_pixel_shader(std::string_view name, const pipeline::DeviceProfile& profile);
-Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProfile& profile, const std::string& textures);
+Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProfile& profile,
+                               const std::string& textures);
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& profile);

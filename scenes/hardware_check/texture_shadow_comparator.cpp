@@ -49,11 +49,13 @@ std::optional<Source> source_of(std::string_view& name) {
 
 // <least>-<greatest>; least may be negative.
 template <class T>
-bool take_numbers(std::string_view& name, std::optional<T> (*parse)(std::string_view), T& least, T& greatest, T& reference) {
+bool take_numbers(std::string_view& name, std::optional<T> (*parse)(std::string_view), T& least, T& greatest,
+                  T& reference) {
     std::string_view range = take_until(name, "_");
     const std::size_t dash = range.find('-', 1);
     if (dash == std::string_view::npos) return false;
-    const auto from = parse(range.substr(0, dash)), to = parse(range.substr(dash + 1)), ref = parse(take_until(name, "_"));
+    const auto from = parse(range.substr(0, dash)), to = parse(range.substr(dash + 1)),
+               ref = parse(take_until(name, "_"));
     if (!from || !to || !ref) return false;
     least = *from;
     greatest = *to;
@@ -63,7 +65,8 @@ bool take_numbers(std::string_view& name, std::optional<T> (*parse)(std::string_
 
 // Texels that the format holds; depths in front of the eye, which is at -7.
 bool is_drawable(const Setting& s) {
-    if (s.source == Source::raw) return std::max({s.raw_least, s.raw_greatest, s.raw_reference}) <= rasterizer::max_code(s.format);
+    if (s.source == Source::raw)
+        return std::max({s.raw_least, s.raw_greatest, s.raw_reference}) <= rasterizer::max_code(s.format);
     const auto is_visible = [](float z) { return z > -7.0f && z < 1e6f; };
     return is_visible(s.least) && is_visible(s.greatest) && is_visible(s.reference);
 }
@@ -113,7 +116,8 @@ Image raw_texels(const Setting& s) {
     Image texels{pipeline::target_format(s.format), picture_width, picture_height};
     fill(texels, {0, 0, picture_width, picture_height}, reference & max);
     fill_cells(texels, s);
-    const std::uint32_t codes[box_count] = {0, 1, reference - 1, reference, reference + 1, s.raw_greatest - 1, s.raw_greatest};
+    const std::uint32_t codes[box_count] = {
+        0, 1, reference - 1, reference, reference + 1, s.raw_greatest - 1, s.raw_greatest};
     for (int k = 0; k < box_count; ++k) {
         const int x = box_left + box_step * k;
         fill(texels, {x, box_top, x + box_width, box_top + box_height}, codes[k] & max);
@@ -142,8 +146,9 @@ Image rendered_texels(const pipeline::DeviceProfile& profile, const Setting& s) 
     };
     add({side_margin, 6, picture_width - side_margin, picture_height - 6}, s.least, s.greatest);
     constexpr float near_by = 0.0125f;
-    const float z[box_count] = {s.least,     s.least + near_by,     s.reference - near_by, s.reference, s.reference + near_by,
-                                s.greatest - near_by, s.greatest};
+    const float z[box_count] = {s.least,     s.least + near_by,     s.reference - near_by,
+                                s.reference, s.reference + near_by, s.greatest - near_by,
+                                s.greatest};
     for (int k = 0; k < box_count; ++k) {
         const auto x = static_cast<float>(box_left + box_step * k);
         add({x, box_top, x + box_width, box_top + box_height}, z[k], z[k]);
@@ -165,7 +170,8 @@ TriangleSoup lookup_quad(const Setting& s) {
         return TexturedCorner{x, y, {{{texel_x, texel_y, r, 1}}}};
     };
     return textured_quad({corner(left, top, 0, 0), corner(right, top, picture_width, 0),
-                          corner(right, bottom, picture_width, picture_height), corner(left, bottom, 0, picture_height)});
+                          corner(right, bottom, picture_width, picture_height),
+                          corner(left, bottom, 0, picture_height)});
 }
 
 Picture compared(const pipeline::DeviceProfile& profile, const Setting& s, const Image& texels) {

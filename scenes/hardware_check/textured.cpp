@@ -7,7 +7,8 @@ TriangleSoup textured_quad(const std::array<TexturedCorner, 4>& corner, Argb col
     soup.extras.stride = 4 * rasterizer::texture_units;
     soup.extras.has_units = true;
     const auto add = [&](std::size_t k) {
-        for (const Coordinate& unit : corner[k].unit) soup.extras.values.insert(soup.extras.values.end(), unit.begin(), unit.end());
+        for (const Coordinate& unit : corner[k].unit)
+            soup.extras.values.insert(soup.extras.values.end(), unit.begin(), unit.end());
         return at(corner[k].x, corner[k].y, color);
     };
     for (const std::array<std::size_t, 3>& triangle : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
@@ -22,8 +23,8 @@ pipeline::Combiners show(pipeline::CombinerRegister color, pipeline::CombinerReg
     const bool is_one = alpha == pipeline::CombinerRegister::zero;
     pipeline::Combiners combiners;
     combiners.final_stage.d = {.source = color};
-    combiners.final_stage.g = {.source = alpha,
-                               .mapping = is_one ? CombinerMapping::unsigned_invert : CombinerMapping::unsigned_identity};
+    combiners.final_stage.g = {
+        .source = alpha, .mapping = is_one ? CombinerMapping::unsigned_invert : CombinerMapping::unsigned_identity};
     return combiners;
 }
 

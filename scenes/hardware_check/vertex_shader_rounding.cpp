@@ -65,21 +65,23 @@ Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color(), .bound = shift == 0.5625f ? Bound{896, 255} : Bound{}};
 }
 
-void show_subscreen(Surface& surface, const DeviceProfile& profile, float shift, const std::array<int, 4>& place_and_size) {
+void show_subscreen(Surface& surface, const DeviceProfile& profile, float shift,
+                    const std::array<int, 4>& place_and_size) {
     const auto [x, y, width, height] = place_and_size;
     // The clip is set one less than the size and its last row and column are drawn: its limits are inclusive.
     Surface target{profile, {.depth = pipeline::DepthFormat::d16, .width = width, .height = height}};
     target.clear_color(unpack(magenta));
     const float w = static_cast<float>(width), h = static_cast<float>(height);
-    target.draw({.window_clip = rasterizer::Rect{0, 0, width, height}}, box({shift, shift, w + shift, h + shift}, green));
+    target.draw({.window_clip = rasterizer::Rect{0, 0, width, height}},
+                box({shift, shift, w + shift, h + shift}, green));
     place(surface, as_texture(target.color()), static_cast<float>(x), static_cast<float>(y), {});
 }
 
 Picture geometry_subscreen(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe414041));
-    for (const auto& part : {std::array{248, 168, 128, 128}, std::array{392, 168, 128, 32}, std::array{248, 312, 32, 128},
-                             std::array{392, 312, 16, 64}})
+    for (const auto& part : {std::array{248, 168, 128, 128}, std::array{392, 168, 128, 32},
+                             std::array{248, 312, 32, 128}, std::array{392, 312, 16, 64}})
         show_subscreen(surface, profile, shift, part);
     return {.image = surface.color()};
 }
@@ -118,10 +120,17 @@ class Lines {
     using Point = std::array<float, 2>;  // along, across
 
     static float sixteenths(int i) { return static_cast<float>(i) / 16.0f; }
-    [[nodiscard]] ClipVertex vertex(const Point& p) const { return along_x_ ? at(p[0], p[1], color) : at(p[1], p[0], color); }
-    void quad(const std::array<Point, 4>& p) { add_quad(soup_, {vertex(p[0]), vertex(p[1]), vertex(p[2]), vertex(p[3])}); }
+    [[nodiscard]] ClipVertex vertex(const Point& p) const {
+        return along_x_ ? at(p[0], p[1], color) : at(p[1], p[0], color);
+    }
+    void quad(const std::array<Point, 4>& p) {
+        add_quad(soup_, {vertex(p[0]), vertex(p[1]), vertex(p[2]), vertex(p[3])});
+    }
     void skewed_quad(float p, float slope_end) {
-        quad({{{next_below(p + 0.5f), marks_[0]}, {p + 1.9f, marks_[0]}, {p + 1.9f, marks_[2]}, {slope_end, marks_[2]}}});
+        quad({{{next_below(p + 0.5f), marks_[0]},
+               {p + 1.9f, marks_[0]},
+               {p + 1.9f, marks_[2]},
+               {slope_end, marks_[2]}}});
     }
     void thin_triangle(float p, int i) {
         const float edge = next_below(p + 0.5f - sixteenths(i));

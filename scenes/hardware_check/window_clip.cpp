@@ -18,7 +18,8 @@ std::optional<int> take_number(std::string_view& name, std::string_view key) {
 constexpr int widest = 4095;  // the limits' registers have 12 bits [A]
 
 std::optional<rasterizer::Rect> take_region(std::string_view& name) {
-    const auto x = take_number(name, "x"), y = take_number(name, "y"), w = take_number(name, "_w"), h = take_number(name, "h");
+    const auto x = take_number(name, "x"), y = take_number(name, "y"), w = take_number(name, "_w"),
+               h = take_number(name, "h");
     if (!x || !y || !w || !h || *x + *w > widest || *y + *h > widest) return std::nullopt;
     return rasterizer::Rect{*x, *y, *x + *w + 1, *y + *h + 1};
 }

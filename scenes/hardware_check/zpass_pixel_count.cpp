@@ -85,13 +85,16 @@ Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProf
     const bool is_sized = sized != std::end(kinds);
     const auto size = is_sized ? to_hexadecimal(name.substr(sized->prefix.size())) : std::nullopt;
     if (!size && name != "ZPass") return unknown_name;
-    if (size && *size > sized->largest) return {std::nullopt, "what the chip makes of so large a size is not described"};
+    if (size && *size > sized->largest)
+        return {std::nullopt, "what the chip makes of so large a size is not described"};
     pipeline::Surface surface{profile, {.depth = pipeline::DepthFormat::d16}};
     surface.clear_color(unpack(0xff333333));
     surface.clear_depth(0xffff);
     Picture picture;
-    if (size) picture.reports = {sized->draw(surface, *size)};
-    else picture.reports = draw_squares(surface);
+    if (size)
+        picture.reports = {sized->draw(surface, *size)};
+    else
+        picture.reports = draw_squares(surface);
     if (shows_depth) picture.reading = Reading::depth16;
     picture.image = shows_depth ? surface.depth() : surface.color();
     return {std::move(picture), {}};

@@ -65,7 +65,8 @@ Settings parse(int count, char** words) {
         else if (key == "check")
             settings.check = value;
         else
-            throw std::invalid_argument("expected threads=, tile=, execution=, effects=, simd= or check=, found " + word);
+            throw std::invalid_argument("expected threads=, tile=, execution=, effects=, simd= or check=, found " +
+                                        word);
     }
     return settings;
 }

@@ -49,7 +49,8 @@ std::vector<Pixel> by_batches(const Case& given) {
     auto sink = [&](const FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
             Pixel& pixel = pixels[batch.pixel[i]];
-            const std::uint32_t depth = given.by_shader_z ? std::bit_cast<std::uint32_t>(batch.shader_z[i]) : batch.code[i];
+            const std::uint32_t depth =
+                given.by_shader_z ? std::bit_cast<std::uint32_t>(batch.shader_z[i]) : batch.code[i];
             const std::uint32_t surface = given.opaque(batch.pixel[i]);
             ++pixel.fragments;
             pixel.hidden += depth >= surface ? 1 : 0;
@@ -60,8 +61,8 @@ std::vector<Pixel> by_batches(const Case& given) {
         }
     };
     TileRasterizer rasterizer{given.region};
-    rasterizer.draw(given.geometry, given.geometry.all_triangles, given.depth, {.shader_z = true, .code = true, .color = true},
-                    BatchSink{sink});
+    rasterizer.draw(given.geometry, given.geometry.all_triangles, given.depth,
+                    {.shader_z = true, .code = true, .color = true}, BatchSink{sink});
     return pixels;
 }
 
@@ -88,9 +89,17 @@ std::vector<Pixel> by_rows(const Case& given, std::uint32_t ranks, std::uint32_t
     std::vector<std::uint32_t> count(stride), hidden(stride), at_surface(stride), opaque;
     for (std::size_t i = 0; i < stride; ++i) opaque.push_back(given.opaque(i));
     constexpr auto first = static_cast<std::uint32_t>(row_padding);
-    Arrivals to{.stride = stride, .ranks = ranks, .places = first, .most_places = first + places, .word = word.data(), .count = count.data(),
-                .hidden = hidden.data(), .at_surface = at_surface.data(), .opaque = opaque.data(),
-                .same_opaque = given.surface == Surface::cleared, .by_shader_z = given.by_shader_z};
+    Arrivals to{.stride = stride,
+                .ranks = ranks,
+                .places = first,
+                .most_places = first + places,
+                .word = word.data(),
+                .count = count.data(),
+                .hidden = hidden.data(),
+                .at_surface = at_surface.data(),
+                .opaque = opaque.data(),
+                .same_opaque = given.surface == Surface::cleared,
+                .by_shader_z = given.by_shader_z};
     for (std::size_t c = 0; c < 4; ++c) to.color[c] = color[c].data();
     std::uint64_t fragments = 0;
     if (!append_rows(to, given.source(), given.geometry.all_triangles, given.region, fragments)) return {};
@@ -104,8 +113,10 @@ std::vector<Pixel> by_rows(const Case& given, std::uint32_t ranks, std::uint32_t
         for (std::size_t rank = 0; rank < count[p]; ++rank) {
             const std::uint64_t held = word[rank * stride + p];
             const auto place = static_cast<std::uint32_t>(held);
-            pixels[p].visible.push_back({static_cast<std::uint32_t>(held >> 32), {color[0][place], color[1][place], color[2][place], color[3][place]}});
-            if (place <= last || place < first || place >= to.places) pixels[p].fragments = ~0u;  // not in the order of submission
+            pixels[p].visible.push_back({static_cast<std::uint32_t>(held >> 32),
+                                         {color[0][place], color[1][place], color[2][place], color[3][place]}});
+            if (place <= last || place < first || place >= to.places)
+                pixels[p].fragments = ~0u;  // not in the order of submission
             last = place;
         }
     }
@@ -117,7 +128,8 @@ const RasterRules unsnapped{.tie_rule = TieRule::bottom_left, .plane_origin = Pl
 
 }  // namespace
 
-TEST_CASE("rows put down the fragments of batches, in their order and with their colours, in the room that they ask for") {
+TEST_CASE(
+    "rows put down the fragments of batches, in their order and with their colours, in the room that they ask for") {
     const std::vector<Device> devices{{{}, {DepthPath::float32, DepthFormat::d32f}},
                                       {{.subpixel_bits = 4}, {DepthPath::float32, DepthFormat::d16}},
                                       {unsnapped, {DepthPath::float32, DepthFormat::d24}}};
@@ -128,17 +140,19 @@ TEST_CASE("rows put down the fragments of batches, in their order and with their
             for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{69, 0, 70, 40}})
                 for (const bool by_shader_z : {false, true}) {
                     const Surface surface = count % 16 == 0 ? Surface::cleared : Surface::uneven;
-                    const Case given{random_triangles(811 + static_cast<std::uint64_t>(size), count, size, device), device.depth, region,
-                                     by_shader_z, surface};
+                    const Case given{random_triangles(811 + static_cast<std::uint64_t>(size), count, size, device),
+                                     device.depth, region, by_shader_z, surface};
                     REQUIRE(choose_simd(Simd::scalar));
                     const std::vector<Pixel> expected = by_batches(given);
                     for (const Simd simd : available_simd()) {
                         REQUIRE(choose_simd(simd));
                         if (simd < Simd::avx2) continue;
                         const Room room{given};
-                        for (std::size_t p = 0; p < expected.size(); ++p) wrong += room.coverage[p] == expected[p].fragments ? 0 : 1;
+                        for (std::size_t p = 0; p < expected.size(); ++p)
+                            wrong += room.coverage[p] == expected[p].fragments ? 0 : 1;
                         wrong += by_rows(given, room.ranks, room.places) == expected ? 0 : 1;
-                        if (room.ranks > 0 && surface == Surface::cleared) wrong += by_rows(given, room.ranks - 1, room.places).empty() ? 0 : 1;
+                        if (room.ranks > 0 && surface == Surface::cleared)
+                            wrong += by_rows(given, room.ranks - 1, room.places).empty() ? 0 : 1;
                         if (room.places > row_padding) wrong += by_rows(given, room.ranks, 0).empty() ? 0 : 1;
                         ++compared;
                     }

@@ -62,8 +62,12 @@ struct Columns {
     [[nodiscard]] std::vector<std::uint64_t> sorted() {
         std::vector<std::uint64_t> rows(words.size());
         LaneWords heights = block.visible, none{};
-        const Arrivals from{.stride = block_lanes, .ranks = block.depth, .word = words.data(), .count = heights.data(),
-                            .hidden = none.data(), .at_surface = none.data()};
+        const Arrivals from{.stride = block_lanes,
+                            .ranks = block.depth,
+                            .word = words.data(),
+                            .count = heights.data(),
+                            .hidden = none.data(),
+                            .at_surface = none.data()};
         if (take_block(from, 0, block, rows.data()) != (block.depth > 0)) rows.clear();
         return rows;
     }
@@ -77,12 +81,16 @@ TEST_CASE("columns of any height and order are sorted, each on its own, on every
     for (const Simd simd : available_simd()) {
         REQUIRE(choose_simd(simd));
         for (std::uint32_t depth = 0; depth <= 70; ++depth)
-            for (const Order order : {Order::any, Order::rising, Order::falling, Order::rising_but_for_two, Order::falling_but_for_two})
+            for (const Order order :
+                 {Order::any, Order::rising, Order::falling, Order::rising_but_for_two, Order::falling_but_for_two})
                 for (const Heights heights : {Heights::equal, Heights::any}) {
                     Columns columns{random, depth, order, heights};
                     const std::vector<std::uint64_t> expected = columns.sorted_one_by_one();
                     wrong += columns.sorted() == expected ? 0 : 1;
-                    wrong += depth == 0 || columns.block.nearest == *std::min_element(expected.begin(), expected.begin() + block_lanes) >> 32 ? 0 : 1;
+                    wrong += depth == 0 || columns.block.nearest ==
+                                               *std::min_element(expected.begin(), expected.begin() + block_lanes) >> 32
+                                 ? 0
+                                 : 1;
                 }
     }
     REQUIRE(choose_simd(Simd::best));
@@ -109,7 +117,8 @@ struct Scene {
         block.count = block_lanes;
         std::vector<std::uint32_t> places(rows.size());
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<std::uint32_t>(i);
-        for (std::size_t i = places.size(); i > 1 && !full; --i) std::swap(places[i - 1], places[below(random, static_cast<std::uint32_t>(i))]);
+        for (std::size_t i = places.size(); i > 1 && !full; --i)
+            std::swap(places[i - 1], places[below(random, static_cast<std::uint32_t>(i))]);
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
             block.visible[lane] = lane == 0 || full ? depth : below(random, depth + 1);
             block.hidden[lane] = below(random, 2);
@@ -141,7 +150,8 @@ struct Scene {
             --far;
             const std::uint32_t a = stored(value(lane, far, 3));
             for (std::size_t c = 0; c < 3 && a != 0; ++c)
-                b[c] = static_cast<std::uint32_t>(std::floor((stored(value(lane, far, c)) * a + b[c] * (255 - a)) / 255.0 + 0.5));
+                b[c] = static_cast<std::uint32_t>(
+                    std::floor((stored(value(lane, far, c)) * a + b[c] * (255 - a)) / 255.0 + 0.5));
         }
         for (std::size_t c = 0; c < 4; ++c) front[c][lane] = f[c], back[c][lane] = b[c];
     }
@@ -207,8 +217,15 @@ struct Memory {
     explicit Memory(const Fragments& fragments, std::uint32_t ranks = 30)
         : word(64 * 30), rows(16 * 30), count(48), hidden(48), at_surface(48) {
         for (auto& channel : color) channel.resize(30 * 45 + 16);
-        arrivals = {.stride = 64, .ranks = ranks, .places = 0, .most_places = 30 * 45, .word = word.data(), .count = count.data(),
-                    .hidden = hidden.data(), .at_surface = at_surface.data(), .opaque = fragments.opaque.data()};
+        arrivals = {.stride = 64,
+                    .ranks = ranks,
+                    .places = 0,
+                    .most_places = 30 * 45,
+                    .word = word.data(),
+                    .count = count.data(),
+                    .hidden = hidden.data(),
+                    .at_surface = at_surface.data(),
+                    .opaque = fragments.opaque.data()};
         for (std::size_t c = 0; c < 4; ++c) arrivals.color[c] = color[c].data();
     }
 
@@ -241,7 +258,8 @@ struct Memory {
 };
 
 // What a column must hold: a stable sort of its visible fragments.
-std::vector<Fragment> column_of(const Fragments& fragments, std::size_t pixel, std::uint32_t& hidden, std::uint32_t& at_surface) {
+std::vector<Fragment> column_of(const Fragments& fragments, std::size_t pixel, std::uint32_t& hidden,
+                                std::uint32_t& at_surface) {
     std::vector<Fragment> column;
     for (const auto& batch : fragments.batches)
         for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -268,21 +286,29 @@ TEST_CASE("fragments come up again sorted by depth and arrival, with their colou
             for (std::size_t pixel = 0; pixel < 48; ++pixel) {
                 std::uint32_t hidden = 0, at_surface = 0;
                 const auto expected = column_of(fragments, pixel, hidden, at_surface);
-                wrong += memory.count[pixel] == expected.size() && memory.hidden[pixel] == hidden && memory.at_surface[pixel] == at_surface ? 0 : 1;
+                wrong += memory.count[pixel] == expected.size() && memory.hidden[pixel] == hidden &&
+                                 memory.at_surface[pixel] == at_surface
+                             ? 0
+                             : 1;
                 ColumnBlock block;
                 const std::size_t first = pixel / block_lanes * block_lanes, lane = pixel % block_lanes;
                 const bool is_there = take_block(memory.arrivals, first, block, memory.rows.data());
                 wrong += is_there || expected.empty() ? 0 : 1;
-                wrong += block.visible[lane] == expected.size() && block.hidden[lane] == hidden && block.at_surface[lane] == at_surface ? 0 : 1;
+                wrong += block.visible[lane] == expected.size() && block.hidden[lane] == hidden &&
+                                 block.at_surface[lane] == at_surface
+                             ? 0
+                             : 1;
                 wrong += expected.empty() || block.nearest <= expected[0].key ? 0 : 1;
                 bool tied = false;
                 for (std::size_t k = 0; k < expected.size(); ++k) {
                     wrong += block.key(lane, k) == expected[k].key ? 0 : 1;
-                    for (std::size_t c = 0; c < 4; ++c) wrong += memory.color[c][block.place(lane, k)] == expected[k].color[c] ? 0 : 1;
+                    for (std::size_t c = 0; c < 4; ++c)
+                        wrong += memory.color[c][block.place(lane, k)] == expected[k].color[c] ? 0 : 1;
                     tied |= k > 0 && expected[k].key == expected[k - 1].key;
                 }
                 wrong += tied == (block.has_ties[lane] != 0) ? 0 : 1;
-                for (std::size_t k = expected.size(); k < block.depth; ++k) wrong += block.rows[k * block_lanes + lane] == ~std::uint64_t{0} ? 0 : 1;
+                for (std::size_t k = expected.size(); k < block.depth; ++k)
+                    wrong += block.rows[k * block_lanes + lane] == ~std::uint64_t{0} ? 0 : 1;
             }
         }
     }
@@ -315,7 +341,8 @@ TEST_CASE("the last earlier arrival before a fragment in its column is found, on
             for (std::size_t lane = 0; lane < block_lanes; ++lane)
                 for (std::size_t k = 0; k < scene.block.visible[lane]; ++k)
                     for (std::size_t q = 0; q < k; ++q)
-                        if (scene.block.place(lane, q) < scene.block.place(lane, k)) expected[k * block_lanes + lane] = static_cast<std::uint32_t>(q + 1);
+                        if (scene.block.place(lane, q) < scene.block.place(lane, k))
+                            expected[k * block_lanes + lane] = static_cast<std::uint32_t>(q + 1);
             for (const Simd simd : available_simd()) {
                 REQUIRE(choose_simd(simd));
                 std::vector<std::uint32_t> before(depth * block_lanes, 77);
@@ -327,9 +354,12 @@ TEST_CASE("the last earlier arrival before a fragment in its column is found, on
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a program's depths keep their order as keys, those at the surface and NaN are hidden, denormals are noticed, on every instruction set") {
-    const std::vector<float> depths{-2.0f, -0.0f, 0.0f, 0x1p-126f, 0.25f, 0.5f, 0.75f, 1.0f, 2.0f, std::nanf(""), -0x1p-126f, 0.5f, 0.125f,
-                                    -1.0f, 0x1.8p-1f, 0.3f, 0.6f, 0.9f, 0.2f};
+TEST_CASE(
+    "a program's depths keep their order as keys, those at the surface and NaN are hidden, denormals are noticed, on "
+    "every instruction set") {
+    const std::vector<float> depths{-2.0f,     -0.0f, 0.0f,          0x1p-126f,  0.25f, 0.5f,   0.75f,
+                                    1.0f,      2.0f,  std::nanf(""), -0x1p-126f, 0.5f,  0.125f, -1.0f,
+                                    0x1.8p-1f, 0.3f,  0.6f,          0.9f,       0.2f};
     static pipeline::FragmentBatch batch;
     batch.count = static_cast<int>(depths.size());
     const float surface = 0.75f;
@@ -340,8 +370,16 @@ TEST_CASE("a program's depths keep their order as keys, those at the surface and
             std::vector<std::uint64_t> word(64);
             std::vector<std::uint32_t> count(48), hidden(48), at_surface(48);
             std::vector<float> color(64);
-            Arrivals to{.stride = 64, .ranks = 1, .most_places = 48, .word = word.data(), .count = count.data(), .hidden = hidden.data(),
-                        .at_surface = at_surface.data(), .opaque = &opaque, .same_opaque = true, .by_shader_z = true};
+            Arrivals to{.stride = 64,
+                        .ranks = 1,
+                        .most_places = 48,
+                        .word = word.data(),
+                        .count = count.data(),
+                        .hidden = hidden.data(),
+                        .at_surface = at_surface.data(),
+                        .opaque = &opaque,
+                        .same_opaque = true,
+                        .by_shader_z = true};
             to.color.fill(color.data());
             for (std::size_t i = 0; i < depths.size(); ++i) {
                 batch.pixel[i] = static_cast<std::uint32_t>(i);
@@ -353,7 +391,10 @@ TEST_CASE("a program's depths keep their order as keys, those at the surface and
             int wrong = 0;
             for (std::size_t i = 0; i < depths.size(); ++i) {
                 const float z = batch.shader_z[i];
-                wrong += count[i] == (z < surface ? 1u : 0u) && hidden[i] == (z < surface ? 0u : 1u) && at_surface[i] == 0 ? 0 : 1;
+                wrong +=
+                    count[i] == (z < surface ? 1u : 0u) && hidden[i] == (z < surface ? 0u : 1u) && at_surface[i] == 0
+                        ? 0
+                        : 1;
                 for (std::size_t j = 0; j < depths.size(); ++j)
                     if (z < surface && batch.shader_z[j] < surface)
                         wrong += ((word[i] >> 32) < (word[j] >> 32)) == (z < batch.shader_z[j]) ? 0 : 1;

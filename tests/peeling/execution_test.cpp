@@ -41,18 +41,18 @@ struct Way {
 };
 
 constexpr std::array<Way, 13> ways{{{Execution::literal, 64, 4, Effects::all, false},
-                                   {Execution::tiled, 8, 1, Effects::needed, true},
-                                   {Execution::tiled, 16, 4, Effects::all, true},
-                                   {Execution::tiled, 16, 2, Effects::needed, false},
-                                   {Execution::tiled, 32, 4, Effects::needed, true},
-                                   {Execution::tiled, 64, 2, Effects::all, false},
-                                   {Execution::tiled, 128, 1, Effects::needed, true},
-                                   {Execution::replay, 8, 1, Effects::needed, true},
-                                   {Execution::replay, 32, 4, Effects::needed, false},
-                                   {Execution::replay, 64, 2, Effects::all, true},
-                                   {Execution::replay, 128, 2, Effects::needed, true},
-                                   {Execution::replay, 64, 1, Effects::needed, true, std::uint64_t{300} << 10},
-                                   {Execution::replay, 16, 2, Effects::needed, true, std::uint64_t{4} << 10}}};
+                                    {Execution::tiled, 8, 1, Effects::needed, true},
+                                    {Execution::tiled, 16, 4, Effects::all, true},
+                                    {Execution::tiled, 16, 2, Effects::needed, false},
+                                    {Execution::tiled, 32, 4, Effects::needed, true},
+                                    {Execution::tiled, 64, 2, Effects::all, false},
+                                    {Execution::tiled, 128, 1, Effects::needed, true},
+                                    {Execution::replay, 8, 1, Effects::needed, true},
+                                    {Execution::replay, 32, 4, Effects::needed, false},
+                                    {Execution::replay, 64, 2, Effects::all, true},
+                                    {Execution::replay, 128, 2, Effects::needed, true},
+                                    {Execution::replay, 64, 1, Effects::needed, true, std::uint64_t{300} << 10},
+                                    {Execution::replay, 16, 2, Effects::needed, true, std::uint64_t{4} << 10}}};
 
 RenderOptions with(RenderOptions options, const Way& way) {
     options.execution = way.execution;
@@ -102,9 +102,13 @@ const std::vector<Machine> machines{{"geforce3", "unsorted"},
                                     {"ideal", "dual"}};
 
 // The algorithms of a partial order, whose queries stand inside an iteration.
-const std::vector<Machine> partial_order{{"geforce8", "layer_peel"},     {"geforce8", "hybrid"},        {"geforce8", "coherent_stencil"},
-                                         {"geforce8", "coherent_blend"}, {"ideal", "coherent_ideal"},
-                                         {"ideal", "k_buffer"},          {"geforce8", "stencil_routed_k_buffer"}};
+const std::vector<Machine> partial_order{{"geforce8", "layer_peel"},
+                                         {"geforce8", "hybrid"},
+                                         {"geforce8", "coherent_stencil"},
+                                         {"geforce8", "coherent_blend"},
+                                         {"ideal", "coherent_ideal"},
+                                         {"ideal", "k_buffer"},
+                                         {"geforce8", "stencil_routed_k_buffer"}};
 
 }  // namespace
 
@@ -114,13 +118,16 @@ TEST_CASE("algorithms of a partial order execute alike, resolved and as publishe
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[8], ways[12]};
     for (const Ending& ending : endings)
         for (const Machine& machine : partial_order)
-            for (const auto formulation : {strata::pipeline::Formulation::resolved, strata::pipeline::Formulation::published}) {
+            for (const auto formulation :
+                 {strata::pipeline::Formulation::resolved, strata::pipeline::Formulation::published}) {
                 RenderOptions options = small_frame();
                 options.termination = ending.termination;
                 options.max_passes = ending.max_passes;
                 options.formulation = formulation;
-                INFO("ended by " << ending.name << (formulation == strata::pipeline::Formulation::published ? ", as published" : ""));
-                if (formulation == strata::pipeline::Formulation::published && machine.algorithm.ends_with("buffer")) continue;
+                INFO("ended by " << ending.name
+                                 << (formulation == strata::pipeline::Formulation::published ? ", as published" : ""));
+                if (formulation == strata::pipeline::Formulation::published && machine.algorithm.ends_with("buffer"))
+                    continue;
                 check_all_ways(scene, machine, options, few);
             }
 }
@@ -152,7 +159,8 @@ TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface,
     const strata::pipeline::Rgba glass{1, 0.5f, 0.25f, 0.5f};
     scene.pixels[0] = {{{0.5f, glass}}, GivenFragment{0.5f, glass}};
     scene.pixels[3] = {{{0.25f, glass}, {0.5f, glass}, {0.75f, glass}, {0.5f, glass}}, GivenFragment{0.5f, glass}};
-    for (const float depth : {0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.625f}) scene.pixels[255].fragments.push_back({depth, glass});
+    for (const float depth : {0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.625f})
+        scene.pixels[255].fragments.push_back({depth, glass});
     const TriangleScene triangles{draw_list(scene), {}};
     for (const Ending& ending : endings)
         for (const Machine& machine : machines) {
@@ -166,7 +174,8 @@ TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface,
 
 TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts") {
     const TriangleScene scene = random_triangles(75, 24, 0.4f);
-    for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}, {"geforce3", "shadow_map"}}) {
+    for (const Machine& machine :
+         {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}, {"geforce3", "shadow_map"}}) {
         RenderOptions options = small_frame();
         options.keep_layers = true;
         const int layers = render(scene.list, scene.view, machine, options).audit.layers_max;
@@ -233,7 +242,8 @@ TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits
     }
 }
 
-TEST_CASE("one renderer sorts triangles into the tiles that each algorithm asks for, and every size gives the same bits") {
+TEST_CASE(
+    "one renderer sorts triangles into the tiles that each algorithm asks for, and every size gives the same bits") {
     const TriangleScene scene = random_triangles(79, 20);
     RenderOptions options = small_frame();
     options.width = 1024;
@@ -241,12 +251,14 @@ TEST_CASE("one renderer sorts triangles into the tiles that each algorithm asks 
     options.threads = 2;
     options.audit = false;
     const auto renderer = [&] {
-        return strata::peeling::Renderer{scene.list, scene.view, *strata::pipeline::find_profile("geforce8_dx101"), options};
+        return strata::peeling::Renderer{scene.list, scene.view, *strata::pipeline::find_profile("geforce8_dx101"),
+                                         options};
     };
     strata::peeling::Renderer automatic = renderer();
     options.tile_size = 32;
     strata::peeling::Renderer small = renderer();
-    for (const auto& [name, tile_size] : {std::pair{"weighted_average", 128}, {"front_to_back", 64}, {"weighted_average", 128}}) {
+    for (const auto& [name, tile_size] :
+         {std::pair{"weighted_average", 128}, {"front_to_back", 64}, {"weighted_average", 128}}) {
         const auto& algorithm = *strata::peeling::find_algorithm(name);
         const RenderResult found = automatic.render(algorithm), expected = small.render(algorithm);
         CHECK(found.frame.work.tile_size == tile_size);

@@ -44,8 +44,9 @@ CoordinateUnits listing_2(const Matrix& projection, double depth_units) {
     Matrix m{};  // row r takes what was q
     m[14] = 1;
     units[2] = unit(TextureMatrix{}.multiply(m).multiply(projection), 1, false);
-    units[3] = unit(TextureMatrix{}.scale(width, height, 1).translate(0.5, 0.5, 0.5).scale(0.5, 0.5, 0.5).multiply(projection),
-                    depth_units, true);
+    units[3] =
+        unit(TextureMatrix{}.scale(width, height, 1).translate(0.5, 0.5, 0.5).scale(0.5, 0.5, 0.5).multiply(projection),
+             depth_units, true);
     return units;
 }
 
@@ -66,7 +67,8 @@ FragmentPath stages(Target map) {
     if (!map.exists()) return path;
     path.shader[3].op = ShaderOp::texture_rectangle;
     path.shader[3].texture.depth = map;
-    path.shader[3].texture.compare = {.func = CompareFunc::lequal, .mode = DepthTextureMode::luminance, .target = TextureTarget::rectangle};
+    path.shader[3].texture.compare = {
+        .func = CompareFunc::lequal, .mode = DepthTextureMode::luminance, .target = TextureTarget::rectangle};
     path.combiners = peel_combiners(3);
     return path;
 }
@@ -81,8 +83,7 @@ struct Scene {
         triangles.list.instances[1].model = {0.8, 0.1, 0, 0, -0.2, 0.9, 0.1, 0, 0, 0.1, 1.1, 0, 0.05, 0.02, -0.3, 1};
         raster.viewport = {0, 0, width, height};
         raster.depth_format = format;
-        const CoordinateUnits units =
-            listing_2(triangles.view.projection, strata::rasterizer::max_code(format));
+        const CoordinateUnits units = listing_2(triangles.view.projection, strata::rasterizer::max_code(format));
         const DeviceProfile& device = *find_profile("geforce3");
         list = prepare(triangles.list, triangles.view, raster, device,
                        {.depth_quotient = true, .tile_size = 16, .threads = 1, .units = units});
@@ -103,7 +104,8 @@ Codes codes_of(const Frame& frame, PassState state, Program&& program) {
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         program(in, own, out);
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
-            if (out.alive[i] != 0) codes[{in.pixel[i], in.primitive[i]}] = (out.replaces_depth ? out.depth : in.code)[i];
+            if (out.alive[i] != 0)
+                codes[{in.pixel[i], in.primitive[i]}] = (out.replaces_depth ? out.depth : in.code)[i];
     }));
     return codes;
 }
@@ -147,18 +149,21 @@ TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_repl
         listing.apply(state);
         state.needs.units |= 0xf000;  // unit 3, which no stage looks at yet
         std::size_t other_pixel = 0, other_r = 0, fragments = 0;
-        const Codes literal = codes_of(scene.frame, state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            listing(in, own, out);
-            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
-                const auto over_q = [&](std::size_t c) {
-                    return strata::rasterizer::divide(in.unit[3][c][i], in.unit[3][3][i], scene.frame.profile->raster.hypothesis.divide);
-                };
-                if (out.alive[i] == 0) continue;
-                ++fragments;
-                other_pixel += static_cast<int>(over_q(0)) != in.x[i] || static_cast<int>(over_q(1)) != height - 1 - in.y[i];
-                other_r += static_cast<std::uint32_t>(over_q(2)) != out.depth[i];
-            }
-        });
+        const Codes literal =
+            codes_of(scene.frame, state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                listing(in, own, out);
+                for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+                    const auto over_q = [&](std::size_t c) {
+                        return strata::rasterizer::divide(in.unit[3][c][i], in.unit[3][3][i],
+                                                          scene.frame.profile->raster.hypothesis.divide);
+                    };
+                    if (out.alive[i] == 0) continue;
+                    ++fragments;
+                    other_pixel +=
+                        static_cast<int>(over_q(0)) != in.x[i] || static_cast<int>(over_q(1)) != height - 1 - in.y[i];
+                    other_r += static_cast<std::uint32_t>(over_q(2)) != out.depth[i];
+                }
+            });
         Frame replaced = scene.frame;
         replaced.depth.path = DepthPath::depth_replace;
         const Codes expected = codes_of(replaced, {}, [](const FragmentBatch&, const Loads&, Outputs&) {});
@@ -175,7 +180,8 @@ TEST_CASE("a peel by Listing 2's state alone is shadow_map_depth_replace, to the
     options.width = width;
     options.height = height;
     options.threads = 1;
-    const auto expected = render(scene.triangles.list, scene.triangles.view, {"geforce3", "shadow_map_depth_replace"}, options);
+    const auto expected =
+        render(scene.triangles.list, scene.triangles.view, {"geforce3", "shadow_map_depth_replace"}, options);
     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
     CHECK(expected.frame.passes.geometry > 5);
     for (const Execution execution : {Execution::literal, Execution::tiled}) {

@@ -21,8 +21,18 @@ using namespace strata::peeling;
 namespace {
 
 constexpr std::array<int, 12> counts{0, 1, 3, 4, 8, 15, 16, 17, 33, 64, 253, 256};
-constexpr std::array<float, 12> depths{0.0f, -0.0f, 0.25f, 0.5f, 0.75f, 1.0f, -1.0f, -0.5f, 2.0f, 0x1p-130f,
-                                       std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()};
+constexpr std::array<float, 12> depths{0.0f,
+                                       -0.0f,
+                                       0.25f,
+                                       0.5f,
+                                       0.75f,
+                                       1.0f,
+                                       -1.0f,
+                                       -0.5f,
+                                       2.0f,
+                                       0x1p-130f,
+                                       std::numeric_limits<float>::infinity(),
+                                       std::numeric_limits<float>::quiet_NaN()};
 
 // What a peel reads and writes; all lanes random, depths often equal.
 struct Peel {
@@ -41,7 +51,8 @@ struct Peel {
             in.code[i] = std::bit_cast<std::uint32_t>(depth());
             opaque[i] = std::bit_cast<std::uint32_t>(depth());
             alive[i] = testing::random_int(random, 0, 1) != 0 ? ~0u : 0u;
-            for (std::size_t c = 0; c < 4; ++c) in.color[c][i] = color(), front[c][i] = color(), min_max[c][i] = depth();
+            for (std::size_t c = 0; c < 4; ++c)
+                in.color[c][i] = color(), front[c][i] = color(), min_max[c][i] = depth();
         }
     }
 };

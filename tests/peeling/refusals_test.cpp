@@ -39,18 +39,24 @@ const std::string no_programs =
 }  // namespace
 
 TEST_CASE("the table of algorithms and profiles is that of decisions.md 4") {
-    const std::vector<std::string> geforce3{"unsorted", "painter", "depth_units", "shadow_map", "shadow_map_depth_replace", "a_buffer"};
-    const std::vector<std::string> geforce8{"unsorted",   "painter", "depth_units",      "front_to_back",  "dual", "shadow_map",
-                                            "layer_peel", "hybrid",  "coherent_stencil", "coherent_blend", "weighted_average",
-                                            "batched",    "object_sorted", "stencil_routed_k_buffer", "weighted_sum", "a_buffer"};
+    const std::vector<std::string> geforce3{
+        "unsorted", "painter", "depth_units", "shadow_map", "shadow_map_depth_replace", "a_buffer"};
+    const std::vector<std::string> geforce8{
+        "unsorted",         "painter",    "depth_units",   "front_to_back",           "dual",
+        "shadow_map",       "layer_peel", "hybrid",        "coherent_stencil",        "coherent_blend",
+        "weighted_average", "batched",    "object_sorted", "stencil_routed_k_buffer", "weighted_sum",
+        "a_buffer"};
     const std::vector<std::string> ideal_alone{"k_buffer", "coherent_ideal", "shadow_map_depth_replace"};
     for (const DeviceProfile& profile : builtin_profiles())
         for (const auto& algorithm : strata::peeling::algorithms()) {
             const auto& runs = profile.name == "geforce3" ? geforce3 : geforce8;
-            const auto is_in = [&](const std::vector<std::string>& list) { return std::ranges::find(list, algorithm.name) != list.end(); };
+            const auto is_in = [&](const std::vector<std::string>& list) {
+                return std::ranges::find(list, algorithm.name) != list.end();
+            };
             const bool lacks_samples = profile.name == "llvmpipe" && algorithm.name == "stencil_routed_k_buffer";
             const bool everything = profile.name != "geforce3" && profile.name != "geforce8";
-            const bool expected = (is_in(runs) || (everything && (profile.name == "ideal" || !is_in(ideal_alone)))) && !lacks_samples;
+            const bool expected =
+                (is_in(runs) || (everything && (profile.name == "ideal" || !is_in(ideal_alone)))) && !lacks_samples;
             INFO(algorithm.name << " on " << profile.name);
             CHECK(sentence({profile.name, algorithm.name}).empty() == expected);
         }
@@ -76,7 +82,8 @@ TEST_CASE("a refused algorithm names the first feature that is missing, its exte
 TEST_CASE("the fix of shadow-map peeling is refused by its extension where there are no texture shaders") {
     for (const std::string profile : {"geforce8", "geforce8_dx101", "llvmpipe"})
         CHECK(sentence({profile, "shadow_map_depth_replace"}) ==
-              "profile " + profile + " has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
+              "profile " + profile +
+                  " has no depth replace by texture shaders (NV_texture_shader); use geforce3 or ideal");
 }
 
 TEST_CASE("depth formats that a device lacks are refused for every algorithm") {

@@ -25,12 +25,18 @@ Mesh square(double half_side, double z) {
 DrawList floor_and_blocker(AlphaMode mode, bool perspective) {
     DrawList list;
     list.materials = {{.name = "white", .alpha_mode = AlphaMode::opaque, .double_sided = true, .unlit = true},
-                      {.name = "black", .front = {0, 0, 0, 1}, .back = {0, 0, 0, 1}, .alpha_mode = mode, .double_sided = true, .unlit = true}};
+                      {.name = "black",
+                       .front = {0, 0, 0, 1},
+                       .back = {0, 0, 0, 1},
+                       .alpha_mode = mode,
+                       .double_sided = true,
+                       .unlit = true}};
     list.meshes = {square(1, floor_z), square(half, blocker_z)};
     list.instances = {{.mesh = 0, .material = 0}, {.mesh = 1, .material = 1}};
     ShadowLight light;
     light.view = {1, 0, 0, 0, 0, 1, 0, 0, -0.4, 0.3, 1, 0, 0, 0, 0, 1};  // x - 0.4 z, y + 0.3 z: it comes in at a slant
-    light.projection = perspective ? Matrix{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, 0, 3} : Matrix{0.7, 0, 0, 0, 0, 0.7, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+    light.projection = perspective ? Matrix{2, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1, -1, 0, 0, 0, 3}
+                                   : Matrix{0.7, 0, 0, 0, 0, 0.7, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
     light.size_px = 256;
     light.ambient = ambient;
     light.offset_units = 16;
@@ -52,7 +58,8 @@ Place seen_by_light(double x, double y, double z, bool perspective) {
 // Positive inside the blocker's outline as the light sees it, in its clip space.
 double inside(double x, double y, bool perspective) {
     const Place p = seen_by_light(x, y, floor_z, perspective);
-    const Place low = seen_by_light(-half, -half, blocker_z, perspective), high = seen_by_light(half, half, blocker_z, perspective);
+    const Place low = seen_by_light(-half, -half, blocker_z, perspective),
+                high = seen_by_light(half, half, blocker_z, perspective);
     return std::min({p.x - low.x, high.x - p.x, p.y - low.y, high.y - p.y});
 }
 
@@ -71,9 +78,9 @@ TEST_CASE("the floor is dark where the blocker stands between it and the light, 
             for (int y = 0; y < size; ++y)
                 for (int x = 0; x < size; ++x) {
                     const double wx = (x + 0.5) * 2 / size - 1, wy = 1 - (y + 0.5) * 2 / size;
-                    if (std::max(std::abs(wx), std::abs(wy)) < half + 0.05) continue;    // the blocker itself
+                    if (std::max(std::abs(wx), std::abs(wy)) < half + 0.05) continue;  // the blocker itself
                     const double depth_inside = inside(wx, wy, perspective);
-                    if (std::abs(depth_inside) < 2.0 / 256) continue;                    // a texel of the map more or less
+                    if (std::abs(depth_inside) < 2.0 / 256) continue;  // a texel of the map more or less
                     const std::uint32_t code = result.frame.color.codes[result.frame.color.index(x, y)];
                     const bool is_float = result.frame.color.format == Format::rgba32f;
                     const float value = is_float ? std::bit_cast<float>(code) : static_cast<float>(code) / 255.0f;
@@ -95,7 +102,8 @@ TEST_CASE("transparent surfaces let the light through, and colours in shadow are
     const auto lit = render(list, from_above, {"geforce8", "dual"}, options);
     std::uint32_t darkest = 255;  // of the floor's right half, where the shadow would lie
     for (int y = 0; y < size; ++y)
-        for (int x = size * 3 / 4; x < size; ++x) darkest = std::min(darkest, lit.frame.color.codes[lit.frame.color.index(x, y)]);
+        for (int x = size * 3 / 4; x < size; ++x)
+            darkest = std::min(darkest, lit.frame.color.codes[lit.frame.color.index(x, y)]);
     CHECK(darkest == 255);
 
     const DrawList opaque = floor_and_blocker(AlphaMode::opaque, true);

@@ -38,7 +38,8 @@ RenderResult run(const TriangleScene& scene, const Machine& machine, const Rende
 
 }  // namespace
 
-TEST_CASE("the fix peels what sequential depth units peel with the same replaced depth: image, layers, depths, passes") {
+TEST_CASE(
+    "the fix peels what sequential depth units peel with the same replaced depth: image, layers, depths, passes") {
     const TriangleScene scene = visible_triangles(411, 60);
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         RenderOptions options = options_of(64, 48);

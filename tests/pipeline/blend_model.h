@@ -87,8 +87,7 @@ template <class T>
         case BlendEquation::reverse_subtract: sum = stored - source; break;
         case BlendEquation::min: return std::min(f.source[c], f.stored[c]);
         case BlendEquation::max: return std::max(f.source[c], f.stored[c]);
-        case BlendEquation::signed_add:
-            return std::clamp(f.stored[c] + static_cast<std::int8_t>(f.source[c]), 0, 255);
+        case BlendEquation::signed_add: return std::clamp(f.stored[c] + static_cast<std::int8_t>(f.source[c]), 0, 255);
         case BlendEquation::signed_reverse_subtract:
             return std::clamp(f.stored[c] - static_cast<std::int8_t>(f.source[c]), 0, 255);
     }

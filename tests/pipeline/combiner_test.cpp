@@ -76,8 +76,9 @@ struct Machine {
     [[nodiscard]] Rational input(const CombinerInput& in, bool alpha, std::size_t channel) const {
         const Values& v = reg[static_cast<std::size_t>(in.source)];
         const std::size_t own = alpha ? 3 : channel;
-        return mapped(in.mapping,
-                      v[in.component == CombinerComponent::alpha ? 3 : in.component == CombinerComponent::blue ? 2 : own]);
+        return mapped(in.mapping, v[in.component == CombinerComponent::alpha  ? 3
+                                    : in.component == CombinerComponent::blue ? 2
+                                                                              : own]);
     }
     static Rational out(const CombinerPortion& p, Rational x) {
         x = stored(x);
@@ -150,7 +151,8 @@ Color any_color(Random& random) { return {any_byte(random), any_byte(random), an
 
 Color values(const Values& v) {
     Color codes;
-    for (std::size_t k = 0; k < 4; ++k) codes[k] = static_cast<int>(model::floor(v[k] < 0 ? Rational{0} : Rational{v[k] * 255}));
+    for (std::size_t k = 0; k < 4; ++k)
+        codes[k] = static_cast<int>(model::floor(v[k] < 0 ? Rational{0} : Rational{v[k] * 255}));
     return codes;
 }
 
@@ -169,7 +171,9 @@ TEST_CASE("general combiners compute what the tables of the extension say, one r
         }
         const Reg shown = static_cast<Reg>(3 + below(random, 8));
         state.final_stage = show(shown);
-        Fragment f{any_color(random), any_color(random), {any_color(random), any_color(random), any_color(random), any_color(random)}};
+        Fragment f{any_color(random),
+                   any_color(random),
+                   {any_color(random), any_color(random), any_color(random), any_color(random)}};
         Machine m;
         for (std::size_t k = 0; k < 4; ++k) {
             m.reg[3][k] = Rational{f.primary[k], 255};
@@ -180,8 +184,8 @@ TEST_CASE("general combiners compute what the tables of the extension say, one r
         for (const CombinerStage& stage : state.stages) m.stage(stage);
         const Color found = run(state, f), expected = values(m.reg[static_cast<std::size_t>(shown)]);
         tally.expect(found == expected, [&] {
-            return fmt::format("round {}: {} {} {} {} against {} {} {} {}", round, found[0], found[1], found[2], found[3],
-                               expected[0], expected[1], expected[2], expected[3]);
+            return fmt::format("round {}: {} {} {} {} against {} {} {} {}", round, found[0], found[1], found[2],
+                               found[3], expected[0], expected[1], expected[2], expected[3]);
         });
     }
     INFO(tally.first());
@@ -213,8 +217,16 @@ TEST_CASE("the selector of a choice is the upper bit of spare0's alpha, or the l
         int alpha, expected;
     };
     constexpr auto high = CombinerSum::mux, low = CombinerSum::mux_low_bit;
-    for (const Case& c : {Case{high, 127, 10}, {high, 128, 20}, {high, 0, 10}, {high, 255, 20}, {high, 0x81, 20}, {high, 0x82, 20},
-                          {low, 0x82, 10}, {low, 0x81, 20}, {low, 0, 10}, {low, 1, 20}}) {
+    for (const Case& c : {Case{high, 127, 10},
+                          {high, 128, 20},
+                          {high, 0, 10},
+                          {high, 255, 20},
+                          {high, 0x81, 20},
+                          {high, 0x82, 20},
+                          {low, 0x82, 10},
+                          {low, 0x81, 20},
+                          {low, 0, 10},
+                          {low, 1, 20}}) {
         CombinerStage stage;
         stage.rgb.a = {Reg::texture1};
         stage.rgb.c = {Reg::texture2};
@@ -261,7 +273,8 @@ TEST_CASE("the final stage's product and mixture round to nearest") {
     state.final_stage.b = {Reg::primary_color};
     state.final_stage.c = {Reg::secondary_color};
     state.final_stage.g = {Reg::primary_color, Map::unsigned_invert, CombinerComponent::blue};
-    const Fragment f{.primary = {200, 10, 90, 7}, .secondary = {100, 250, 0, 0}, .texture = {{{128, 64, 1, 0}, {}, {}, {}}}};
+    const Fragment f{
+        .primary = {200, 10, 90, 7}, .secondary = {100, 250, 0, 0}, .texture = {{{128, 64, 1, 0}, {}, {}, {}}}};
     Color expected{};
     for (std::size_t k = 0; k < 3; ++k)
         expected[k] = (2 * (f.texture[0][k] * f.primary[k] + (255 - f.texture[0][k]) * f.secondary[k]) + 255) / 510;
@@ -276,9 +289,14 @@ TEST_CASE("combiner state that no machine could run is refused") {
         return state;
     };
     CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages.resize(9); })), std::logic_error);
-    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].rgb.a.source = Reg::e_times_f; })), std::logic_error);
-    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].rgb.ab = Reg::constant_color0; })), std::logic_error);
-    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].alpha.ab_product = CombinerProduct::dot; })), std::logic_error);
-    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.final_stage.a.mapping = Map::signed_identity; })), std::logic_error);
-    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.final_stage.g.source = Reg::e_times_f; })), std::logic_error);
+    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].rgb.a.source = Reg::e_times_f; })),
+                    std::logic_error);
+    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].rgb.ab = Reg::constant_color0; })),
+                    std::logic_error);
+    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.stages[0].alpha.ab_product = CombinerProduct::dot; })),
+                    std::logic_error);
+    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.final_stage.a.mapping = Map::signed_identity; })),
+                    std::logic_error);
+    CHECK_THROWS_AS(CombinerUnit(wrong([](Combiners& s) { s.final_stage.g.source = Reg::e_times_f; })),
+                    std::logic_error);
 }

@@ -31,11 +31,15 @@ TEST_CASE("a tile is empty, opaque alone, single or layered by the fragments of 
     CHECK(nothing == TileCensus{.tiles = 2, .empty = 2, .transparent_fragments = {0}, .opaque_fragments = {0}});
     // Beside each other in one tile: two fragments, but no pixel has both.
     const TileCensus single = count_tiles(squares({0, 4}), squares({8}));
-    CHECK(single == TileCensus{.tiles = 2, .opaque_only = 1, .single = 1, .with_opaque = 1,
-                               .transparent_fragments = {32}, .opaque_fragments = {16}});
+    CHECK(single == TileCensus{.tiles = 2,
+                               .opaque_only = 1,
+                               .single = 1,
+                               .with_opaque = 1,
+                               .transparent_fragments = {32},
+                               .opaque_fragments = {16}});
     const TileCensus layered = count_tiles(squares({0, 3, 8}), squares({}));
-    CHECK(layered == TileCensus{.tiles = 2, .single = 1, .layered = 1, .transparent_fragments = {48},
-                                .opaque_fragments = {0}});
+    CHECK(layered ==
+          TileCensus{.tiles = 2, .single = 1, .layered = 1, .transparent_fragments = {48}, .opaque_fragments = {0}});
 }
 
 TEST_CASE("a pass needs what its program, its tests and its materials look at, and under Effects::all everything") {

@@ -210,7 +210,8 @@ TEST_CASE("counters of idle iterations hold what follows a branch's answer") {
 
 TEST_CASE("what a program loads is its own pixel's, wherever its region lies and wherever its fragments come from") {
     std::vector<Spot> everywhere_once;
-    for (std::size_t pixel = 0; pixel < 32 * 16; ++pixel) everywhere_once.push_back({pixel, {static_cast<int>(pixel % slots)}});
+    for (std::size_t pixel = 0; pixel < 32 * 16; ++pixel)
+        everywhere_once.push_back({pixel, {static_cast<int>(pixel % slots)}});
     const TestFrame test{spots(everywhere_once), "geforce8"};
     CHECK(everywhere(both(test, read_place), 0) == 3);  // two draws and one screen
 }

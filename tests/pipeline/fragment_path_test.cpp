@@ -50,7 +50,8 @@ FragmentPath compare_with(Target depth, CompareFunc func) {
     FragmentPath path;
     path.shader[3].op = ShaderOp::texture_rectangle;
     path.shader[3].texture.depth = depth;
-    path.shader[3].texture.compare = {.func = func, .mode = DepthTextureMode::intensity, .target = TextureTarget::rectangle};
+    path.shader[3].texture.compare = {
+        .func = func, .mode = DepthTextureMode::intensity, .target = TextureTarget::rectangle};
     path.combiners = peel_combiners(3);
     return path;
 }
@@ -104,12 +105,12 @@ TEST_CASE("a screen-aligned depth texture peels: the second pass keeps what is b
     std::size_t wrong = 0, second_layers = 0;
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
         std::vector<std::uint32_t> codes{max_code, max_code};
-        for (const GivenFragment& f : scene.pixels[p].fragments)
-            codes.push_back(stored(f.depth));
+        for (const GivenFragment& f : scene.pixels[p].fragments) codes.push_back(stored(f.depth));
         std::sort(codes.begin(), codes.end());
         codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
         const std::uint32_t second = codes.size() > 1 ? codes[1] : max_code;
-        wrong += region.storage(peel.first).depth(0)[p] != codes[0] || region.storage(peel.second).depth(0)[p] != second;
+        wrong +=
+            region.storage(peel.first).depth(0)[p] != codes[0] || region.storage(peel.second).depth(0)[p] != second;
         second_layers += second != max_code;
     }
     CHECK(wrong == 0);
@@ -197,7 +198,8 @@ TEST_CASE("a depth texture that is written by its own pass is a feedback loop") 
     CHECK_THROWS_AS(region.draw(state, program), std::logic_error);
 }
 
-TEST_CASE("a copied rectangle lands where it was moved, counts its bytes, and stays within its region or needs the frame") {
+TEST_CASE(
+    "a copied rectangle lands where it was moved, counts its bytes, and stays within its region or needs the frame") {
     const FragmentScene scene = layers(346);
     TestFrame test = frame_of(scene, 0, 0);
     Region region{test.frame, test.frame.rect(), 0, Extent::frame};

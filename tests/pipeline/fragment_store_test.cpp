@@ -45,8 +45,8 @@ bool same(const auto& a, const auto& b, int count) { return std::equal(a.begin()
 bool same(const Shaded& a, const Shaded& b, const FragmentNeeds& needs) {
     const int n = a.batch.count;
     bool equal = n == b.batch.count && a.batch.material == b.batch.material && same(a.alive, b.alive, n) &&
-                 same(a.batch.pixel, b.batch.pixel, n) && same(a.batch.x, b.batch.x, n) && same(a.batch.y, b.batch.y, n) &&
-                 same(a.batch.primitive, b.batch.primitive, n);
+                 same(a.batch.pixel, b.batch.pixel, n) && same(a.batch.x, b.batch.x, n) &&
+                 same(a.batch.y, b.batch.y, n) && same(a.batch.primitive, b.batch.primitive, n);
     if (needs.shader_z) equal &= same(a.batch.shader_z, b.batch.shader_z, n);
     if (needs.code) equal &= same(a.batch.code, b.batch.code, n);
     if (needs.exact_code) equal &= same(a.batch.exact_code, b.batch.exact_code, n);

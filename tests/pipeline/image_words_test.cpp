@@ -10,7 +10,8 @@
 using namespace strata;
 using namespace strata::pipeline;
 
-TEST_CASE("words become codes at every length and alignment, and nothing beside them changes, on every instruction set") {
+TEST_CASE(
+    "words become codes at every length and alignment, and nothing beside them changes, on every instruction set") {
     testing::Random random{17};
     std::vector<std::uint32_t> words(80);
     for (auto& word : words) word = static_cast<std::uint32_t>(random());

@@ -1,7 +1,7 @@
 // Surfaces without alpha or with fewer bits a channel (nv2a-fragment.md 6, R10).
-#include <catch2/catch.hpp>
-
 #include "pipeline/narrow.h"
+
+#include <catch2/catch.hpp>
 
 using namespace strata::pipeline;
 
@@ -18,7 +18,8 @@ TEST_CASE("a narrow surface keeps the upper bits of a channel, and reads them wi
 
 TEST_CASE("destination alpha is 1 where none is stored, and seven bits widened where seven are") {
     for (std::uint32_t code = 0; code < 256; ++code) {
-        for (const Format format : {Format::x8r8g8b8, Format::r5g6b5, Format::x1r5g5b5}) CHECK(narrowed(format, 3, code) == 255);
+        for (const Format format : {Format::x8r8g8b8, Format::r5g6b5, Format::x1r5g5b5})
+            CHECK(narrowed(format, 3, code) == 255);
         const std::uint32_t seven = code / 2;
         CHECK(narrowed(Format::x1a7r8g8b8, 3, code) == seven * 2 + seven / 64);
     }

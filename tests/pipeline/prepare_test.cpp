@@ -159,7 +159,8 @@ TEST_CASE("every instruction set lights and transforms vertices to the same bits
     list.meshes[0].normals.resize(500);
     for (Vec3& p : list.meshes[0].positions)
         for (float& x : p) x = random_float(random, -3, 3);
-    const float not_a_number = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+    const float not_a_number = std::numeric_limits<float>::quiet_NaN(),
+                infinity = std::numeric_limits<float>::infinity();
     for (Vec3& n : list.meshes[0].normals) {
         const auto one_of = std::array{0.0f, -0.0f, 1.0f, 0x1p-80f, 0x1p80f, not_a_number, infinity};
         for (float& x : n) x = random() % 4 == 0 ? one_of[random() % one_of.size()] : random_float(random, -2, 2);
@@ -169,7 +170,8 @@ TEST_CASE("every instruction set lights and transforms vertices to the same bits
     const auto bits = [&](strata::Simd simd) {
         REQUIRE(strata::choose_simd(simd));
         std::vector<std::array<std::uint32_t, 14>> all;
-        for (const ClipVertex& v : transform(list, view, {}).vertices) all.push_back(std::bit_cast<std::array<std::uint32_t, 14>>(v));
+        for (const ClipVertex& v : transform(list, view, {}).vertices)
+            all.push_back(std::bit_cast<std::array<std::uint32_t, 14>>(v));
         return all;
     };
     const auto scalar = bits(strata::Simd::scalar);
@@ -286,8 +288,7 @@ TEST_CASE("vertices, triangles and bins do not depend on the number of threads")
     strata::rasterizer::RasterState raster;
     raster.viewport = {0, 0, 64, 64};
     const auto prepared = [&](int threads) {
-        return prepare(scene.list, scene.view, raster, *find_profile("geforce8"),
-                       {.threads = threads});
+        return prepare(scene.list, scene.view, raster, *find_profile("geforce8"), {.threads = threads});
     };
     const PreparedDraw one = prepared(1);
     REQUIRE(one.geometry.triangles.size() > 5000);

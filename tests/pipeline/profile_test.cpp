@@ -105,7 +105,8 @@ TEST_CASE("the rows of the table make the whole profile") {
         for (const ProfileField& field : profile_fields()) field.set(copy, field.value(original));
         CHECK(copy == original);
     }
-    CHECK(profile_fields().size() == 50);  // 14 rules of rasterization, 10 of its hypotheses, 26 fields of DeviceProfile
+    CHECK(profile_fields().size() ==
+          50);  // 14 rules of rasterization, 10 of its hypotheses, 26 fields of DeviceProfile
 }
 
 TEST_CASE("a description names each value's source, and a number that a user changed is the user's") {

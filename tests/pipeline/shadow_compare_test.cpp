@@ -183,7 +183,8 @@ TEST_CASE("a linear lookup gives the share of its four texels that pass, in step
     CHECK(compare_one(edge, state, floors, 0.5f + 0x1p-9f, 0.5f)[0] == 0.5f + 0x1p-8f);
 }
 
-TEST_CASE("eight-bit depth texels compare R rounded to 255 steps, Heidrich's limited form, for all texels and half steps") {
+TEST_CASE(
+    "eight-bit depth texels compare R rounded to 255 steps, Heidrich's limited form, for all texels and half steps") {
     Image image{Format::d16, 256, 1};
     for (std::uint32_t k = 0; k < 256; ++k) image.codes[k] = k;
     DepthTexels texels{image};
@@ -200,14 +201,17 @@ TEST_CASE("eight-bit depth texels compare R rounded to 255 steps, Heidrich's lim
             t[k] = 0.5f;
             r[k] = static_cast<float>(step) / 510.0f;
         }
-        shadow_compare(texels, {.func = CompareFunc::lequal, .target = TextureTarget::rectangle}, profile, {s, t, r}, rgba, 256);
+        shadow_compare(texels, {.func = CompareFunc::lequal, .target = TextureTarget::rectangle}, profile, {s, t, r},
+                       rgba, 256);
         int lit = 0;
         for (std::size_t k = 0; k < 256; ++k) lit += rgba[0][k] == 1.0f;
         REQUIRE(lit == 256 - static_cast<int>(model::floor(exact)));
     }
 }
 
-TEST_CASE("R against a 16-bit float texel is cut to 12 bits of mantissa: equal from a texel's value up to below the next one's") {
+TEST_CASE(
+    "R against a 16-bit float texel is cut to 12 bits of mantissa: equal from a texel's value up to below the next "
+    "one's") {
     DeviceProfile chip = floors;
     chip.raster.window_z = strata::rasterizer::WindowZ::buffer_units;
     const auto is = [&](std::uint32_t code, CompareFunc func, float r) {
@@ -216,15 +220,16 @@ TEST_CASE("R against a 16-bit float texel is cut to 12 bits of mantissa: equal f
     const auto below_of = [](float v) { return std::nextafter(v, 0.0f); };
     int wrong = 0;
     for (std::uint32_t code = 0x1000; code <= 0xffff; code += 5) {  // bits 12 to 15 of a code: exponent, 2^(e - 7)
-        const float value = std::ldexp(1.0f + static_cast<float>(code % 4096) / 4096.0f, static_cast<int>(code / 4096) - 7);
+        const float value =
+            std::ldexp(1.0f + static_cast<float>(code % 4096) / 4096.0f, static_cast<int>(code / 4096) - 7);
         const float step = std::ldexp(1.0f, static_cast<int>(code / 4096) - 19);
         wrong += !is(code, CompareFunc::equal, value) + !is(code, CompareFunc::equal, below_of(value + step)) +
                  !is(code, CompareFunc::less, below_of(value)) + is(code, CompareFunc::greater, value);
         wrong += code < 0xffff && !is(code, CompareFunc::greater, value + step);
     }
     CHECK(wrong == 0);
-    CHECK(is(0xffff, CompareFunc::equal, 1e9f));                // clamped to 511.9375
-    CHECK(is(0, CompareFunc::equal, below_of(0x1p-6f)));        // below the smallest normal value
+    CHECK(is(0xffff, CompareFunc::equal, 1e9f));          // clamped to 511.9375
+    CHECK(is(0, CompareFunc::equal, below_of(0x1p-6f)));  // below the smallest normal value
     CHECK(is(0, CompareFunc::equal, -1.0f));
     const float between = 1.0f + 0x1p-13f;
     CHECK(is(0x7000, CompareFunc::equal, between));

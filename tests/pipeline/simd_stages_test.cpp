@@ -3,13 +3,13 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
+#include "blend_model.h"
 #include "pipeline/alpha_test.h"
 #include "pipeline/blend_lanes.h"
 #include "pipeline/lane_words.h"
 #include "pipeline/stencil_lanes.h"
 #include "rasterizer/parallel.h"
 #include "rasterizer/simd.h"
-#include "blend_model.h"
 #include "stage_values.h"
 
 using namespace strata;
@@ -116,7 +116,8 @@ TEST_CASE("gather and scatter move the same codes on every instruction set, what
             scatter_codes(found.at(), at, alive.data(), mask, wanted.data());
             same &= expected.same_pixels(found);
             same &= scalar::count_lanes(alive.data(), at.count) == count_lanes(alive.data(), at.count);
-            tally.expect(same, [&] { return fmt::format("round {}: {} x {} bits, {} lanes", round, channels, bits, count); });
+            tally.expect(same,
+                         [&] { return fmt::format("round {}: {} x {} bits, {} lanes", round, channels, bits, count); });
         }
         INFO("first wrong: " << tally.first());
         CHECK(tally.wrong() == 0);
@@ -164,7 +165,9 @@ TEST_CASE("conversions give the same bits on every instruction set, for all halv
                 rasterizer::Lanes<float> wanted{}, got{};
                 const int count = first == 0 ? 256 : any_count(random);
                 for (std::uint32_t i = 0; i < 256; ++i)
-                    codes[i] = type == ChannelType::unorm8 ? i : type == ChannelType::half ? first + i : any_word(random);
+                    codes[i] = type == ChannelType::unorm8 ? i
+                               : type == ChannelType::half ? first + i
+                                                           : any_word(random);
                 scalar::decode(type, codes.data(), wanted.data(), static_cast<std::size_t>(count));
                 decode(type, codes, got, count);
                 bool same = same_lanes(wanted, got, count);
@@ -201,7 +204,8 @@ TEST_CASE("blending gives the same codes on every instruction set, in every form
             static Values src;
             static scalar::ColorCodes wanted, got;
             for (std::size_t c = 0; c < 4; ++c)
-                for (std::size_t i = 0; i < 256; ++i) src[c][i] = any_float(random), wanted[c][i] = any_word(random) & bits;
+                for (std::size_t i = 0; i < 256; ++i)
+                    src[c][i] = any_float(random), wanted[c][i] = any_word(random) & bits;
             got = wanted;
             const int count = any_count(random);
             scalar::blend(state, type, profile, channels, src, wanted, static_cast<std::size_t>(count));
@@ -209,7 +213,8 @@ TEST_CASE("blending gives the same codes on every instruction set, in every form
             bool same = true;
             for (std::size_t c = 0; c < 4; ++c) same &= same_lanes(wanted[c], got[c], count);
             tally.expect(same, [&] {
-                return fmt::format("type {}, {} channels, {} lanes: {}", static_cast<int>(type), channels, count, words(state));
+                return fmt::format("type {}, {} channels, {} lanes: {}", static_cast<int>(type), channels, count,
+                                   words(state));
             });
         }
         INFO("first wrong: " << tally.first());
@@ -263,8 +268,12 @@ TEST_CASE("alpha and stencil tests answer alike on every instruction set") {
             const AlphaTest alpha{true, any_of(random, CompareFunc::always), any_float(random)};
             StencilTest stencil{!one_in(random, 8), one_in(random, 2), {}, {}};
             for (StencilFace* face : {&stencil.front, &stencil.back})
-                *face = {any_of(random, CompareFunc::always),   any_byte(random), any_byte(random), any_byte(random),
-                         any_of(random, StencilOp::decr_wrap), any_of(random, StencilOp::decr_wrap),
+                *face = {any_of(random, CompareFunc::always),
+                         any_byte(random),
+                         any_byte(random),
+                         any_byte(random),
+                         any_of(random, StencilOp::decr_wrap),
+                         any_of(random, StencilOp::decr_wrap),
                          any_of(random, StencilOp::decr_wrap)};
             rasterizer::Lanes<float> values{};
             rasterizer::Lanes<std::uint8_t> front{};
@@ -282,8 +291,8 @@ TEST_CASE("alpha and stencil tests answer alike on every instruction set") {
                 stencil, {front.data(), depth_pass.data(), wanted.data(), stored.data(), saturated.data(), count});
             const int got_failed = stencil_test(
                 stencil, {front.data(), depth_pass.data(), got.data(), got_stored.data(), got_saturated.data(), count});
-            const bool same = failed == got_failed && same_lanes(wanted, got, count) && same_lanes(stored, got_stored, count) &&
-                              same_lanes(saturated, got_saturated, count);
+            const bool same = failed == got_failed && same_lanes(wanted, got, count) &&
+                              same_lanes(stored, got_stored, count) && same_lanes(saturated, got_saturated, count);
             tally.expect(same, [&] { return fmt::format("round {}, {} lanes", round, count); });
         }
         INFO("first wrong: " << tally.first());

@@ -41,7 +41,9 @@ std::array<Rational, 4> row(const Matrix& m, std::size_t r) {
 std::array<Rational, 4> times(const Matrix& m, const std::array<Rational, 4>& v) {
     return {dot(row(m, 0), v), dot(row(m, 1), v), dot(row(m, 2), v), dot(row(m, 3), v)};
 }
-std::array<Rational, 4> exact(const Plane4& p) { return {Rational{p[0]}, Rational{p[1]}, Rational{p[2]}, Rational{p[3]}}; }
+std::array<Rational, 4> exact(const Plane4& p) {
+    return {Rational{p[0]}, Rational{p[1]}, Rational{p[2]}, Rational{p[3]}};
+}
 
 }  // namespace
 
@@ -113,6 +115,7 @@ TEST_CASE("depth units multiply s, t and r behind the texture matrix, and leave 
     CoordinateUnits scaled = plain;
     scaled[2].depth_units = {2, 4, 8};
     const Vec3 p{0.5f, 3, -2};
-    const auto a = VertexCoordinates{plain, {}, identity}.at(p, {}), b = VertexCoordinates{scaled, {}, identity}.at(p, {});
+    const auto a = VertexCoordinates{plain, {}, identity}.at(p, {}),
+               b = VertexCoordinates{scaled, {}, identity}.at(p, {});
     CHECK(b[2] == std::array{2 * a[2][0], 4 * a[2][1], 8 * a[2][2], a[2][3]});
 }

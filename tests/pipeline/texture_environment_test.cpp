@@ -44,7 +44,8 @@ Color formula(TexEnvMode mode, const Inputs& in) {
         const Rational f = part(in.f, k), t = part(in.t, k), c = part(in.c, k), at = part(in.t, 3);
         Rational v = f;
         if (mode == TexEnvMode::replace) v = t;
-        if (mode == TexEnvMode::modulate || (k == 3 && (mode == TexEnvMode::blend || mode == TexEnvMode::add))) v = f * t;
+        if (mode == TexEnvMode::modulate || (k == 3 && (mode == TexEnvMode::blend || mode == TexEnvMode::add)))
+            v = f * t;
         if (mode == TexEnvMode::decal && k < 3) v = f * (1 - at) + t * at;
         if (mode == TexEnvMode::blend && k < 3) v = f * (1 - t) + c * t;
         if (mode == TexEnvMode::add && k < 3) v = f + t;
@@ -61,9 +62,12 @@ std::array<float, 4> floats(const Color& c) {
 }
 
 Rational value(const CombineArgument& arg, const Inputs& in, std::size_t k) {
-    const Color& source = arg.source == CombineSource::texture ? in.t : arg.source == CombineSource::constant ? in.c : in.f;
+    const Color& source = arg.source == CombineSource::texture    ? in.t
+                          : arg.source == CombineSource::constant ? in.c
+                                                                  : in.f;
     const bool alpha = arg.operand == CombineOperand::src_alpha || arg.operand == CombineOperand::one_minus_src_alpha;
-    const bool inverse = arg.operand == CombineOperand::one_minus_src_color || arg.operand == CombineOperand::one_minus_src_alpha;
+    const bool inverse =
+        arg.operand == CombineOperand::one_minus_src_color || arg.operand == CombineOperand::one_minus_src_alpha;
     const Rational x = part(source, alpha ? 3 : k);
     return inverse ? Rational{1 - x} : x;
 }
@@ -76,7 +80,8 @@ int combined(const CombineState& s, const Inputs& in, std::size_t k) {
     if (s.func == CombineFunc::interpolate) v = a * c + b * (1 - c);
     if (s.func == CombineFunc::subtract) v = a - b;
     // The rounding of a product comes before bias and scale; 1/2 is 128/255 on this machine.
-    Rational stored = Rational{model::floor((v < 0 ? Rational{-v} : v) * 255 + Rational{1, 2})} / 255 * (v < 0 ? -1 : 1);
+    Rational stored =
+        Rational{model::floor((v < 0 ? Rational{-v} : v) * 255 + Rational{1, 2})} / 255 * (v < 0 ? -1 : 1);
     if (s.func == CombineFunc::add_signed) stored -= Rational{128, 255};
     return code(stored * (s.scale == CombinerScale::by_two ? 2 : s.scale == CombinerScale::by_four ? 4 : 1));
 }
@@ -103,7 +108,8 @@ TEST_CASE("every mode of the texture environment gives its formula, rounded once
         std::array<TexEnv, 4> env{};
         env[unit] = {.mode = mode, .color = floats(in.c), .rgb = {}, .alpha = {}};
         const Color found = run(texture_environment(env), unit, in), expected = formula(mode, in);
-        tally.expect(found == expected, [&] { return fmt::format("mode {} in unit {}", static_cast<int>(mode), unit); });
+        tally.expect(found == expected,
+                     [&] { return fmt::format("mode {} in unit {}", static_cast<int>(mode), unit); });
     }
     INFO(tally.first());
     CHECK(tally.wrong() == 0);
@@ -114,11 +120,15 @@ TEST_CASE("COMBINE gives its formulas with any argument, operand and scale") {
     Tally tally;
     for (int round = 0; round < 4000; ++round) {
         const Inputs in{any_color(random), any_color(random), any_color(random)};
-        TexEnv env{.mode = TexEnvMode::combine, .color = floats(in.c), .rgb = any_combine(random, false), .alpha = any_combine(random, true)};
+        TexEnv env{.mode = TexEnvMode::combine,
+                   .color = floats(in.c),
+                   .rgb = any_combine(random, false),
+                   .alpha = any_combine(random, true)};
         const Color found = run(texture_environment(std::span{&env, 1}), 0, in);
         Color expected;
         for (std::size_t k = 0; k < 4; ++k) expected[k] = combined(k < 3 ? env.rgb : env.alpha, in, k);
-        tally.expect(found == expected, [&] { return fmt::format("round {}: rgb func {}", round, static_cast<int>(env.rgb.func)); });
+        tally.expect(found == expected,
+                     [&] { return fmt::format("round {}: rgb func {}", round, static_cast<int>(env.rgb.func)); });
     }
     INFO(tally.first());
     CHECK(tally.wrong() == 0);

@@ -16,7 +16,8 @@ using strata::rasterizer::FragmentBatch;
 
 namespace {
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
+                infinity = std::numeric_limits<float>::infinity();
 using Coordinate = std::array<float, 4>;
 
 // Four stages and the results of one fragment after the other.
@@ -50,8 +51,14 @@ struct Bench {
 
 // A texture whose texels tell where they are: red the column, green the row.
 Texture place_texture(TextureTarget target, int width, int height) {
-    Texture texture{.name = "place", .target = target, .width = width, .height = height, .filter = TextureFilter::nearest,
-                    .wrap_s = TextureWrap::clamp_to_edge, .wrap_t = TextureWrap::clamp_to_edge, .texels = {}};
+    Texture texture{.name = "place",
+                    .target = target,
+                    .width = width,
+                    .height = height,
+                    .filter = TextureFilter::nearest,
+                    .wrap_s = TextureWrap::clamp_to_edge,
+                    .wrap_t = TextureWrap::clamp_to_edge,
+                    .texels = {}};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             for (const int k : {x, y, 255, 128}) texture.texels.push_back(static_cast<std::uint8_t>(k));
@@ -94,13 +101,18 @@ TEST_CASE("a lookup is at s/q and t/q: normalised in a 2D texture, in texels in 
         for (int round = 0; round < 4000; ++round) {
             // Sixteenths of a texel over a power of two: the quotient is exact, and so is its texel.
             const float q = one_in(random, 2) ? 4.0f : 0.125f;
-            const auto coordinate = [&] { return static_cast<float>(static_cast<int>(below(random, 400)) - 50) / 16.0f; };
+            const auto coordinate = [&] {
+                return static_cast<float>(static_cast<int>(below(random, 400)) - 50) / 16.0f;
+            };
             const float s = coordinate(), t = coordinate(), unit = target == TextureTarget::two_d ? 1.0f / 16.0f : 1.0f;
             bench.put(2, {s * unit * q, t * unit * q, 77.0f, q});
             static_cast<void>(bench.run());
-            const auto texel = [](float u, int size) { return std::clamp(static_cast<int>(std::floor(u)), 0, size - 1); };
+            const auto texel = [](float u, int size) {
+                return std::clamp(static_cast<int>(std::floor(u)), 0, size - 1);
+            };
             const int x = texel(s, 16), y = texel(target == TextureTarget::two_d ? t / 2 : t, 8);
-            const Coordinate expected{static_cast<float>(x) / 255.0f, static_cast<float>(y) / 255.0f, 1.0f, 128.0f / 255.0f};
+            const Coordinate expected{static_cast<float>(x) / 255.0f, static_cast<float>(y) / 255.0f, 1.0f,
+                                      128.0f / 255.0f};
             tally.expect(bench.rgba(2) == expected, [&] { return fmt::format("s {} t {} q {}", s, t, q); });
         }
     }
@@ -163,8 +175,10 @@ TEST_CASE("a dot product multiplies s, t, r with HI, LO and 1, or with red, gree
         Bench bench;
         bench.stages[0] = {.op = ShaderOp::texture_2d,
                            .texture = is_hilo ? BoundTexture{.hilo = &texture} : BoundTexture{.color = &color}};
-        bench.stages[1] = {.op = ShaderOp::dot_product, .previous = 0,
-                           .mapping = expands ? DotMapping::expand_normal : DotMapping::unsigned_identity, .texture = {}};
+        bench.stages[1] = {.op = ShaderOp::dot_product,
+                           .previous = 0,
+                           .mapping = expands ? DotMapping::expand_normal : DotMapping::unsigned_identity,
+                           .texture = {}};
         const std::uint32_t column = below(random, 16), line = below(random, 8);
         bench.put(0, {(static_cast<float>(column) + 0.5f) / 16, (static_cast<float>(line) + 0.5f) / 8, 0, 1});
         const Coordinate c{any_float(random), any_float(random), any_float(random), any_float(random)};
@@ -177,7 +191,8 @@ TEST_CASE("a dot product multiplies s, t, r with HI, LO and 1, or with red, gree
         std::array<float, 3> x = is_hilo ? pair : colour;
         for (float& k : x)
             if (expands && !is_hilo) k = rounded(double{rounded(2.0 * k)} - 1.0);
-        const float sx = rounded(double{c[0]} * x[0]), ty = rounded(double{c[1]} * x[1]), rz = rounded(double{c[2]} * x[2]);
+        const float sx = rounded(double{c[0]} * x[0]), ty = rounded(double{c[1]} * x[1]),
+                    rz = rounded(double{c[2]} * x[2]);
         const float expected = rounded(double{rounded(double{sx} + ty)} + rz);
         tally.expect(is_nan(expected) ? is_nan(bench.dot(1)) : bits_of(bench.dot(1)) == bits_of(expected),
                      [&] { return fmt::format("round {}: {} against {}", round, bench.dot(1), expected); });
@@ -191,8 +206,12 @@ TEST_CASE("a dot product multiplies s, t, r with HI, LO and 1, or with red, gree
 TEST_CASE("a signed HILO texel is a vector of length one whose third component is not negative") {
     Bench bench;
     bench.put(1, {0, 0, 1, 1});
-    for (const auto& [high, low, third] : std::initializer_list<std::tuple<int, int, float>>{
-             {0, 0, 1.0f}, {-32768, 0, 0.0f}, {16384, 16384, std::sqrt(0.5f)}, {32767, 32767, 0.0f}, {0, -24576, std::sqrt(0.4375f)}}) {
+    for (const auto& [high, low, third] :
+         std::initializer_list<std::tuple<int, int, float>>{{0, 0, 1.0f},
+                                                            {-32768, 0, 0.0f},
+                                                            {16384, 16384, std::sqrt(0.5f)},
+                                                            {32767, 32767, 0.0f},
+                                                            {0, -24576, std::sqrt(0.4375f)}}) {
         const HiloTexture texture = hilo(static_cast<std::uint16_t>(high), static_cast<std::uint16_t>(low), true);
         bench.stages[0] = {.op = ShaderOp::texture_2d, .texture = {.hilo = &texture}};
         bench.stages[1] = {.op = ShaderOp::dot_product, .previous = 0, .texture = {}};
@@ -287,8 +306,8 @@ TEST_CASE("a depth texture compares r/q in the three-dimensional stage and 0 in 
     bench.machine.texels[3] = DepthTexels{depth};
     bench.stages[3].op = ShaderOp::texture_rectangle;
     bench.stages[3].texture.depth_image = &depth;
-    bench.stages[3].texture.compare = {.func = CompareFunc::lequal, .mode = DepthTextureMode::intensity,
-                                       .target = TextureTarget::rectangle};
+    bench.stages[3].texture.compare = {
+        .func = CompareFunc::lequal, .mode = DepthTextureMode::intensity, .target = TextureTarget::rectangle};
     const auto passes = [&](float s, float r, float q) {
         bench.put(3, {s * q, 0, r, q});
         static_cast<void>(bench.run());
@@ -305,7 +324,8 @@ TEST_CASE("a depth texture compares r/q in the three-dimensional stage and 0 in 
 
 TEST_CASE("a stage that is not consistent does nothing, and so does what depends on it") {
     const HiloTexture zero = hilo(0, 0);
-    const Texture flat = place_texture(TextureTarget::two_d, 1, 1), rectangle = place_texture(TextureTarget::rectangle, 1, 1);
+    const Texture flat = place_texture(TextureTarget::two_d, 1, 1),
+                  rectangle = place_texture(TextureTarget::rectangle, 1, 1);
     const ShaderStage look{.op = ShaderOp::texture_2d, .texture = {.hilo = &zero}};
     const ShaderStage dot{.op = ShaderOp::dot_product, .previous = 0, .texture = {}};
     const ShaderStage replace{.op = ShaderOp::dot_product_depth_replace, .previous = 0, .texture = {}};
@@ -315,18 +335,21 @@ TEST_CASE("a stage that is not consistent does nothing, and so does what depends
 
     CHECK(ops({look, dot, replace, none})[2] == ShaderOp::dot_product_depth_replace);
     CHECK(last({look, none, dot, replace}) == ShaderOp::dot_product_depth_replace);
-    CHECK(last({look, dot, none, replace}) == ShaderOp::none);            // the stage before is no dot product
-    CHECK(last({look, dot, replace, replace}) == ShaderOp::none);         // a depth is nobody's first dot product
-    CHECK(ops({dot, replace, none, none}) == ShaderOps{});                // nothing to multiply with, in units 0 and 1
-    CHECK(ops({none, dot, replace, none}) == ShaderOps{});                // NONE has no texel
+    CHECK(last({look, dot, none, replace}) == ShaderOp::none);     // the stage before is no dot product
+    CHECK(last({look, dot, replace, replace}) == ShaderOp::none);  // a depth is nobody's first dot product
+    CHECK(ops({dot, replace, none, none}) == ShaderOps{});         // nothing to multiply with, in units 0 and 1
+    CHECK(ops({none, dot, replace, none}) == ShaderOps{});         // NONE has no texel
     CHECK(ops({look, {.op = ShaderOp::dot_product, .previous = 1, .texture = {}}, none, none})[1] == ShaderOp::none);
     CHECK(ops({look, {.op = ShaderOp::dot_product, .previous = -1, .texture = {}}, none, none})[1] == ShaderOp::none);
     CHECK(last({look, dot, {.op = ShaderOp::dot_product, .previous = 1, .texture = {}}, replace}) == ShaderOp::none);
     CHECK(ops({ShaderStage{.op = ShaderOp::texture_2d, .texture = {}}, dot, none, none}) == ShaderOps{});  // no texture
-    CHECK(ops({ShaderStage{.op = ShaderOp::texture_2d, .texture = {.color = &rectangle}}, none, none, none}) == ShaderOps{});
-    CHECK(ops({ShaderStage{.op = ShaderOp::texture_rectangle, .texture = {.color = &flat}}, none, none, none}) == ShaderOps{});
-    CHECK(last({look, dot, none, ShaderStage{.op = ShaderOp::dot_product_texture_2d, .previous = 0,
-                                             .texture = {.color = &flat}}}) == ShaderOp::none);
+    CHECK(ops({ShaderStage{.op = ShaderOp::texture_2d, .texture = {.color = &rectangle}}, none, none, none}) ==
+          ShaderOps{});
+    CHECK(ops({ShaderStage{.op = ShaderOp::texture_rectangle, .texture = {.color = &flat}}, none, none, none}) ==
+          ShaderOps{});
+    CHECK(last({look, dot, none,
+                ShaderStage{.op = ShaderOp::dot_product_texture_2d, .previous = 0, .texture = {.color = &flat}}}) ==
+          ShaderOp::none);
 
     DepthReplaceBench bench;
     bench.stages[1].op = ShaderOp::none;

@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "pipeline/quotient_rows.h"
 #include "pipeline/matrix.h"
 #include "pipeline/prepare.h"
+#include "pipeline/quotient_rows.h"
 #include "rasterizer/nv20_arithmetic.h"
 #include "tests/rasterizer/rational.h"
 #include "tests/support/random_triangles.h"

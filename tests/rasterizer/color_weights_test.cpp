@@ -69,7 +69,7 @@ TEST_CASE("vertex colours are rounded to 8 bits before they are interpolated") {
 // Greys of suite Depth_buffer on an NV2A, and 0.1 and 0.3 of other suites: what was given, and the code that came out.
 TEST_CASE("14 leading bits of a vertex colour reach its code, as captures show") {
     constexpr std::pair<float, int> measured[] = {
-        {0.1f, 25},          {0.3f, 76},          {0.5000001788f, 128}, {0.8725491166f, 222}, {0.8960894346f, 228},
+        {0.1f, 25},           {0.3f, 76},           {0.5000001788f, 128}, {0.8725491166f, 222}, {0.8960894346f, 228},
         {0.9706394076f, 247}, {0.5980809330f, 152}, {0.8765106201f, 223}, {0.2921687067f, 74},  {0.3862950206f, 99},
         {0.4098265171f, 105}, {0.8059088168f, 206}, {0.8529711962f, 218}, {0.2725903690f, 70}};
     int wrong_with_13 = 0, wrong_with_15 = 0, wrong_with_all = 0;

@@ -87,7 +87,8 @@ TEST_CASE("a whole coordinate comes out a hair below itself where another vertex
     CHECK_FALSE(is_low(480, 240));
     CHECK_FALSE(is_low(400, 285));
     const std::array<SubpixelPoint, 3> lower_left{{{8, 8}, {10248, 7688}, {8, 7688}}};
-    for (const int y : {15, 135, 240, 465}) CHECK(coordinate(lower_left, {0, 256, 256}, 10, y) >= static_cast<float>(y / 15 * 8));
+    for (const int y : {15, 135, 240, 465})
+        CHECK(coordinate(lower_left, {0, 256, 256}, 10, y) >= static_cast<float>(y / 15 * 8));
 }
 
 TEST_CASE("a coordinate that all corners share comes out as it is, and nothing stops at infinities") {

@@ -14,7 +14,8 @@ using namespace strata::rasterizer;
 float greatest_z(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
     float greatest = -std::numeric_limits<float>::infinity();
     auto look = [&](FragmentBatch& batch) {
-        for (int i = 0; i < batch.count; ++i) greatest = std::max(greatest, batch.shader_z[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < batch.count; ++i)
+            greatest = std::max(greatest, batch.shader_z[static_cast<std::size_t>(i)]);
     };
     constexpr FragmentNeeds z_alone{true, false, false, false, false, false};
     TileRasterizer{geometry.state.viewport}.draw(geometry, triangles, {}, z_alone, BatchSink{look});
@@ -51,7 +52,8 @@ TEST_CASE("the bound of several triangles is the greatest of theirs, and of none
     const Geometry geometry = set_up(random_soup(901, 20, SoupKind::perspective), scene_state(40, 40), {}, 1);
     double greatest = -std::numeric_limits<double>::infinity();
     CHECK(depth_bound(geometry, {}) == greatest);
-    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) greatest = std::max(greatest, depth_bound(geometry, {&i, 1}));
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i)
+        greatest = std::max(greatest, depth_bound(geometry, {&i, 1}));
     CHECK(depth_bound(geometry, geometry.all_triangles) >= greatest - 0x1p-18);
     CHECK(depth_bound(geometry, geometry.all_triangles) <= greatest + 0x1p-18);
 }

@@ -1,7 +1,7 @@
 // What each hypothesis does to a depth: depth_paths_test.cpp and window_z_test.cpp.
-#include <catch2/catch.hpp>
-
 #include "rasterizer/hypotheses.h"
+
+#include <catch2/catch.hpp>
 
 using namespace strata::rasterizer;
 

@@ -174,10 +174,12 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
     for (int i = 0; i < 300; ++i) {
         const std::array values{not_a_number, infinity, -infinity, 0.0f, -0.0f, 0x1p-70f, 0x1p127f, -0x1p100f};
         ClipVertex& v = soup.vertices[random() % soup.vertices.size()];
-        const std::array<float*, 8> fields{&v.x, &v.y, &v.z, &v.w, &v.front[1], &v.back[3], &v.texcoord[0], &v.texcoord[1]};
+        const std::array<float*, 8> fields{&v.x,        &v.y,       &v.z,           &v.w,
+                                           &v.front[1], &v.back[3], &v.texcoord[0], &v.texcoord[1]};
         *fields[random() % fields.size()] = values[random() % values.size()];
     }
-    for (std::size_t i = 0; i < 60; ++i) {  // in the view, too near to the eye; or near, with an attribute that 1 / w makes infinite
+    for (std::size_t i = 0; i < 60;
+         ++i) {  // in the view, too near to the eye; or near, with an attribute that 1 / w makes infinite
         ClipVertex* const v = &soup.vertices[3 * 33 * i];
         const float w = i % 2 == 0 ? 0x1p-70f : 0x1p-40f;
         for (std::size_t k = 0; k < 3; ++k) v[k] = {k == 1 ? w : 0, k == 2 ? w : 0, 0, w, {}, {}, {}};
@@ -195,7 +197,8 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
             CHECK(other.counters == scalar.counters);
             REQUIRE(other.triangles.size() == scalar.triangles.size());
             std::size_t different = 0;
-            for (std::size_t i = 0; i < scalar.triangles.size(); ++i) different += same_bits(scalar.triangle(i), other.triangle(i)) ? 0 : 1;
+            for (std::size_t i = 0; i < scalar.triangles.size(); ++i)
+                different += same_bits(scalar.triangle(i), other.triangle(i)) ? 0 : 1;
             CHECK(different == 0);
         }
     };

@@ -44,8 +44,11 @@ using Random = std::mt19937_64;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const SetupTriangle& t = triangles[i];
         const Rect box = intersection(centre_box(t.p, rules.subpixel_bits), g.state.viewport);
-        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}, i, t.material,
-                               box.area() == 0 ? PixelBox{} : in_viewport(box, g.state.viewport), t.front_facing});
+        g.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2},
+                               i,
+                               t.material,
+                               box.area() == 0 ? PixelBox{} : in_viewport(box, g.state.viewport),
+                               t.front_facing});
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& [r, green, b, a, s, tt] = t.attribute[k];
             const std::array color{r, green, b, a};

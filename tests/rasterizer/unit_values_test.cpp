@@ -17,9 +17,11 @@ TriangleSoup soup_of(Random& random, int triangles, bool has_rq) {
     soup.extras = {.stride = stride + (has_rq ? 2 : 0), .has_rq = has_rq, .has_units = true, .values = {}};
     for (int i = 0; i < 3 * triangles; ++i) {
         const float w = random_float(random, 0.5f, 4.0f);
-        soup.vertices.push_back({.x = random_float(random, -1, 1) * w, .y = random_float(random, -1, 1) * w, .z = 0, .w = w});
+        soup.vertices.push_back(
+            {.x = random_float(random, -1, 1) * w, .y = random_float(random, -1, 1) * w, .z = 0, .w = w});
         soup.indices.push_back(static_cast<std::uint32_t>(i));
-        for (std::size_t e = 0; e < soup.extras.stride; ++e) soup.extras.values.push_back(random_float(random, -100, 100));
+        for (std::size_t e = 0; e < soup.extras.stride; ++e)
+            soup.extras.values.push_back(random_float(random, -100, 100));
         soup.extras.values.back() = 2.5f;
     }
     soup.runs.push_back({.index_count = static_cast<std::uint32_t>(soup.indices.size())});
@@ -79,7 +81,8 @@ TEST_CASE("under another hypothesis texture units are interpolated as r and q ar
     TriangleSoup soup = soup_of(random, 12, true);
     for (std::size_t v = 0; v < soup.vertices.size(); ++v)  // unit 2's r and q are those of depth
         for (std::size_t c : {0u, 1u}) {
-            soup.extras.values[v * soup.extras.stride + c] = c == 1 ? 3.0f + static_cast<float>(v % 5) : static_cast<float>(v % 7);
+            soup.extras.values[v * soup.extras.stride + c] =
+                c == 1 ? 3.0f + static_cast<float>(v % 5) : static_cast<float>(v % 7);
             soup.extras.values[v * soup.extras.stride + 2 + 8 + 2 + c] = soup.extras.values[v * soup.extras.stride + c];
         }
     const Geometry g = set_up(std::move(soup), state, rules, 1);
@@ -88,9 +91,11 @@ TEST_CASE("under another hypothesis texture units are interpolated as r and q ar
     TileRasterizer rasterizer{state.viewport};
     auto sink = [&](FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i, ++fragments)
-            wrong += double{divide(batch.unit[2][2][i], batch.unit[2][3][i], rules.hypothesis.divide)} != batch.reference_z[i];
+            wrong += double{divide(batch.unit[2][2][i], batch.unit[2][3][i], rules.hypothesis.divide)} !=
+                     batch.reference_z[i];
     };
-    rasterizer.draw(g, g.all_triangles, {DepthPath::float32, DepthFormat::d32f, DepthPath::perspective_rq}, needs, BatchSink{sink});
+    rasterizer.draw(g, g.all_triangles, {DepthPath::float32, DepthFormat::d32f, DepthPath::perspective_rq}, needs,
+                    BatchSink{sink});
     CHECK(fragments > 400);
     CHECK(wrong == 0);
 }

@@ -65,7 +65,8 @@ TEST_CASE("geforce3 draws the pictures that an NV2A gave: every compared word of
     CHECK(different.empty());
 }
 
-TEST_CASE("a profile that rounds positions, depth, coordinates or blending otherwise is caught by the chip's pictures") {
+TEST_CASE(
+    "a profile that rounds positions, depth, coordinates or blending otherwise is caught by the chip's pictures") {
     pipeline::DeviceProfile nearest = geforce3();
     nearest.raster.snap = rasterizer::Snap::nearest_even;
     const Row geometry{"Vertex_shader_rounding_tests", "Geometry_0.5624", "", {}};
@@ -109,7 +110,8 @@ TEST_CASE("window depths of the fixed pipeline are the words that the chip store
 TEST_CASE("with all bits of a vertex colour the chip's greys do not come out") {
     pipeline::DeviceProfile all_bits = geforce3();
     all_bits.raster.interpolation.vertex_color_bits = 24;
-    const Row row{"Depth_buffer", "DepthFmt_z16_Cn_FZn_M00ffff", "2459688bdfd015f99906187c18c29a3a", {20, 25, 107, 116}};
+    const Row row{
+        "Depth_buffer", "DepthFmt_z16_Cn_FZn_M00ffff", "2459688bdfd015f99906187c18c29a3a", {20, 25, 107, 116}};
     CHECK(digest_with(row, geforce3()) == row.digest);
     CHECK(digest_with(row, all_bits) != row.digest);  // 28,607 pixels, one unit
 }
@@ -143,9 +145,9 @@ TEST_CASE("names that no test has are unknown, and what is not understood says w
     for (const char* name : {"", "Nonsense", "FrontFace_CW_CF_X", "FrontFace_", "TopLeftRaster_"})
         CHECK(find_suite("Front_face")->draw(name, geforce3()).reason == unknown_name_reason);
     for (const Suite& suite : suites())
-        for (const char* name : {"", "_", "_ZB", "C_Depth_y", "z24_", "#spot_", "W_", "AlphaFunc_Enabled", "x-1y", "ZPassPointSize-0x",
-                                 "3R16_1", "3F24_--1_1_EQ", "2P16f_1-2_1_XX",
-                                 "3R16_0-10000_1_EQ", "2R24_FFFFFFFF-1_1_A", "3P16_-7-20_1_LT", "3P24_1-inf_nan_LT"}) {
+        for (const char* name : {"", "_", "_ZB", "C_Depth_y", "z24_", "#spot_", "W_", "AlphaFunc_Enabled", "x-1y",
+                                 "ZPassPointSize-0x", "3R16_1", "3F24_--1_1_EQ", "2P16f_1-2_1_XX", "3R16_0-10000_1_EQ",
+                                 "2R24_FFFFFFFF-1_1_A", "3P16_-7-20_1_LT", "3P24_1-inf_nan_LT"}) {
             const Drawing drawing = suite.draw(name, geforce3());
             CHECK((drawing.picture || !drawing.reason.empty()));
         }
@@ -155,7 +157,9 @@ TEST_CASE("names that no test has are unknown, and what is not understood says w
 }
 
 TEST_CASE("the chip's two-dimensional stage compares 0: what has a depth is greater, whatever r the texture is given") {
-    const auto picture = [](const char* name) { return *find_suite("Texture_shadow_comparator")->draw(name, geforce3()).picture; };
+    const auto picture = [](const char* name) {
+        return *find_suite("Texture_shadow_comparator")->draw(name, geforce3()).picture;
+    };
     CHECK(picture("2R16_100-200_180_GT").image == picture("2R16_100-200_180_N").image);
     CHECK_FALSE(picture("3R16_100-200_180_GT").image == picture("3R16_100-200_180_N").image);
     CHECK(picture("2P24_10.00-20.00_11.4500_EQ").image == picture("2P24_10.00-20.00_11.4500_N").image);

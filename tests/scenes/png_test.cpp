@@ -62,8 +62,7 @@ TEST_CASE("the same image written twice, a second later, gives the same PNG byte
 
 TEST_CASE("a float target becomes 8 bits by clamping and rounding the exact product with 255 half up") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(-1, 2, nan, 0.5f))).codes ==
-          ImageCodes{0, 255, 0, 128});
+    CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(-1, 2, nan, 0.5f))).codes == ImageCodes{0, 255, 0, 128});
     const float half_code = 100.5f / 255;  // whichever side of the half the float lies
     const auto expected = static_cast<std::uint32_t>(std::floor(double{half_code} * 255 + 0.5));
     CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(half_code, 0, 1, 1))).codes ==
@@ -91,12 +90,10 @@ TEST_CASE("a premultiplied target is divided by its alpha, and is black where al
 TEST_CASE("a linear target is encoded as sRGB, and its alpha is not") {
     OutputColor output = one_pixel(Format::rgba32f, floats(0.5f, 0.0f, 1.0f, 0.5f));
     output.space = ColorSpace::linear;
-    CHECK(as_straight_rgba8(output).codes ==
-          ImageCodes{188, 0, 255, 128});  // the textbook's middle grey
+    CHECK(as_straight_rgba8(output).codes == ImageCodes{188, 0, 255, 128});  // the textbook's middle grey
     OutputColor codes = one_pixel(Format::rgba8, {55, 0, 255, 7});
     codes.space = ColorSpace::linear;
-    CHECK(as_straight_rgba8(codes).codes ==
-          ImageCodes{128, 0, 255, 7});  // 55/255 = 0.2157 encodes to 0.5018
+    CHECK(as_straight_rgba8(codes).codes == ImageCodes{128, 0, 255, 7});  // 55/255 = 0.2157 encodes to 0.5018
 }
 
 TEST_CASE("another ending, a missing file and a damaged one are input errors; a missing folder is the system's") {
@@ -126,8 +123,7 @@ TEST_CASE("a PNG without alpha is digested as opaque, and one that is grey or ha
     write("rgb.png", 3, OIIO::TypeDesc::UINT8);
     write("grey.png", 1, OIIO::TypeDesc::UINT8);
     write("wide.png", 4, OIIO::TypeDesc::UINT16);
-    CHECK(read_images(folder / "rgb.png")[0].image.codes ==
-          ImageCodes{77, 77, 77, 255, 77, 77, 77, 255});
+    CHECK(read_images(folder / "rgb.png")[0].image.codes == ImageCodes{77, 77, 77, 255, 77, 77, 77, 255});
     CHECK_THROWS_AS(read_images(folder / "grey.png"), strata::InputError);
     CHECK_THROWS_AS(read_images(folder / "wide.png"), strata::InputError);
 }

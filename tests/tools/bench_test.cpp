@@ -11,7 +11,8 @@ using nlohmann::ordered_json;
 namespace {
 
 Ended bench(const Folder& folder, std::vector<std::string> more) {
-    const std::vector<std::string> small{"bench", "random:seed=3,triangles=60", "--size", "64x64", "--repeat", "2", "--warm-up", "0"};
+    const std::vector<std::string> small{
+        "bench", "random:seed=3,triangles=60", "--size", "64x64", "--repeat", "2", "--warm-up", "0"};
     more.insert(more.begin(), small.begin(), small.end());
     return run_strata(folder, more);
 }
@@ -61,7 +62,8 @@ TEST_CASE("a job's literal fragments and picture are the same in every execution
     const auto jobs = ordered_json::parse(ended.out).at("jobs");
     REQUIRE(jobs.size() == 3);
     for (const auto& job : jobs)
-        for (const char* key : {"digest", "fragments", "geometry_passes", "bytes_per_fragment"}) CHECK(job[key] == jobs[0][key]);
+        for (const char* key : {"digest", "fragments", "geometry_passes", "bytes_per_fragment"})
+            CHECK(job[key] == jobs[0][key]);
 }
 
 TEST_CASE("strata bench --baseline prints old over new for equal jobs and names those without a partner") {

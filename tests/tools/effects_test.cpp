@@ -71,10 +71,12 @@ TEST_CASE("the plan's passes are those of the statistics, and its tiles are all 
         if (rows[i]["outcome"] == "refused") continue;
         const auto& tiles = all[i].at("tiles");
         CHECK(tiles["empty"].get<int>() + tiles["opaque_only"].get<int>() + tiles["single"].get<int>() +
-                  tiles["layered"].get<int>() == tiles["all"].get<int>());
+                  tiles["layered"].get<int>() ==
+              tiles["all"].get<int>());
         CHECK(tiles["all"] == 4);  // 64 x 48 in tiles of 32
         const std::string name = rows[i]["algorithm"];
-        CHECK(row(all[i], "stencil test").at("simulated") == (name.starts_with("coherent_") || name.starts_with("stencil_")));
+        CHECK(row(all[i], "stencil test").at("simulated") ==
+              (name.starts_with("coherent_") || name.starts_with("stencil_")));
     }
 }
 
@@ -96,8 +98,9 @@ TEST_CASE("what --effects all simulates the plan says, and where it is needed it
 TEST_CASE("every effect that can be timed has its time, whether it is simulated or left out") {
     const Folder folder;
     const auto plan = plans(folder, {"volume-beam:slices=2", "--algorithm", "front_to_back"})[0];
-    for (const char* effect : {"colour interpolation, perspective division", "stored depth code", "depth test", "blending",
-                               "loads of the own pixel", "texture coordinates", "program depth", "alpha test", "stencil test"}) {
+    for (const char* effect :
+         {"colour interpolation, perspective division", "stored depth code", "depth test", "blending",
+          "loads of the own pixel", "texture coordinates", "program depth", "alpha test", "stencil test"}) {
         INFO(effect);
         CHECK(row(plan, effect).at("seconds").is_number());
     }

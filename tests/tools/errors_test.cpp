@@ -22,7 +22,8 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (render, layers, bench, effects, invariance, reproduce, hardware-check, scene, digest, algorithms, profiles or scenes), found 'rendr' "
+         "strata: expected a command (render, layers, bench, effects, invariance, reproduce, hardware-check, scene, "
+         "digest, algorithms, profiles or scenes), found 'rendr' "
          "(did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},
          "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
@@ -42,7 +43,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
-         "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, planes, shadow-demo, found 'teapt' "
+         "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, planes, "
+         "shadow-demo, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},
          "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd24'?)"},
@@ -84,13 +86,15 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --termination: expected exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1, "
          "found 'ratio:2'"},
         {{"render", "teapot", "--sort", "bucket:0"},
-         "strata: --sort: expected bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to "
+         "strata: --sort: expected bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a "
+         "fraction from 0 to "
          "1, found 'bucket:0'"},
         {{"render", "teapot", "--sort", "shuffle:0.5"}, "strata: --sort: ..."},
         {{"render", "teapot", "--formulation", "printed"},
          "strata: --formulation: expected resolved or published, found 'printed'"},
         {{"render", "volume-beam:slices=2", "--sorted", "plane"},
-         "strata: --sorted: expected a mesh or a material of the scene (strata scene lists them), found 'plane' (did you mean "
+         "strata: --sorted: expected a mesh or a material of the scene (strata scene lists them), found 'plane' (did "
+         "you mean "
          "'planes'?)"},
         {{"reproduce", "carr2007", "-o", "page"},
          "strata: PAPER: expected carr2008, everitt2001 or bavoil2008, found 'carr2007' (did you mean 'carr2008'?)"},

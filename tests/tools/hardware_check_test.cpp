@@ -14,8 +14,8 @@ using nlohmann::ordered_json;
 namespace {
 
 // SUITE/NAME.png, grey 7F7F7F7F but for `wrong` pixels of the third row, whose red is `red`.
-void write_capture(const Folder& folder, const std::string& suite, const std::string& name, int wrong = 0, std::uint32_t red = 0,
-                   int width = 640) {
+void write_capture(const Folder& folder, const std::string& suite, const std::string& name, int wrong = 0,
+                   std::uint32_t red = 0, int width = 640) {
     std::filesystem::create_directories(folder / suite);
     pipeline::Image image{pipeline::Format::rgba8, width, 480};
     std::fill(image.codes.begin(), image.codes.end(), 0x7fu);

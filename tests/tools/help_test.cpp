@@ -24,8 +24,8 @@ std::vector<std::string> examples_of(const std::string& help) {
 }  // namespace
 
 TEST_CASE("every example of every --help runs as printed") {
-    const auto verb =
-        GENERATE(as<std::string>{}, "render", "layers", "bench", "effects", "invariance", "reproduce", "scene", "digest", "algorithms", "profiles", "scenes");
+    const auto verb = GENERATE(as<std::string>{}, "render", "layers", "bench", "effects", "invariance", "reproduce",
+                               "scene", "digest", "algorithms", "profiles", "scenes");
     const Folder folder;
     const Ended help = run_strata(folder, {verb, "--help"});
     CHECK(help.status == 0);

@@ -44,17 +44,16 @@ TEST_CASE("the same run gives the same bytes, whatever threads, tiles, execution
     CHECK(render(folder, {"-o", "first" + ending}).status == 0);
     const std::string first = content_of(folder / ("first" + ending));
     REQUIRE_FALSE(first.empty());
-    const std::vector<std::vector<std::string>> settings{
-        {},
-        {"--threads", "1"},
-        {"--tile", "8"},
-        {"--execution", "literal"},
-        {"--execution", "tiled"},
-        {"--execution", "replay", "--fragment-memory", "4K"},
-        {"--simd", "scalar"},
-        {"--simd", "best"},
-        {"--effects", "all"},
-        {"--no-audit"}};
+    const std::vector<std::vector<std::string>> settings{{},
+                                                         {"--threads", "1"},
+                                                         {"--tile", "8"},
+                                                         {"--execution", "literal"},
+                                                         {"--execution", "tiled"},
+                                                         {"--execution", "replay", "--fragment-memory", "4K"},
+                                                         {"--simd", "scalar"},
+                                                         {"--simd", "best"},
+                                                         {"--effects", "all"},
+                                                         {"--no-audit"}};
     for (const auto& setting : settings) {
         auto words = setting;
         words.insert(words.end(), {"-o", "again" + ending});

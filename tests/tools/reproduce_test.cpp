@@ -27,7 +27,8 @@ std::string reproduced(const Folder& folder, const std::string& paper) {
 
 }  // namespace
 
-TEST_CASE("a reproduced paper's page shows only files that are there, and the last composite of Figure 5 is the whole") {
+TEST_CASE(
+    "a reproduced paper's page shows only files that are there, and the last composite of Figure 5 is the whole") {
     const Folder folder;
     const auto files = linked(reproduced(folder, "everitt2001"));
     CHECK(files.size() >= 8);

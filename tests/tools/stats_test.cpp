@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include "peeling/algorithm.h"
-
 #include "tests/tools/program.h"
 
 using namespace strata::test;
@@ -51,8 +50,8 @@ bool is_count(const ordered_json& value) {
 void check_types(const ordered_json& row) {
     CHECK(keys_of(row) == row_keys);
     for (const char* key : {"algorithm", "profile", "execution", "simd", "outcome"}) CHECK(row[key].is_string());
-    for (const char* key : {"fragment_memory", "width", "height", "iterations", "geometry_passes", "fullscreen_passes", "layers_max",
-                            "fragments_max", "lost_by_ties"}) {
+    for (const char* key : {"fragment_memory", "width", "height", "iterations", "geometry_passes", "fullscreen_passes",
+                            "layers_max", "fragments_max", "lost_by_ties"}) {
         INFO(key);
         CHECK(is_count(row[key]));
     }

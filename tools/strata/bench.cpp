@@ -114,7 +114,8 @@ Command add_bench(CLI::App& root) {
     add_option(*app, options->repetitions.timed,
                {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_positive);
     add_option(*app, options->repetitions.warm_up,
-               {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds, from 0"}, to_seconds);
+               {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds, from 0"},
+               to_seconds);
     app->add_option("--json", options->json, "the times as JSON; - is standard output instead of the table")
         ->type_name("FILE|-");
     app->add_option("--baseline", options->baseline, "what --json wrote before: also print old/new")->type_name("FILE");

@@ -19,7 +19,7 @@ class Collector : public benchmark::BenchmarkReporter {
         for (const Run& run : runs) {
             if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
             BenchResult& result = results_[static_cast<std::size_t>(run.family_index)];  // in order of registration
-            result.seconds.push_back(run.real_accumulated_time);  // of its one iteration
+            result.seconds.push_back(run.real_accumulated_time);                         // of its one iteration
             result.geometry_seconds.push_back(run.counters.at("geometry_seconds").value);
         }
     }
@@ -87,16 +87,19 @@ BenchRun run_once(const BenchJob& job) {
 
 std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repetitions& repetitions) {
     std::vector<BenchResult> results;
-    for (const BenchJob& job : jobs) results.push_back({.job = job, .last = {}, .digest = {}, .seconds = {}, .geometry_seconds = {}});
+    for (const BenchJob& job : jobs)
+        results.push_back({.job = job, .last = {}, .digest = {}, .seconds = {}, .geometry_seconds = {}});
     Progress progress("bench");
     const double runs = static_cast<double>(jobs.size()) * repetitions.timed;
     double done = 0;
     benchmark::ClearRegisteredBenchmarks();
     for (BenchResult& result : results) {
-        const auto body = [&result, &progress, &done, runs, &repetitions, left = repetitions.timed](benchmark::State& state) mutable {
+        const auto body = [&result, &progress, &done, runs, &repetitions,
+                           left = repetitions.timed](benchmark::State& state) mutable {
             if (left == repetitions.timed) warm_up(result.job, repetitions.warm_up);
             run_job(state, result);
-            if (--left == 0) result.digest = pipeline::digest(result.last.picture);  // not before: it empties the caches
+            if (--left == 0)
+                result.digest = pipeline::digest(result.last.picture);  // not before: it empties the caches
             result.last.picture = {};
             progress.show(++done / runs);
         };

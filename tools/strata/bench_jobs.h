@@ -27,7 +27,7 @@ struct BenchJob {
 
 // One repetition.
 struct BenchRun {
-    std::string refusal;  // why the profile cannot run it; empty: it ran
+    std::string refusal;                       // why the profile cannot run it; empty: it ran
     double seconds = 0, geometry_seconds = 0;  // the second is a part of the first
     int geometry_passes = 0, iterations = 0;
     pipeline::Counters counters;  // literal's
@@ -36,8 +36,8 @@ struct BenchRun {
 
 struct BenchResult {
     BenchJob job;
-    BenchRun last;       // without its picture
-    std::string digest;  // of that picture
+    BenchRun last;                                  // without its picture
+    std::string digest;                             // of that picture
     std::vector<double> seconds, geometry_seconds;  // one a repetition, in the order in which they ran
     [[nodiscard]] bool is_refused() const noexcept { return !last.refusal.empty(); }
 };

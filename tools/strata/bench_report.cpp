@@ -168,8 +168,8 @@ ordered_json to_json(const std::vector<BenchResult>& results, const Baseline& ba
 
 std::string to_table(const std::vector<BenchResult>& results) {
     Table table{{{"scene"}, {"algorithm"}, {"execution"}, {"simd"}, {"effects"}}, {}};
-    for (const char* title : {"passes", "fragments", "median ms", "min..max", "geometry ms", "Mfragments/s", "ns/fragment",
-                              "bytes/fragment"})
+    for (const char* title : {"passes", "fragments", "median ms", "min..max", "geometry ms", "Mfragments/s",
+                              "ns/fragment", "bytes/fragment"})
         table.columns.push_back({title, Align::right});
     std::set<std::string> refused;
     for (const BenchResult& result : results) {

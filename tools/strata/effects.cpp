@@ -30,8 +30,11 @@ struct Explained {
 };
 
 Explained explain(const BenchScene& scene, const peeling::Algorithm& algorithm, int repeat) {
-    const BenchJob asked{.scene = &scene, .algorithm = &algorithm, .execution = scene.options.render.execution,
-                         .simd = scene.options.simd, .effects = scene.options.render.effects};
+    const BenchJob asked{.scene = &scene,
+                         .algorithm = &algorithm,
+                         .execution = scene.options.render.execution,
+                         .simd = scene.options.simd,
+                         .effects = scene.options.render.effects};
     Explained explained{.algorithm = &algorithm, .refusal = "", .plan = {}, .times = {}};
     const BenchRun run = run_once(asked);
     explained.refusal = run.refusal;
@@ -54,7 +57,7 @@ ordered_json to_json(const Explained& e, const BenchScene& scene) {
                                        {"fragments", row.fragments},
                                        {"seconds", row.seconds ? ordered_json(*row.seconds) : ordered_json(nullptr)}});
     const auto& t = e.plan.tiles;
-    document["tiles"] = {{"all", t.tiles},       {"empty", t.empty},     {"opaque_only", t.opaque_only},
+    document["tiles"] = {{"all", t.tiles},     {"empty", t.empty},     {"opaque_only", t.opaque_only},
                          {"single", t.single}, {"layered", t.layered}, {"with_opaque", t.with_opaque}};
     document["seconds"] = {{"needed", e.times.needed}, {"all", e.times.all}, {"as_asked", e.times.as_asked}};
     return document;
@@ -62,8 +65,13 @@ ordered_json to_json(const Explained& e, const BenchScene& scene) {
 
 std::string to_text(const Explained& e, const BenchScene& scene) {
     if (!e.refusal.empty()) return fmt::format("{}: {}\n", e.algorithm->name, e.refusal);
-    Table table{{{e.algorithm->name}, {""}, {"passes", Align::right}, {"fragments", Align::right}, {"ms", Align::right},
-                  {"why"}}, {}};
+    Table table{{{e.algorithm->name},
+                 {""},
+                 {"passes", Align::right},
+                 {"fragments", Align::right},
+                 {"ms", Align::right},
+                 {"why"}},
+                {}};
     for (const bool simulated : {true, false})
         for (const EffectRow& row : e.plan.rows)
             if (row.is_simulated == simulated)
@@ -76,7 +84,9 @@ std::string to_text(const Explained& e, const BenchScene& scene) {
     const peeling::ListOrder order = e.algorithm->order;
     if (order == peeling::ListOrder::sets || order == peeling::ListOrder::objects)
         text += "fragments: as if every pass drew the whole list; a pass over a part of it draws fewer\n";
-    text += "ms: what an effect costs in the whole run, or what leaving it out saves; each pass rasterizes, medians of runs in turn\n";
+    text +=
+        "ms: what an effect costs in the whole run, or what leaving it out saves; each pass rasterizes, medians of "
+        "runs in turn\n";
     text += fmt::format(
         "{} tiles: {} empty, {} with opaque fragments alone, {} with one transparent fragment a pixel at most, {} that "
         "need peeling; {} need opaque priming\n",
@@ -84,8 +94,8 @@ std::string to_text(const Explained& e, const BenchScene& scene) {
     text += fmt::format("needed {:.2f} ms, all {:.2f} ms: leaving the others out makes it {:.2f} times as fast\n",
                         e.times.needed * 1e3, e.times.all * 1e3, e.times.all / e.times.needed);
     if (scene.options.render.execution == pipeline::Execution::replay)
-        text += fmt::format("replay {:.2f} ms: rasterizing once makes it {:.2f} times as fast\n", e.times.as_asked * 1e3,
-                            e.times.needed / e.times.as_asked);
+        text += fmt::format("replay {:.2f} ms: rasterizing once makes it {:.2f} times as fast\n",
+                            e.times.as_asked * 1e3, e.times.needed / e.times.as_asked);
     return text;
 }
 
@@ -108,15 +118,17 @@ int explain_all(EffectsOptions& options) {
 }  // namespace
 
 Command add_effects(CLI::App& root) {
-    auto* app = root.add_subcommand("effects", "tell which effects a run simulates, who calls for them, what they cost");
+    auto* app =
+        root.add_subcommand("effects", "tell which effects a run simulates, who calls for them, what they cost");
     const auto options = std::make_shared<EffectsOptions>();
     add_picture_options(*app, options->scene.options);
     add_execution_options(*app, options->scene.options);
     add_option(*app, options->repeat, {"--repeat", "N", "runs of each timing (default 3)", "a whole number from 1"},
                to_positive);
     app->add_flag("--json", options->json, "one JSON document instead of the tables");
-    app->footer(footer("  strata effects teapot --size 200x150\n"
-                       "  strata effects volume-beam:slices=4 --algorithm dual,weighted_average --size 64x64 --json\n"));
+    app->footer(
+        footer("  strata effects teapot --size 200x150\n"
+               "  strata effects volume-beam:slices=4 --algorithm dual,weighted_average --size 64x64 --json\n"));
     return {app, [options] { return explain_all(*options); }};
 }
 

@@ -71,7 +71,8 @@ bool is_blending(const PassRecord& p) {
 }
 
 constexpr std::array pass_effects{
-    PassEffect{"colour interpolation, perspective division", Effect::color, [](const PassRecord& p) { return p.needs.color; },
+    PassEffect{"colour interpolation, perspective division", Effect::color,
+               [](const PassRecord& p) { return p.needs.color; },
                "a program looks at colour, or a MASK material must be shaded", "no program looks at colour"},
     PassEffect{"texture coordinates", Effect::texcoord, [](const PassRecord& p) { return p.needs.texcoord; },
                "colour is looked at and a material has a texture", "nothing samples"},
@@ -83,20 +84,22 @@ constexpr std::array pass_effects{
                "the oracle's own order", "the oracle alone asks for it"},
     PassEffect{"facing", Effect::facing, [](const PassRecord& p) { return p.needs.facing; }, "a two-sided stencil test",
                "no two-sided stencil test"},
-    PassEffect{"loads of the own pixel", Effect::loads, [](const PassRecord& p) {
+    PassEffect{"loads of the own pixel", Effect::loads,
+               [](const PassRecord& p) {
                    return std::any_of(p.state.reads.begin(), p.state.reads.end(), [](auto t) { return t.exists(); });
                },
                "a program compares with what an earlier pass left", "no program loads"},
-    PassEffect{"alpha test", Effect::alpha_test, [](const PassRecord& p) { return p.state.alpha.enabled; }, "the pass's state",
-               "no pass enables it"},
+    PassEffect{"alpha test", Effect::alpha_test, [](const PassRecord& p) { return p.state.alpha.enabled; },
+               "the pass's state", "no pass enables it"},
     PassEffect{"sequential depth units", Effect::none, [](const PassRecord& p) { return p.state.depth_unit_count > 0; },
                "the pass's state", "no pass has one"},
     PassEffect{"stencil test", Effect::stencil_test, [](const PassRecord& p) { return p.state.stencil.enabled; },
                "the pass's state", "no pass enables it, and there is no stencil buffer"},
-    PassEffect{"depth test", Effect::depth_test, [](const PassRecord& p) { return p.state.depth.enabled; }, "the pass's state",
-               "no pass enables it"},
-    PassEffect{"depth write", Effect::none, [](const PassRecord& p) { return p.state.depth.enabled && p.state.depth.write; },
-               "the pass's state", "no pass writes depth"},
+    PassEffect{"depth test", Effect::depth_test, [](const PassRecord& p) { return p.state.depth.enabled; },
+               "the pass's state", "no pass enables it"},
+    PassEffect{"depth write", Effect::none,
+               [](const PassRecord& p) { return p.state.depth.enabled && p.state.depth.write; }, "the pass's state",
+               "no pass writes depth"},
     PassEffect{"blending", Effect::blending, is_blending, "the pass's state", "no pass blends"}};
 
 // The stages that --effects all runs with a state that changes nothing.
@@ -140,8 +143,11 @@ class Planner {
             });
             const bool idles = called == 0 && job_.effects == pipeline::Effects::all && idles_when_off(e.effect);
             const std::uint64_t simulated = idles ? plan_.geometry_passes : count;
-            add(e.name, simulated > 0, simulated == 0 ? e.idle : called == 0 ? "--effects all" : e.called, simulated,
-                simulated * total(plan_.tiles.transparent_fragments));
+            add(e.name, simulated > 0,
+                simulated == 0 ? e.idle
+                : called == 0  ? "--effects all"
+                               : e.called,
+                simulated, simulated * total(plan_.tiles.transparent_fragments));
             plan_.rows.back().effect_id = e.effect;
         }
         add_frame();
@@ -152,15 +158,20 @@ class Planner {
     template <class Holds>
     [[nodiscard]] std::uint64_t passes(Holds holds) const {
         if (job_.algorithm != nullptr && job_.algorithm->whole_frame)  // no iteration of it is like another
-            return static_cast<std::uint64_t>(std::count_if(log_.passes.begin(), log_.passes.end(), [&](const PassRecord& pass) {
-                return !pass.is_opaque_priming && holds(pass);
-            }));
+            return static_cast<std::uint64_t>(
+                std::count_if(log_.passes.begin(), log_.passes.end(),
+                              [&](const PassRecord& pass) { return !pass.is_opaque_priming && holds(pass); }));
         return count_passes(log_, run_.iterations, holds);
     }
 
-    void add(std::string effect, bool is_simulated, std::string why, std::uint64_t pass_count, std::uint64_t fragments) {
-        plan_.rows.push_back({.effect = std::move(effect), .is_simulated = is_simulated, .why = std::move(why),
-                              .passes = pass_count, .fragments = fragments, .seconds = {}});
+    void add(std::string effect, bool is_simulated, std::string why, std::uint64_t pass_count,
+             std::uint64_t fragments) {
+        plan_.rows.push_back({.effect = std::move(effect),
+                              .is_simulated = is_simulated,
+                              .why = std::move(why),
+                              .passes = pass_count,
+                              .fragments = fragments,
+                              .seconds = {}});
     }
 
     [[nodiscard]] const pipeline::DrawList& list() const { return job_.scene->session.scene.list; }
@@ -174,10 +185,9 @@ class Planner {
         const peeling::Algorithm& one_pass = *peeling::find_algorithm("unsorted");  // what a depth pass is as well
         const int tile_size = tile_size_of(options.render, job_.algorithm == nullptr ? one_pass : *job_.algorithm);
         const auto prepared = [&](Selection selection) {
-            return pipeline::prepare(list(), session.view, raster, session.profile,
-                                     {.selection = selection,
-                                      .tile_size = tile_size,
-                                      .threads = options.render.threads});
+            return pipeline::prepare(
+                list(), session.view, raster, session.profile,
+                {.selection = selection, .tile_size = tile_size, .threads = options.render.threads});
         };
         // With --alpha nothing is opaque: the other list is then one without a triangle.
         pipeline::PreparedDraw opaque = prepared(Selection::opaque);
@@ -212,18 +222,23 @@ class Planner {
     }
 
     void add_scene() {
-        add_geometry_row("lighting, at the vertices", [](const Material& m) { return !m.unlit; }, "lit materials: ",
-                         "every material is unlit");
-        add_geometry_row("culling", [](const Material& m) { return !m.double_sided; },
-                         fmt::format("drops {} triangles of single-sided materials: ", setup_.culled),
-                         "every material is double-sided");
+        add_geometry_row(
+            "lighting, at the vertices", [](const Material& m) { return !m.unlit; },
+            "lit materials: ", "every material is unlit");
+        add_geometry_row(
+            "culling", [](const Material& m) { return !m.double_sided; },
+            fmt::format("drops {} triangles of single-sided materials: ", setup_.culled),
+            "every material is double-sided");
         const RunOptions& options = job_.scene->options;
-        add_material_row("opaque priming", [&](const Material& m) { return !is_transparent(options, m); },
-                         "opaque materials", "nothing is opaque", 0);
-        add_material_row("alphaMode MASK", [](const Material& m) { return m.alpha_mode == AlphaMode::mask; },
-                         "materials with a cutoff", "no material is MASK", plan_.geometry_passes);
-        add_material_row("texture sampling", [](const Material& m) { return m.texture >= 0; }, "materials with a texture",
-                         "no material has a texture", passes([](const PassRecord& p) { return p.samples_textures; }));
+        add_material_row(
+            "opaque priming", [&](const Material& m) { return !is_transparent(options, m); }, "opaque materials",
+            "nothing is opaque", 0);
+        add_material_row(
+            "alphaMode MASK", [](const Material& m) { return m.alpha_mode == AlphaMode::mask; },
+            "materials with a cutoff", "no material is MASK", plan_.geometry_passes);
+        add_material_row(
+            "texture sampling", [](const Material& m) { return m.texture >= 0; }, "materials with a texture",
+            "no material has a texture", passes([](const PassRecord& p) { return p.samples_textures; }));
     }
 
     // What the frame as a whole calls for.
@@ -241,8 +256,8 @@ class Planner {
                            : "one pass is enough for this algorithm and scene",
             iterations > 1 ? plan_.geometry_passes : 0, iterations > 1 ? plan_.geometry_passes * drawn : 0);
         const bool asks = log_.queries > 0;
-        add("occlusion queries", asks, asks ? "each iteration asks what is left" : "nothing asks", asks ? iterations : 0,
-            asks ? iterations * drawn : 0);
+        add("occlusion queries", asks, asks ? "each iteration asks what is left" : "nothing asks",
+            asks ? iterations : 0, asks ? iterations * drawn : 0);
         add("kept layers", o.keep_layers, "strata layers alone keeps them", 0, 0);
     }
 

@@ -47,10 +47,13 @@ std::vector<Capture> find_captures(const Options& options) {
         throw InputError{"strata", "--suite", one_of(known), found_but_near(options.suite, known)};
     std::vector<Capture> captures;
     std::error_code ignored;  // a link that leads nowhere is no folder and no picture
-    for (const std::string& suite : sorted_names(options.folder, [&](const auto& e) { return e.is_directory(ignored); })) {
+    for (const std::string& suite :
+         sorted_names(options.folder, [&](const auto& e) { return e.is_directory(ignored); })) {
         if (suite == textures_folder || (!options.suite.empty() && suite != options.suite)) continue;
         const fs::path folder = fs::path(options.folder) / suite;
-        const auto is_picture = [&](const auto& e) { return e.path().extension() == ".png" && !e.is_directory(ignored); };
+        const auto is_picture = [&](const auto& e) {
+            return e.path().extension() == ".png" && !e.is_directory(ignored);
+        };
         for (const std::string& file : sorted_names(folder, is_picture))
             captures.push_back({suite, fs::path(file).stem().string(), (folder / file).string()});
     }
@@ -72,8 +75,10 @@ int hardware_check(const Options& options) {
         return 0;
     }
     const std::vector<CheckedPicture> checked = check_all(captures, profile);
-    if (options.digests) print(digest_rows(checked));
-    else print(options.json ? to_json(checked, profile) : to_text(checked, profile));
+    if (options.digests)
+        print(digest_rows(checked));
+    else
+        print(options.json ? to_json(checked, profile) : to_text(checked, profile));
     if (!options.report.empty()) write_report(options.report, checked, profile);
     return std::all_of(checked.begin(), checked.end(), [](const auto& c) { return c.is_accepted(); }) ? 0 : 1;
 }
@@ -83,9 +88,13 @@ int hardware_check(const Options& options) {
 Command add_hardware_check(CLI::App& root) {
     auto* app = root.add_subcommand("hardware-check", "compare a profile with pictures that a real chip drew");
     const auto options = std::make_shared<Options>();
-    app->add_option("DIR", options->folder, "captures: DIR/SUITE/NAME.png, named as upstream names them")->required()->type_name("");
+    app->add_option("DIR", options->folder, "captures: DIR/SUITE/NAME.png, named as upstream names them")
+        ->required()
+        ->type_name("");
     app->add_option("--suite", options->suite, "this suite alone")->type_name("NAME");
-    app->add_option("--profile", options->profile, "a built-in profile or a JSON file")->capture_default_str()->type_name("NAME|FILE");
+    app->add_option("--profile", options->profile, "a built-in profile or a JSON file")
+        ->capture_default_str()
+        ->type_name("NAME|FILE");
     app->add_option("-o,--output", options->report, "folder for difference pictures and one page")->type_name("DIR");
     app->add_flag("--json", options->json, "one JSON document instead of the tables");
     app->add_flag("--hypotheses", options->hypotheses, "the score of each hypothesis that the profile names");

@@ -21,9 +21,9 @@ struct Titled {
     std::string_view title;
 };
 constexpr Titled subjects[] = {{Subject::window_depth, "depths that are written"},
-                                 {Subject::texture_depth, "depths made of r and q, or compared with a texel"},
-                                 {Subject::color, "vertex colours"},
-                                 {Subject::coordinates, "texture coordinates"}};
+                               {Subject::texture_depth, "depths made of r and q, or compared with a texel"},
+                               {Subject::color, "vertex colours"},
+                               {Subject::coordinates, "texture coordinates"}};
 
 // What one capture says of every hypothesis; empty where it cannot tell.
 using Verdicts = std::vector<hc::Comparison>;
@@ -54,13 +54,19 @@ std::vector<NamedHypothesis> hypotheses_on(Subject subject, const rasterizer::Ra
     std::vector<NamedHypothesis> chosen = rasterizer::depth_hypotheses(rules);
     const std::vector<NamedHypothesis> others = rasterizer::interpolation_hypotheses(rules);
     chosen.insert(chosen.end(), others.begin() + 1, others.end());
-    chosen.erase(std::remove_if(chosen.begin() + 1, chosen.end(), [&](const NamedHypothesis& h) { return h.subject != subject; }),
+    chosen.erase(std::remove_if(chosen.begin() + 1, chosen.end(),
+                                [&](const NamedHypothesis& h) { return h.subject != subject; }),
                  chosen.end());
     return chosen;
 }
 
 Table table_of(const std::vector<NamedHypothesis>& hypotheses, const std::vector<Verdicts>& verdicts) {
-    Table table{{{"hypothesis"}, {"equal", Align::right}, {"within bound", Align::right}, {"pixels off", Align::right}, {"largest", Align::right}}, {}};
+    Table table{{{"hypothesis"},
+                 {"equal", Align::right},
+                 {"within bound", Align::right},
+                 {"pixels off", Align::right},
+                 {"largest", Align::right}},
+                {}};
     for (std::size_t h = 0; h < hypotheses.size(); ++h) {
         std::uint64_t equal = 0, within = 0, differing = 0;
         std::uint32_t largest = 0;
@@ -72,7 +78,8 @@ Table table_of(const std::vector<NamedHypothesis>& hypotheses, const std::vector
             differing += c.differing;
             largest = std::max(largest, c.largest);
         }
-        table.rows.push_back({hypotheses[h].name, fmt::to_string(equal), fmt::to_string(within), fmt::to_string(differing), fmt::to_string(largest)});
+        table.rows.push_back({hypotheses[h].name, fmt::to_string(equal), fmt::to_string(within),
+                              fmt::to_string(differing), fmt::to_string(largest)});
     }
     return table;
 }
@@ -84,10 +91,10 @@ std::string hypothesis_scores(const std::vector<Capture>& captures, const pipeli
     for (const Titled& each : subjects) {
         const std::vector<NamedHypothesis> hypotheses = hypotheses_on(each.subject, profile.raster);
         std::vector<Verdicts> verdicts(captures.size());
-        for_every("checking", captures.size(), [&](std::size_t i) {
-            verdicts[i] = verdicts_of(captures[i], profile, each.subject, hypotheses);
-        });
-        const auto telling = std::count_if(verdicts.begin(), verdicts.end(), [](const Verdicts& v) { return !v.empty(); });
+        for_every("checking", captures.size(),
+                  [&](std::size_t i) { verdicts[i] = verdicts_of(captures[i], profile, each.subject, hypotheses); });
+        const auto telling =
+            std::count_if(verdicts.begin(), verdicts.end(), [](const Verdicts& v) { return !v.empty(); });
         text += fmt::format("{}{}: {} captures can tell\n", text.empty() ? "" : "\n", each.title, telling);
         if (telling > 0) text += to_text(table_of(hypotheses, verdicts));
     }

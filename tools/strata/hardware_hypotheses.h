@@ -11,6 +11,7 @@
 
 namespace strata::tools {
 
-[[nodiscard]] std::string hypothesis_scores(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile);
+[[nodiscard]] std::string hypothesis_scores(const std::vector<Capture>& captures,
+                                            const pipeline::DeviceProfile& profile);
 
 }  // namespace strata::tools

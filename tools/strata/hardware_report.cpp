@@ -42,7 +42,8 @@ std::string detail(const CheckedPicture& p) {
 
 // Control characters, which a file name may hold, as question marks.
 std::string printable(std::string text) {
-    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
     return text;
 }
 
@@ -74,8 +75,15 @@ std::vector<SuiteCount> count_suites(const std::vector<CheckedPicture>& checked)
 
 Table suite_table(const std::vector<CheckedPicture>& checked) {
     const auto right = Align::right;
-    Table table{{{"suite"}, {"pictures", right}, {"equal", right}, {"within bound", right}, {"differ", right},
-                 {"not modelled", right}, {"pixels compared", right}, {"pixels off", right}, {"largest", right}},
+    Table table{{{"suite"},
+                 {"pictures", right},
+                 {"equal", right},
+                 {"within bound", right},
+                 {"differ", right},
+                 {"not modelled", right},
+                 {"pixels compared", right},
+                 {"pixels off", right},
+                 {"largest", right}},
                 {}};
     for (const SuiteCount& s : count_suites(checked))
         table.rows.push_back({s.name, fmt::to_string(s.pictures), fmt::to_string(s.equal), fmt::to_string(s.within),
@@ -85,7 +93,9 @@ Table suite_table(const std::vector<CheckedPicture>& checked) {
 }
 
 std::string markdown(const Table& table) {
-    const auto row = [](const std::vector<std::string>& cells) { return fmt::format("| {} |\n", fmt::join(cells, " | ")); };
+    const auto row = [](const std::vector<std::string>& cells) {
+        return fmt::format("| {} |\n", fmt::join(cells, " | "));
+    };
     std::vector<std::string> titles, rules;
     for (const Column& c : table.columns) {
         titles.push_back(c.title);
@@ -143,11 +153,13 @@ CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& prof
 }
 
 std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
-    Table pictures{{{"suite"}, {"picture"}, {"outcome"}, {"pixels off", Align::right}, {"largest", Align::right}, {"detail"}}, {}};
+    Table pictures{
+        {{"suite"}, {"picture"}, {"outcome"}, {"pixels off", Align::right}, {"largest", Align::right}, {"detail"}}, {}};
     for (const CheckedPicture& p : checked)
         if (outcome(p) != "equal" || !p.reports.empty())
-            pictures.rows.push_back({printable(p.capture.suite), printable(p.capture.name), outcome(p), fmt::to_string(p.comparison.differing),
-                                     fmt::to_string(p.comparison.largest), detail(p)});
+            pictures.rows.push_back({printable(p.capture.suite), printable(p.capture.name), outcome(p),
+                                     fmt::to_string(p.comparison.differing), fmt::to_string(p.comparison.largest),
+                                     detail(p)});
     std::string text = fmt::format("profile {}; pictures that are not equal, or report a count:\n", profile.name);
     return text + to_text(pictures) + '\n' + to_text(suite_table(checked));
 }
@@ -178,22 +190,24 @@ std::string digest_rows(const std::vector<CheckedPicture>& checked) {
     std::string rows;
     for (const CheckedPicture& p : checked)
         if (outcome(p) == "equal")
-            rows += fmt::format("{} {} {} {} {} {} {}\n", p.capture.suite, p.capture.name, p.labels.x0, p.labels.y0, p.labels.x1,
-                                p.labels.y1, p.digest);
+            rows += fmt::format("{} {} {} {} {} {} {}\n", p.capture.suite, p.capture.name, p.labels.x0, p.labels.y0,
+                                p.labels.x1, p.labels.y1, p.digest);
     return rows;
 }
 
-void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
+void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked,
+                  const pipeline::DeviceProfile& profile) {
     std::filesystem::create_directories(folder);
-    std::string page = fmt::format("# The profile {} against captures\n\n{}\n", profile.name, markdown(suite_table(checked)));
+    std::string page =
+        fmt::format("# The profile {} against captures\n\n{}\n", profile.name, markdown(suite_table(checked)));
     for (const CheckedPicture& p : checked) {
         if (outcome(p) == "equal" || !p.is_known) continue;
         if (!p.is_compared()) {
             page += fmt::format("- {}/{}: not modelled: {}\n", p.capture.suite, p.capture.name, p.unmodelled);
             continue;
         }
-        page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}; {}\n", p.capture.suite, p.capture.name, outcome(p),
-                            p.comparison.differing, p.comparison.compared, p.comparison.largest, detail(p));
+        page += fmt::format("- {}/{}: {}, {} of {} pixels off, by at most {}; {}\n", p.capture.suite, p.capture.name,
+                            outcome(p), p.comparison.differing, p.comparison.compared, p.comparison.largest, detail(p));
         const hc::Drawing drawing = drawn(p.capture, profile);
         scenes::write_image((std::filesystem::path(folder) / file_name(p)).string(),
                             {.color = hc::difference_picture(*drawing.picture, read_capture(p.capture.path))});

@@ -20,8 +20,8 @@ inline constexpr std::string_view textures_folder = "textures";
 
 struct CheckedPicture {
     Capture capture;
-    bool is_known = false;    // the suite, and the name in it
-    std::string unmodelled;   // the reason; empty: it was compared
+    bool is_known = false;   // the suite, and the name in it
+    std::string unmodelled;  // the reason; empty: it was compared
     scenes::hardware_check::Bound bound{};
     scenes::hardware_check::Comparison comparison{};
     std::vector<std::uint64_t> reports{};
@@ -42,6 +42,7 @@ struct CheckedPicture {
 // Suite, picture, label box, digest: of every capture that came out equal.
 [[nodiscard]] std::string digest_rows(const std::vector<CheckedPicture>& checked);
 // report.md, and a difference picture of whatever is not equal, in `folder`, which is made.
-void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
+void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked,
+                  const pipeline::DeviceProfile& profile);
 
 }  // namespace strata::tools

@@ -214,7 +214,8 @@ void add_order_options(CLI::App& app, peeling::RenderOptions& options) {
            "meshes or materials that arrive front to back, for hybrid (default: those that the scene names)")
         ->type_name("NAME[,NAME...]");
     add_option(app, options.sort,
-               {"--sort", "bucket:N|exact|none|reverse|shuffle:F,SEED", "order of triangles, by centroid (default none: as listed)",
+               {"--sort", "bucket:N|exact|none|reverse|shuffle:F,SEED",
+                "order of triangles, by centroid (default none: as listed)",
                 "bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to 1"},
                to_sort);
 }

@@ -40,12 +40,12 @@ void add_picture_options(CLI::App& app, RunOptions& options);
 void add_execution_options(CLI::App& app, RunOptions& options);
 
 // Parts of both, for a command that takes lists of the rest.
-void add_reading_options(CLI::App& app, scenes::SceneOptions& options);   // --scene, --colour, --no-light
+void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --scene, --colour, --no-light
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth ... --max-passes
 void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --formulation, --sorted, --sort
 void add_profile_option(CLI::App& app, std::string& profile);
-void add_view_options(CLI::App& app, RunOptions& options);        // --size ... --background
-void add_resource_options(CLI::App& app, RunOptions& options);    // --fragment-memory, --tile, --threads
+void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
+void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
 
 // Throws CLI::ValidationError where this processor lacks the set.
 void check_simd(Simd simd);

@@ -9,7 +9,10 @@
 namespace strata::tools {
 
 Progress::Progress(std::string label, Remaining remaining)
-    : label_{std::move(label)}, remaining_{remaining}, is_terminal_{isatty(STDERR_FILENO) == 1}, start_{std::chrono::steady_clock::now()} {}
+    : label_{std::move(label)},
+      remaining_{remaining},
+      is_terminal_{isatty(STDERR_FILENO) == 1},
+      start_{std::chrono::steady_clock::now()} {}
 
 Progress::~Progress() {
     if (shown_ > 0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(shown_), "");
@@ -25,7 +28,7 @@ void Progress::show(double share) {
     constexpr int bar_width = 30;
     const auto filled = static_cast<std::size_t>(percent * bar_width / 100);
     std::string line = label_ + " [" + std::string(filled, '=') + std::string(bar_width - filled, ' ') + "] " +
-                             std::to_string(percent) + "%";
+                       std::to_string(percent) + "%";
     if (remaining_ == Remaining::shown && share > 0)
         line += ", " + std::to_string(std::lround(passed.count() * (1 - share) / share)) + " s left";
     line.resize(std::max(line.size(), shown_), ' ');

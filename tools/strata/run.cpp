@@ -44,8 +44,9 @@ void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
     for (const auto& material : scene.list.materials) add(material.name);
     for (const std::string& name : options.render.sorted)
         if (std::find(names.begin(), names.end(), name) == names.end())
-            throw CLI::ValidationError("--sorted", "expected a mesh or a material of the scene (strata scene lists them), found " +
-                                                       found_but_near(name, names));
+            throw CLI::ValidationError("--sorted",
+                                       "expected a mesh or a material of the scene (strata scene lists them), found " +
+                                           found_but_near(name, names));
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ ordered_json measure(const Job& job, const Options& options, std::vector<std::ui
     constexpr int all = 1000000;
     ordered_json seconds = ordered_json::array();
     int passes = 0;
-    for (double warm = seconds_of(job, pixels, 2, passes); warm < options.warm_up;) warm += seconds_of(job, pixels, all, passes);
+    for (double warm = seconds_of(job, pixels, 2, passes); warm < options.warm_up;)
+        warm += seconds_of(job, pixels, all, passes);
     double spent = 0;
     for (int i = 0; i < options.repeat && (i == 0 || spent < options.budget); ++i) {
         seconds.push_back(seconds_of(job, pixels, all, passes));
@@ -155,7 +156,8 @@ void add_options(CLI::App& app, Options& o) {
         ->delimiter(',')
         ->check(CLI::IsMember(job_names()));
     app.add_option("--repeat", o.repeat, "times of each (default 3)")->check(CLI::PositiveNumber);
-    app.add_option("--warm-up", o.warm_up, "seconds that each runs before it is timed (default 0.3)")->check(CLI::NonNegativeNumber);
+    app.add_option("--warm-up", o.warm_up, "seconds that each runs before it is timed (default 0.3)")
+        ->check(CLI::NonNegativeNumber);
     app.add_option("--budget", o.budget, "seconds of an algorithm after which it is not repeated (default 10)");
     app.add_option("--profile", o.profile, "Strata's device for --check and --compare (default llvmpipe)");
     app.add_flag("--check", o.check, "compare the number of fragments of every pixel; exit status 1 if one differs");
