@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "peeling/programs.h"
+#include "peeling/programs/programs.h"
 
 namespace strata::peeling {
 

@@ -8,10 +8,10 @@
 #pragma once
 #include <optional>
 
-#include "peeling/image_error.h"
-#include "peeling/peel_errors.h"
+#include "peeling/audit/image_error.h"
+#include "peeling/audit/peel_errors.h"
+#include "peeling/audit/safe_range.h"
 #include "peeling/render.h"
-#include "peeling/safe_range.h"
 
 namespace strata::peeling {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "peeling/stopwatch.h"
-#include "pipeline/other_splits.h"
+#include "pipeline/vertices/other_splits.h"
 
 namespace strata::peeling {
 

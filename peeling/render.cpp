@@ -5,10 +5,10 @@
 #include "peeling/prepared_lists.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
-#include "pipeline/check_pass.h"
-#include "pipeline/effects.h"
-#include "rasterizer/input_error.h"
-#include "rasterizer/parallel.h"
+#include "pipeline/region/check_pass.h"
+#include "pipeline/frame/effects.h"
+#include "rasterizer/base/input_error.h"
+#include "rasterizer/base/parallel.h"
 
 namespace strata::peeling {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "peeling/algorithm.h"
-#include "peeling/audit.h"
+#include "peeling/audit/audit.h"
+#include "peeling/registry.h"
 #include "peeling/sort.h"
-#include "pipeline/executor.h"
+#include "pipeline/region/executor.h"
 
 namespace strata::peeling {
 
@@ -46,13 +46,13 @@ struct RenderOptions {
     std::optional<int> tile_size;                              // pixels; default: tile_size_of
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;
-    pipeline::Effect once_more = pipeline::Effect::none;  // pipeline/frame.h; never replayed
+    pipeline::Effect once_more = pipeline::Effect::none;  // pipeline/frame/frame.h; never replayed
     pipeline::Format average_count = pipeline::Format::r16f;
     bool keep_layers = false;
-    bool trust_idle = true;                 // pipeline/frame.h
+    bool trust_idle = true;                 // pipeline/frame/frame.h
     bool audit = true;                      // order_errors and the other comparisons with the a_buffer
     bool nearest_depth = true;              // make the Z image
-    pipeline::PassLog* pass_log = nullptr;  // pipeline/frame.h
+    pipeline::PassLog* pass_log = nullptr;  // pipeline/frame/frame.h
     // The viewport's corner on its surface, in pixels; positions move with it exactly.
     std::array<int, 2> window_origin{0, 0};
     // Conventions; the viewport is set from width, height and window_origin.

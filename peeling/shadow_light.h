@@ -2,8 +2,8 @@
 // It runs before anything is drawn for the eye, literally: whoever looks at it later looks anywhere. Transparent surfaces let
 // the light through, also where --alpha makes all of them transparent.
 #pragma once
-#include "pipeline/executor.h"
-#include "pipeline/shadow_stage.h"
+#include "pipeline/region/executor.h"
+#include "pipeline/textures/shadow_stage.h"
 
 namespace strata::peeling {
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "pipeline/prepare.h"
+#include "pipeline/vertices/prepare.h"
 
 namespace strata::peeling {
 

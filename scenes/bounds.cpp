@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rasterizer/numerics.h"
+#include "rasterizer/base/numerics.h"
 
 namespace strata::scenes {
 namespace {

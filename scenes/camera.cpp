@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "rasterizer/float_environment.h"
-#include "rasterizer/input_error.h"
-#include "rasterizer/numerics.h"
-#include "scenes/elementary.h"
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
+#include "rasterizer/base/numerics.h"
+#include "scenes/numbers/elementary.h"
 
 namespace strata::scenes {
 namespace {

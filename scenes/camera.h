@@ -6,8 +6,8 @@
 #pragma once
 #include <string>
 
+#include "scenes/numbers/vector.h"
 #include "scenes/scene.h"
-#include "scenes/vector.h"
 
 namespace strata::scenes {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/draw_list.h"
+#include "pipeline/vertices/draw_list.h"
 
 namespace strata::scenes {
 

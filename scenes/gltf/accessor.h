@@ -2,12 +2,12 @@
 //
 // Rule     An accessor without a bufferView is zero everywhere; sparse values replace elements; sparse indices strictly
 //          increase. Source   glTF 2.0, 3.6.2. What a component's bits mean: element.h. Tests
-//          tests/scenes/gltf_accessor_test.cpp
+//          tests/scenes/gltf/gltf_accessor_test.cpp
 #pragma once
 #include <array>
 #include <map>
 
-#include "scenes/gltf/buffers.h"
+#include "scenes/gltf/document/buffers.h"
 #include "scenes/gltf/element.h"
 #include "scenes/gltf/model.h"
 

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "scenes/gltf/json.h"
-#include "scenes/gltf/warnings.h"
+#include "scenes/gltf/document/json.h"
+#include "scenes/gltf/document/warnings.h"
 
 namespace strata::scenes {
 

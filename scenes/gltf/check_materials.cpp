@@ -2,8 +2,8 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "scenes/elementary.h"
 #include "scenes/gltf/check.h"
+#include "scenes/numbers/elementary.h"
 
 namespace strata::scenes {
 namespace {

@@ -3,7 +3,7 @@
 // Rule     Normalised integers: c / 255, c / 65535, max(c / 127, -1), max(c / 32767, -1), one correctly rounded
 //          division in binary32. Others: the integer itself, which binary32 holds exactly (8 and 16 bits).
 // Source   glTF 2.0, 3.6.2.2 and 3.11 (animation's table of the same formulas).
-// Tests    tests/scenes/gltf_accessor_test.cpp
+// Tests    tests/scenes/gltf/gltf_accessor_test.cpp
 #pragma once
 #include <algorithm>
 #include <bit>

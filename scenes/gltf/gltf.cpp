@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "rasterizer/float_environment.h"
+#include "rasterizer/base/float_environment.h"
 #include "scenes/bounds.h"
 #include "scenes/gltf/check.h"
+#include "scenes/gltf/document/uri.h"
 #include "scenes/gltf/mesh.h"
 #include "scenes/gltf/nodes.h"
-#include "scenes/gltf/uri.h"
 
 namespace strata::scenes {
 namespace {

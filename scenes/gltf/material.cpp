@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "rasterizer/numerics.h"
-#include "scenes/elementary.h"
-#include "scenes/gltf/uri.h"
-#include "scenes/image_decode.h"
-#include "scenes/srgb_encode.h"
+#include "rasterizer/base/numerics.h"
+#include "scenes/files/image_decode.h"
+#include "scenes/gltf/document/uri.h"
+#include "scenes/numbers/elementary.h"
+#include "scenes/numbers/srgb_encode.h"
 
 namespace strata::scenes {
 namespace {

@@ -6,15 +6,15 @@
 //          says so. Wrap modes and the magnification filter come from the sampler (default: repeat, linear); the
 //          minification filter counts for nothing.
 // Source   glTF 2.0, 3.8.4 (samplers), 3.9.2, 3.9.4 (alpha coverage); KHR_materials_unlit; decisions.md 1.
-// Tests    tests/scenes/gltf_material_test.cpp
+// Tests    tests/scenes/gltf/gltf_material_test.cpp
 #pragma once
 #include <map>
 #include <optional>
 #include <utility>
 
-#include "scenes/gltf/buffers.h"
+#include "scenes/gltf/document/buffers.h"
+#include "scenes/gltf/document/warnings.h"
 #include "scenes/gltf/model.h"
-#include "scenes/gltf/warnings.h"
 #include "scenes/scene.h"
 
 namespace strata::scenes {

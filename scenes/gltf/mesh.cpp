@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "rasterizer/numerics.h"
+#include "rasterizer/base/numerics.h"
 
 namespace strata::scenes {
 namespace {

@@ -6,7 +6,7 @@
 //          product of its sides, in binary64, normalised, rounded once. A triangle without area gets (0, 0, 1).
 //          Positions may be NaN or infinite (the rasterizer counts and drops them); other attributes may not.
 // Source   glTF 2.0, 3.7.2; KHR_mesh_quantization.
-// Tests    tests/scenes/gltf_mesh_test.cpp
+// Tests    tests/scenes/gltf/gltf_mesh_test.cpp
 #pragma once
 #include <optional>
 

@@ -7,7 +7,7 @@
 #pragma once
 #include <tiny_gltf.h>
 
-#include "scenes/gltf/buffers.h"
+#include "scenes/gltf/document/buffers.h"
 
 namespace strata::scenes {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/matrix.h"
-#include "scenes/vector.h"
+#include "pipeline/vertices/matrix.h"
+#include "scenes/numbers/vector.h"
 
 namespace strata::scenes {
 namespace {

@@ -4,7 +4,7 @@
 //          ((a0 b0 + a1 b1) + a2 b2) + a3 b3. A mirrored matrix stays as it is: the machine sees the determinant.
 //          A camera looks along -z of its world frame; scale, shear and mirroring of that frame count for nothing.
 // Source   glTF 2.0, 3.5.3 (transformations), 3.10 (cameras).
-// Tests    tests/scenes/gltf_node_test.cpp
+// Tests    tests/scenes/gltf/gltf_node_test.cpp
 #pragma once
 #include <span>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "rasterizer/simd.h"
+#include "rasterizer/base/simd.h"
 #include "tests/golden/core_scenes.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "peeling/render.h"
-#include "rasterizer/simd.h"
+#include "rasterizer/base/simd.h"
 
 namespace strata::fuzz {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "peeling/render.h"
-#include "rasterizer/input_error.h"
+#include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
 #include "scenes/gltf/gltf.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "../scenes/gltf_file.h"
+#include "tests/scenes/gltf/gltf_file.h"
 
 namespace {
 

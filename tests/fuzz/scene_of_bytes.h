@@ -1,6 +1,6 @@
 // tests/fuzz/scene_of_bytes.h - what a case draws: few triangles, but every trouble that triangles know.
 #pragma once
-#include "pipeline/draw_list.h"
+#include "pipeline/vertices/draw_list.h"
 #include "tests/fuzz/byte_source.h"
 
 namespace strata::fuzz {

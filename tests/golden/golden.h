@@ -5,7 +5,7 @@
 #include <string>
 
 #include "peeling/render.h"
-#include "rasterizer/simd.h"
+#include "rasterizer/base/simd.h"
 
 namespace strata::golden {
 

@@ -2,7 +2,7 @@
 // execution alike. Epsilons against a list model of a pixel.
 #include <catch2/catch.hpp>
 
-#include "rendering.h"
+#include "tests/peeling/rendering.h"
 #include "tests/support/difference.h"
 #include "tests/support/random_triangles.h"
 

@@ -1,7 +1,7 @@
 // Nothing that a user sees depends on how a frame was executed: literal execution is the definition.
 #include <catch2/catch.hpp>
 
-#include "rendering.h"
+#include "tests/peeling/rendering.h"
 #include "tests/support/difference.h"
 #include "tests/support/host_environment.h"
 #include "tests/support/random_triangles.h"

@@ -3,12 +3,12 @@
 #include <catch2/catch.hpp>
 #include <map>
 
-#include "peeling/layer_quads.h"
-#include "pipeline/fragment_path.h"
-#include "pipeline/matrix.h"
-#include "pipeline/texture_environment.h"
-#include "rasterizer/depth_quotient.h"
-#include "rendering.h"
+#include "peeling/programs/layer_quads.h"
+#include "pipeline/geforce3/texture_environment.h"
+#include "pipeline/region/fragment_path.h"
+#include "pipeline/vertices/matrix.h"
+#include "rasterizer/values/depth_quotient.h"
+#include "tests/peeling/rendering.h"
 #include "tests/support/random_triangles.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // How many passes each algorithm takes, and what is seen when they end too early.
 #include <catch2/catch.hpp>
 
-#include "rendering.h"
+#include "tests/peeling/rendering.h"
 #include "tests/support/composite_model.h"
 #include "tests/support/random_numbers.h"
 

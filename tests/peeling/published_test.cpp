@@ -2,9 +2,9 @@
 // peeling, whose input is two sets.
 #include <catch2/catch.hpp>
 
-#include "disordered_sequences.h"
-#include "rendering.h"
-#include "short_sequences.h"
+#include "tests/peeling/disordered_sequences.h"
+#include "tests/peeling/rendering.h"
+#include "tests/peeling/short_sequences.h"
 #include "tests/support/partial_order_model.h"
 
 namespace {

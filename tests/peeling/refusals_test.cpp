@@ -1,8 +1,8 @@
 // Who runs what: the table of decisions.md 4, row by row, and the sentence of every refusal.
 #include <catch2/catch.hpp>
 
-#include "rasterizer/input_error.h"
-#include "rendering.h"
+#include "rasterizer/base/input_error.h"
+#include "tests/peeling/rendering.h"
 
 namespace {
 

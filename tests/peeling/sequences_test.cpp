@@ -2,8 +2,8 @@
 // tests/support/composite_model.h.
 #include <catch2/catch.hpp>
 
-#include "rendering.h"
-#include "short_sequences.h"
+#include "tests/peeling/rendering.h"
+#include "tests/peeling/short_sequences.h"
 #include "tests/support/composite_model.h"
 #include "tests/support/random_numbers.h"
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "rendering.h"
+#include "tests/peeling/rendering.h"
 
 namespace {
 

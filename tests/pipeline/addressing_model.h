@@ -2,8 +2,8 @@
 #pragma once
 #include <boost/multiprecision/cpp_int.hpp>
 
-#include "pipeline/texture.h"
-#include "stage_values.h"
+#include "pipeline/formats/texture.h"
+#include "tests/pipeline/stage_values.h"
 
 namespace strata::pipeline::model {
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 
-#include "format_models.h"
-#include "pipeline/blend.h"
-#include "stage_values.h"
+#include "pipeline/stages/blend.h"
+#include "tests/pipeline/format_models.h"
+#include "tests/pipeline/stage_values.h"
 
 namespace strata::pipeline {
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "rasterizer/parallel.h"
+#include "rasterizer/base/parallel.h"
 
 namespace strata::pipeline {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <utility>
 
-#include "pipeline/executor.h"
+#include "pipeline/region/executor.h"
 #include "tests/support/fragment_scene.h"
 
 namespace strata::testing {

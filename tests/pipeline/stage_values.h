@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
-#include "pipeline/state.h"
-#include "rasterizer/fragment_batch.h"
+#include "pipeline/device/state.h"
+#include "rasterizer/coverage/fragment_batch.h"
 
 namespace strata::pipeline {
 

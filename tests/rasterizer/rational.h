@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 
-#include "rasterizer/edge.h"
+#include "rasterizer/coverage/edge.h"
 
 namespace strata::rasterizer {
 

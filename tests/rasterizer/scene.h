@@ -1,6 +1,6 @@
 // tests/rasterizer/scene.h - random triangle soups in clip space, and random triangles in the window.
 #pragma once
-#include "support.h"
+#include "tests/rasterizer/support.h"
 
 namespace strata::rasterizer {
 

@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "rasterizer/coverage.h"
-#include "rasterizer/geometry.h"
-#include "rasterizer/tile_rasterizer.h"
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/walk/tile_rasterizer.h"
 
 namespace strata::rasterizer {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "rasterizer/input_error.h"
+#include "rasterizer/base/input_error.h"
 
 namespace {
 

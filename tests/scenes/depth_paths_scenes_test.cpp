@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "pipeline/prepare.h"
-#include "rasterizer/tile_rasterizer.h"
+#include "pipeline/vertices/prepare.h"
+#include "rasterizer/walk/tile_rasterizer.h"
 #include "scenes/camera.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <random>
 
-#include "pipeline/image.h"
+#include "pipeline/formats/image.h"
 
 namespace {
 

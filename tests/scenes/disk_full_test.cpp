@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "image_support.h"
-#include "scenes/image_io.h"
-#include "scenes/system_error.h"
-#include "scenes_support.h"
+#include "scenes/files/image_io.h"
+#include "scenes/files/system_error.h"
+#include "tests/scenes/image_support.h"
+#include "tests/scenes/scenes_support.h"
 
 using namespace strata::scenes;
 using strata::pipeline::Format;

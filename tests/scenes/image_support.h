@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-#include "pipeline/image.h"
+#include "pipeline/formats/image.h"
 
 namespace strata::test {
 

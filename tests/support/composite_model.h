@@ -12,8 +12,8 @@
 #include <map>
 #include <vector>
 
-#include "fragment_scene.h"
-#include "pipeline/format.h"
+#include "pipeline/formats/format.h"
+#include "tests/support/fragment_scene.h"
 
 namespace strata::testing {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/draw_list.h"
+#include "pipeline/vertices/draw_list.h"
 
 namespace strata::testing {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <random>
 
-#include "pipeline/draw_list.h"
+#include "pipeline/vertices/draw_list.h"
 
 namespace strata::testing {
 

@@ -1,7 +1,7 @@
 // tests/support/random_triangles.h - random triangles under a perspective view: opaque, masked and transparent, lit and
 // unlit, plain and textured, with ties (some triangles come twice).
 #pragma once
-#include "random_numbers.h"
+#include "tests/support/random_numbers.h"
 
 namespace strata::testing {
 

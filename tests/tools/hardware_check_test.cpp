@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "scenes/image_io.h"
+#include "scenes/files/image_io.h"
 #include "tests/tools/program.h"
 
 using namespace strata;
@@ -137,7 +137,8 @@ TEST_CASE("what the profile refuses is listed, and the rest is compared") {
 TEST_CASE("the captures of silicon, where they are at hand, are within their bounds") {
     const std::string captures = STRATA_CAPTURES_DIR;
     if (!std::filesystem::is_directory(captures)) {
-        WARN("SKIPPED: no captures in " << captures << "; tests/scenes/hardware_digests.txt stands for them");
+        WARN("SKIPPED: no captures in " << captures
+                                        << "; tests/tools/hardware_check/hardware_digests.txt stands for them");
         return;
     }
     const Folder folder;

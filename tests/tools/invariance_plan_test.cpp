@@ -1,9 +1,9 @@
 // Model: the cells of small plans, written down one by one; messages typed a second time.
-#include "tools/strata/invariance_plan.h"
+#include "tools/strata/invariance/invariance_plan.h"
 
 #include <catch2/catch.hpp>
 
-#include "rasterizer/input_error.h"
+#include "rasterizer/base/input_error.h"
 
 using namespace strata::tools;
 

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "peeling/algorithm.h"
+#include "peeling/registry.h"
 #include "tests/tools/program.h"
 
 using namespace strata::test;

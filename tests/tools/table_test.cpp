@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tools/strata/parse.h"
+#include "tools/strata/options/parse.h"
 
 using namespace strata::tools;
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes scenes/hardware_check/RESULTS.md anew: tools/hardware_check/make_page.sh CAPTURES [STRATA]
+# Makes tools/hardware_check/RESULTS.md anew: tools/hardware_check/make_page.sh CAPTURES [STRATA]
 # CAPTURES holds SUITE/NAME.png of abaire/nxdk_pgraph_tests_golden_results (CC0 1.0), or a part of them.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -23,4 +23,4 @@ status=0
     echo '```'
     echo
     cat tools/hardware_check/open_questions.md
-} >scenes/hardware_check/RESULTS.md
+} >tools/hardware_check/RESULTS.md

@@ -2,7 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "scenes/image_io.h"
+#include "scenes/files/image_io.h"
 #include "tools/strata/command.h"
 #include "tools/strata/table.h"
 

@@ -2,11 +2,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "peeling/algorithm.h"
-#include "scenes/profile_json.h"
+#include "peeling/registry.h"
+#include "scenes/files/profile_json.h"
 #include "scenes/scene.h"
 #include "tools/strata/command.h"
-#include "tools/strata/options.h"
+#include "tools/strata/options/options.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

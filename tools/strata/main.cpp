@@ -7,11 +7,11 @@
 #include <ios>
 #include <new>
 
-#include "pipeline/check.h"
-#include "rasterizer/input_error.h"
-#include "scenes/atomic_file.h"
+#include "pipeline/device/check.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/atomic_file.h"
 #include "tools/strata/command.h"
-#include "tools/strata/names.h"
+#include "tools/strata/options/names.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rasterizer/parallel.h"
+#include "rasterizer/base/parallel.h"
 #include "tools/strata/progress.h"
 
 namespace strata::tools {

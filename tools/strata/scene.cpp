@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/strata/command.h"
-#include "tools/strata/options.h"
+#include "tools/strata/options/options.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {

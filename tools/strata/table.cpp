@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "scenes/system_error.h"
+#include "scenes/files/system_error.h"
 
 namespace strata::tools {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rasterizer/geometry.h"
+#include "rasterizer/set_up/geometry.h"
 #include "tools/bench/mesa/objects.h"
 
 namespace strata::mesa {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/format.h"
+#include "pipeline/formats/format.h"
 #include "tools/bench/mesa/gpu_scene.h"
 
 namespace strata::mesa {

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "rasterizer/input_error.h"
+#include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"
-#include "scenes/image_io.h"
-#include "scenes/profile_json.h"
+#include "scenes/files/image_io.h"
+#include "scenes/files/profile_json.h"
 #include "tools/bench/mesa/context.h"
 #include "tools/bench/mesa/job.h"
 #include "tools/bench/mesa/reference.h"

@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "peeling/render.h"
-#include "pipeline/prepare.h"
-#include "rasterizer/input_error.h"
-#include "rasterizer/tile_rasterizer.h"
+#include "pipeline/vertices/prepare.h"
+#include "rasterizer/base/input_error.h"
+#include "rasterizer/walk/tile_rasterizer.h"
 
 namespace strata::mesa {
 

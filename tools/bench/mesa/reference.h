@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/image.h"
-#include "pipeline/profile.h"
-#include "rasterizer/geometry.h"
+#include "pipeline/device/profile.h"
+#include "pipeline/formats/image.h"
+#include "rasterizer/set_up/geometry.h"
 #include "scenes/scene.h"
 #include "tools/bench/mesa/objects.h"
 

@@ -1,0 +1,50 @@
+// peeling/algorithms/algorithm.h - an algorithm as a value: its paper, its needs, its tie policy and its pass formula.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "peeling/programs/tie_policy.h"
+#include "pipeline/device/check.h"
+#include "pipeline/region/region.h"
+
+namespace strata::peeling {
+
+// In which order, and in which parts, an algorithm wants its triangles.
+enum class ListOrder : std::uint8_t {
+    given,          // as --sort says
+    back_to_front,  // sorted by centroid, far first
+    sets,           // two parts: the ordered set, front to back as it comes, then the rest as --sort says
+    objects,        // a part for each instance; --sort sorts within them
+};
+
+struct Algorithm {
+    std::string name;
+    std::string paper;         // author and year
+    std::string section;       // where in it
+    std::string summary;       // one sentence
+    std::string pass_formula;  // geometry passes for N layers, under --termination exact
+    TiePolicy ties = TiePolicy::none;
+    pipeline::DepthKey key = pipeline::DepthKey::stored_code;
+    bool exact = false;  // order_errors must be 0
+    bool makes_layers = false;
+    bool premultiplied_layers = false;  // their colours are times alpha
+    ListOrder order = ListOrder::given;
+    bool kills_alpha_zero = false;    // an alpha test keeps fragments that store alpha 0 from being layers
+    bool is_oracle = false;           // not a device's algorithm: never refused
+    bool whole_frame = false;         // its queries nest: runs literally, whatever --execution says
+    bool compares_own_codes = false;  // by the code that it stores, alone: refused where options choose another depth
+    bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
+    int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
+    void (*run)(pipeline::Region&) = nullptr;
+    bool (*closed_form)(pipeline::Region&) = nullptr;  // peeling/closed/closed_form.h; null if it has none
+    // What its geometry passes look at, all together: what replay captures. Empty: one pass, nothing to replay.
+    std::optional<rasterizer::FragmentNeeds> replayed{};
+    std::vector<pipeline::Feature> features{};  // what a profile must have
+    int render_targets = 1;
+    int samples = 1;
+    std::optional<rasterizer::DepthPath> stores{};    // the depth path that it writes, whatever the options say
+    std::optional<rasterizer::DepthPath> compares{};  // the one that it compares, unless the options say otherwise
+};
+
+}  // namespace strata::peeling

@@ -1,0 +1,109 @@
+// peeling/algorithms/batched.cpp - objects heaped by depth, taken in batches, and each batch's interval of depth peeled by itself.
+// Wexler et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 15.
+//
+// Needs      a fragment program with discard (clip planes), separate alpha blending, a depth buffer that it can read.
+// Passes     the sum over intervals of L + 1, L the layers in an interval. Equal depths: the first in submission order stays.
+// Invariant  before interval j everything before its lower bound is composited. Intervals are half-open, so that a fragment
+//            at a bound belongs to one of them.
+#include <algorithm>
+#include <utility>
+
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/depth_range.h"
+#include "peeling/programs/layer_target.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr std::size_t objects_in_a_batch = 4;
+
+// Codes [low, high), and the objects that may have fragments there.
+struct Interval {
+    std::uint32_t low = 0, high = 0;
+    std::vector<PrimitiveRange> objects;
+};
+
+struct ObjectDepths {
+    std::uint32_t low = 0, high = 0;  // codes, both included
+    PrimitiveRange primitives;
+};
+
+// One code more on either side than conversion to a code can need.
+std::vector<ObjectDepths> objects_of(const Frame& frame) {
+    const DepthFormat format = frame.key_request().format;
+    const auto code = [&](double z) { return to_depth_code(static_cast<float>(z), format, DepthRounding::nearest); };
+    std::vector<ObjectDepths> objects;
+    for (const DrawPart& part : frame.transparent->parts) {
+        if (part.near > part.far) continue;  // nothing of it is drawn
+        const std::uint32_t low = code(part.near);
+        objects.push_back({low - (low > 0 ? 1 : 0), code(part.far) + 1, part.primitives});
+    }
+    return objects;
+}
+
+// Where batches begin: at the nearest depth of every fourth object, nearest objects first.
+std::vector<std::uint32_t> bounds_of(const std::vector<ObjectDepths>& objects) {
+    std::vector<std::uint32_t> nearest, bounds{0};
+    for (const ObjectDepths& o : objects) nearest.push_back(o.low);
+    std::sort(nearest.begin(), nearest.end());
+    for (std::size_t i = objects_in_a_batch; i < nearest.size(); i += objects_in_a_batch)
+        if (nearest[i] > bounds.back()) bounds.push_back(nearest[i]);
+    bounds.push_back(~0u);
+    return bounds;
+}
+
+std::vector<Interval> intervals_of(const Frame& frame) {
+    const auto objects = objects_of(frame);
+    const auto bounds = bounds_of(objects);
+    std::vector<Interval> intervals;
+    for (std::size_t j = 0; j + 1 < bounds.size(); ++j) {
+        Interval interval{bounds[j], bounds[j + 1], {}};
+        for (const ObjectDepths& o : objects)
+            if (o.low < interval.high && o.high >= interval.low) interval.objects.push_back(o.primitives);
+        if (!interval.objects.empty()) intervals.push_back(std::move(interval));
+    }
+    return intervals;
+}
+
+struct LayerTargets {
+    Target layer, nearest, peeled, accumulated;
+};
+
+Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool first) {
+    region.clear(t.layer, {.color = {0, 0, 0, 0}});
+    region.copy(region.opaque_depth(), t.nearest);
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = t.nearest;
+    state.color[0] = t.layer;
+    state.reads[0] = t.peeled;
+    state.needs = code_with_color;
+    state.primitives = interval.objects;
+    return region.draw(state, [&, first](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        premultiply(in.color, out.color[0], lanes(in));
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            out.alive[i] &= mask(in.code[i] >= interval.low) & mask(in.code[i] < interval.high);
+        if (!first) keep_behind(in, own.depth(0), out);
+    });
+}
+
+}  // namespace
+
+void batched(Region& region) {
+    LayerTargets t{region.make_color(), region.make_depth(), region.make_depth(), region.make_color()};
+    region.clear(t.accumulated, {.color = {0, 0, 0, 1}});
+    for (const Interval& interval : intervals_of(region.frame()))
+        for (bool first = true; !region.limit_reached(); first = false) {
+            region.begin_iteration();
+            const Drawn drawn = peel(region, interval, t, first);
+            composite_layer(region, t.layer, t.nearest, t.accumulated);
+            if (!region.any(drawn.passed, Idle::no)) break;
+            std::swap(t.peeled, t.nearest);
+        }
+    publish_over_background(region, t.accumulated, region.opaque_color());
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,162 @@
+#include "peeling/algorithms/coherent.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr int later_passes = 4;  // passes 3 to 6
+
+StencilTest stencil_test(CompareFunc func, std::uint8_t ref, StencilOp fail, StencilOp depth_fail, StencilOp pass) {
+    return {.enabled = true,
+            .front = {.func = func, .ref = ref, .fail = fail, .depth_fail = depth_fail, .pass = pass},
+            .back = {}};
+}
+
+// The range of passes 3 and 4: from the nearest fragment on, inclusive (E17), before what arrived earlier.
+void keep_after_nearest(const FragmentBatch& in, const Loads& own, Outputs& out) noexcept {
+    keep_from(in, own.depth(0), out);
+    keep_before(in, own.depth(1), out);
+    keep_before(in, own.depth(2), out);
+}
+
+void note_composited(CoherentPeel& peel, const FragmentBatch& in, const Outputs& out) {
+    if (!peel.published) return;
+    for (std::size_t i = 0; i < lanes(in); ++i)
+        if (out.alive[i] != 0) peel.composited.add(in.pixel[i]);
+}
+
+}  // namespace
+
+// Pass 3: how many fragments follow in order. The first that does not inverts the count, which stops it; so does 128.
+void count_run(CoherentPeel& peel) {
+    Region& region = peel.region;
+    region.clear(peel.last_in_order, {.depth = 0.0f});
+    region.clear(peel.stencil, {.stencil = 0});
+    PassState state = find_state(peel.last_in_order, CompareFunc::greater);
+    state.stencil = stencil_test(CompareFunc::greater, 128, StencilOp::keep, StencilOp::invert, StencilOp::incr);
+    state.stencil_target = peel.stencil;
+    state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
+    static_cast<void>(region.draw(state, keep_after_nearest));
+    const std::uint32_t* const counts = region.storage(peel.stencil).stencil(0);
+    for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
+        if (counts[pixel] == 128) peel.full_counts.add(pixel);
+}
+
+// Pass 4: the nearest fragment behind those that pass 3 counted. Failing the stencil test counts up to 255.
+void find_breaker(CoherentPeel& peel) {
+    Region& region = peel.region;
+    region.clear(peel.breaker, {.depth = 1.0f});  // the stencil is not cleared: it holds pass 3's count
+    PassState state = find_state(peel.breaker, CompareFunc::less);
+    state.stencil = stencil_test(CompareFunc::equal, 255, StencilOp::incr, StencilOp::keep, StencilOp::keep);
+    state.stencil_target = peel.stencil;
+    state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
+    static_cast<void>(region.draw(state, keep_after_nearest));
+}
+
+// The end of the run, the next iteration's D(sc).
+void find_reached(CoherentPeel& peel) {
+    PassState state = find_state(peel.reached, CompareFunc::always);
+    state.reads = {peel.previous, peel.breaker, peel.region.opaque_depth()};
+    static_cast<void>(peel.region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.replaces_depth = true;
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            out.depth[i] = std::min({own.depth(0)[i], own.depth(1)[i], own.depth(2)[i]});
+    }));
+    peel.from_the_start = false;
+}
+
+// Pass 5: the run, without its end.
+Drawn composite_run(CoherentPeel& peel) {
+    PassState state = composite_state(peel.accumulated);
+    state.reads = {peel.nearest, peel.reached};
+    return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        keep_from(in, own.depth(0), out);
+        keep_before(in, own.depth(1), out);
+        composite_under(in, out);
+        note_composited(peel, in, out);
+    });
+}
+
+// Pass 6: what lies exactly at the end, unless that is the opaque surface: as published it is composited even then, and
+// again in every iteration (E22).
+Drawn composite_end(CoherentPeel& peel) {
+    PassState state = composite_state(peel.accumulated);
+    state.reads = {peel.reached, peel.region.opaque_depth()};
+    peel.ties.start();
+    return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        keep_at(in, own.depth(0), out);
+        if (!peel.published) keep_before(in, own.depth(1), out);
+        composite_under(in, out);
+        peel.ties.add(in, out);
+        note_composited(peel, in, out);
+    });
+}
+
+namespace {
+
+Count finish_iteration(CoherentPeel& peel, const FirstPasses& first) {
+    peel.composited.clear();
+    first.find_previous(peel);
+    count_run(peel);
+    find_breaker(peel);
+    find_reached(peel);
+    const Drawn run = composite_run(peel);
+    return run.passed + composite_end(peel).passed;
+}
+
+// Resolved: pass 1 of the next iteration already tells that nothing is left.
+void peel_until_nothing_is_left(CoherentPeel& peel, const FirstPasses& first) {
+    Region& region = peel.region;
+    if (region.limit_reached()) return;
+    Drawn found = first.find_nearest(peel);
+    while (region.any(found.passed, Idle::when_zero) && !region.limit_reached(first.geometry_passes + later_passes)) {
+        region.begin_iteration();
+        static_cast<void>(finish_iteration(peel, first));
+        found = first.find_nearest(peel);
+    }
+}
+
+// Not the machine's: whether `reached` has moved beyond `farthest` at any pixel. Where it has not, a listing that goes on
+// composites the same fragments for ever.
+Count progress(CoherentPeel& peel, Target farthest) {
+    PassState state = find_state(farthest, CompareFunc::greater);
+    state.reads[0] = peel.reached;
+    return peel.region
+        .full_screen(state,
+                     [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                         out.replaces_depth = true;
+                         std::copy_n(own.depth(0).begin(), lanes(in), out.depth.begin());
+                     })
+        .passed;
+}
+
+// The paper's exit: queries during compositing.
+void peel_until_nothing_is_composited(CoherentPeel& peel, const FirstPasses& first) {
+    Region& region = peel.region;
+    Target farthest;
+    if (peel.published) farthest = region.make_depth();
+    while (!region.limit_reached(first.geometry_passes + later_passes)) {
+        region.begin_iteration();
+        static_cast<void>(first.find_nearest(peel));
+        const Count composited = finish_iteration(peel, first);
+        if (!region.any(composited, peel.published ? Idle::no : Idle::steady)) break;
+        if (!peel.published || region.any(progress(peel, farthest), Idle::no)) continue;
+        peel.composited.report(region, Fault::endless, "the same fragments in every further iteration: stopped (E22)");
+        break;
+    }
+}
+
+}  // namespace
+
+void peel_coherently(Region& region, const FirstPasses& first) {
+    CoherentPeel peel{region};
+    const bool paper = peel.published || region.frame().termination.rule == TerminationRule::paper;
+    (paper ? peel_until_nothing_is_composited : peel_until_nothing_is_left)(peel, first);
+    peel.full_counts.report(region, Fault::count_limit, "pass 3 counts to 128: longer runs take more iterations (E20)");
+    peel.ties.report(region);
+    publish_over_background(region, peel.accumulated, region.opaque_color());
+}
+
+}  // namespace strata::peeling

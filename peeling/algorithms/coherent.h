@@ -1,0 +1,75 @@
+// peeling/algorithms/coherent.h - coherent layer peeling: what its two formulations (coherent_stencil, coherent_blend) share.
+// Carr, Mech and Miller 2008, sections 4 to 6; algorithms.md 10 and 11, errata E15 to E23.
+//
+// Rule     An iteration composites, in arrival order, the run of fragments that starts at the nearest one not yet composited
+//          (`nearest`, the paper's D(sn)) and is in order: it ends before the nearest deeper fragment that arrived earlier
+//          (`previous`), and before the nearest one that interrupts the run later (`breaker`). The least of the two and of the
+//          opaque depth is `reached`; what lies exactly there is composited last, and the next iteration starts behind it.
+// Tests    tests/peeling/sequences_test.cpp, coherent_test.cpp, published_test.cpp
+#pragma once
+#include "peeling/programs/depth_range.h"
+
+namespace strata::peeling {
+
+struct CoherentPeel {
+    explicit CoherentPeel(pipeline::Region& r)
+        : region{r},
+          published{r.frame().formulation == pipeline::Formulation::published},
+          full_counts{r},
+          composited{r},
+          ties{r} {
+        region.clear(accumulated, {.color = {0, 0, 0, 1}});
+        region.clear(reached, {.depth = 0.0f});  // as published: zNear, which strict comparisons lose (E23)
+        from_the_start = !published;
+    }
+
+    pipeline::Region& region;
+    bool published;
+    bool from_the_start = true;  // nothing is composited yet: no lower bound
+    pipeline::Target accumulated = region.make_color();
+    pipeline::Target stencil = region.make(pipeline::Format::s8);
+    pipeline::Target nearest = region.make_depth(), previous = region.make_depth(), breaker = region.make_depth();
+    pipeline::Target reached = region.make_depth();        // D(sc): how far everything is composited
+    pipeline::Target last_in_order = region.make_depth();  // pass 3's own depth
+    pipeline::Target shifted;  // coherent_blend: rgb the depth before `nearest`, alpha itself
+    PixelSet full_counts;      // pass 3 counted to 128
+    PixelSet composited;       // in this iteration; kept as published alone
+    BoundTies ties;
+};
+
+// Passes 1 and 2, or what stands for them: the formulations differ in these alone.
+struct FirstPasses {
+    int geometry_passes = 0;
+    pipeline::Drawn (*find_nearest)(CoherentPeel&) = nullptr;  // tells whether anything is left
+    void (*find_previous)(CoherentPeel&) = nullptr;
+};
+
+// The range of passes 1 and 2: behind what is composited, before the opaque surface. Reads 0 and 1 are `reached` and that.
+inline void keep_what_is_left(const CoherentPeel& peel, const pipeline::FragmentBatch& in, const pipeline::Loads& own,
+                              pipeline::Outputs& out) noexcept {
+    if (!peel.from_the_start) keep_behind(in, own.depth(0), out);
+    keep_before(in, own.depth(1), out);
+}
+
+// A pass that finds a depth in `target`, within the range that its program keeps.
+[[nodiscard]] inline pipeline::PassState find_state(pipeline::Target target, pipeline::CompareFunc func) {
+    pipeline::PassState state;
+    state.depth = {.enabled = true, .func = func, .write = true};
+    state.depth_target = target;
+    state.needs = code_only;
+    return state;
+}
+
+extern const FirstPasses stencil_passes, blend_passes;  // coherent_stencil.cpp, coherent_blend.cpp
+
+// Passes 3 to 6, with the bound between them; in this order, after the first passes.
+void count_run(CoherentPeel& peel);
+void find_breaker(CoherentPeel& peel);
+void find_reached(CoherentPeel& peel);
+pipeline::Drawn composite_run(CoherentPeel& peel);
+pipeline::Drawn composite_end(CoherentPeel& peel);
+
+// Peels until nothing is left and publishes the result.
+void peel_coherently(pipeline::Region& region, const FirstPasses& first);
+
+}  // namespace strata::peeling

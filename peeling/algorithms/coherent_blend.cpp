@@ -1,0 +1,61 @@
+// peeling/algorithms/coherent_blend.cpp - coherent layer peeling B: blending shifts each nearest depth so far into the colour when a nearer
+// one comes. Carr, Mech and Miller 2008, section 6; algorithms.md 11, erratum E16.
+//
+// Needs      RGBA32F targets that blend, with separate factors for alpha; 8-bit stencil; a depth buffer that programs can read.
+// Passes     5 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2).
+//            Equal depths: all, the first arrival in front.
+// Invariant  as coherent_stencil's, without its limit of 255 prefix minima. Alpha is the depth that the depth test stores.
+#include "peeling/algorithms/coherent.h"
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/depth_float.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// rgb = source 1 x destination alpha: the depth before; alpha = the new one. As printed, (ZERO, DST_ALPHA), rgb becomes the
+// product of all depths before: too small from the third update on, and the pixel stalls (E16).
+Blend shift(bool published) {
+    const auto zero = BlendFactor::zero, dst_alpha = BlendFactor::dst_alpha;
+    return {.enabled = true,
+            .color = {BlendEquation::add, published ? zero : dst_alpha, published ? dst_alpha : zero},
+            .alpha = {BlendEquation::add, BlendFactor::one, zero}};
+}
+
+Drawn find_nearest(CoherentPeel& peel) {
+    Region& region = peel.region;
+    region.clear(peel.nearest, {.depth = 1.0f});
+    if (!peel.shifted.exists()) peel.shifted = region.make(Format::rgba32f);
+    region.clear(peel.shifted, {.color = {1, 1, 1, 1}});
+    PassState state = find_state(peel.nearest, CompareFunc::less);
+    state.color[0] = peel.shifted;
+    state.blend[0] = shift(peel.published);
+    state.reads = {peel.reached, region.opaque_depth()};
+    const DepthFormat format = region.frame().key_request().format;
+    return region.draw(state, [&, format](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        keep_what_is_left(peel, in, own, out);
+        for (std::size_t c = 0; c < 3; ++c) std::fill_n(out.color[0][c].begin(), lanes(in), 1.0f);
+        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = depth_as_float(in.code[i], format);
+    });
+}
+
+// The red channel as a depth, so that the passes after it are the stencil formulation's.
+void find_previous(CoherentPeel& peel) {
+    PassState state = find_state(peel.previous, CompareFunc::always);
+    state.reads[0] = peel.shifted;
+    const DepthFormat format = peel.region.frame().key_request().format;
+    static_cast<void>(peel.region.full_screen(state, [format](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.replaces_depth = true;
+        for (std::size_t i = 0; i < lanes(in); ++i) out.depth[i] = depth_as_code(own.color(0)[0][i], format);
+    }));
+}
+
+}  // namespace
+
+const FirstPasses blend_passes{.geometry_passes = 1, .find_nearest = find_nearest, .find_previous = find_previous};
+
+void coherent_blend(Region& region) { peel_coherently(region, blend_passes); }
+
+}  // namespace strata::peeling

@@ -1,0 +1,141 @@
+// peeling/algorithms/coherent_ideal.cpp - coherent layer peeling in two passes, on hardware that was never built: the rasterizer reads and
+// writes several depths and a flag at every sample. Carr, Mech and Miller 2008, Algorithm 2; algorithms.md 12, errata E23, E25.
+//
+// Needs      STRATA_ordered_rmw: targets that a program reads and writes, fragment after fragment.
+// Passes     2 an iteration, 1 less in the last; ascending 3 for any n, descending 2 n + 1. Equal depths: all, the first in front.
+// Invariant  before pass 1 of an iteration everything before `peel` is composited, and nothing behind it; what lies exactly
+//            there is composited by that pass.
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/depth_float.h"
+#include "peeling/programs/depth_range.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr float below_every_depth = -1.0f;
+
+// The channels of the register target.
+enum Register : std::size_t { z1, z2, z3, out_of_order };
+
+class IdealPeel {
+  public:
+    explicit IdealPeel(Region& region)
+        : region_{region}, ties_{region}, published_{region.frame().formulation == Formulation::published} {
+        region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
+        const float start = published_ ? 0.0f : below_every_depth;  // zNear loses depth 0 to a strict comparison (E23)
+        region_.clear(registers_, {.color = {0, 0, start, 0}});
+    }
+
+    void run() {
+        bool more = true, has_run = false;
+        while (!region_.limit_reached(has_run ? 2 : 1)) {
+            region_.begin_iteration();
+            if (has_run) composite_run();
+            start_iteration();
+            const Drawn found = find_run();
+            has_run = true;
+            if (!(more = region_.any(found.tallied, idle()))) break;
+        }
+        if (more && has_run && !region_.limit_reached()) composite_run();  // a limit ended it, and leaves room
+        ties_.report(region_);
+        publish_over_background(region_, accumulated_, region_.opaque_color());
+    }
+
+  private:
+    // As published, finished pixels change while others are peeled (E25); under a limit the last run waits for its composite.
+    [[nodiscard]] Idle idle() const {
+        return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::when_zero;
+    }
+
+    [[nodiscard]] float as_float(std::uint32_t code) const noexcept { return depth_as_float(code, format_); }
+
+    void start_iteration() {
+        PassState state;
+        state.color = {registers_, peel_};
+        state.reads = {registers_, region_.opaque_depth()};
+        state.ordered_rmw = true;
+        static_cast<void>(region_.full_screen(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t i = 0; i < lanes(in); ++i) {
+                const float opaque = as_float(own.depth(1)[i]), end = own.color(0)[z3][i];
+                out.color[0][z1][i] = out.color[0][z2][i] = opaque;
+                out.color[0][z3][i] =
+                    published_ ? end : opaque;  // not reset as published: finished pixels start again (E25)
+                out.color[0][out_of_order][i] = 0.0f;
+                for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = end;
+            }
+        }));
+    }
+
+    // The registers of one pixel when a fragment of depth z arrives that lies behind `peel` and before z2.
+    static void arrive(std::array<float, 4>& r, float z) noexcept {
+        if (z < r[z1]) {
+            r = {z, r[z1], z, 0.0f};
+        } else if (r[out_of_order] != 0.0f) {
+            r[z3] = std::min(r[z3], z);
+        } else {
+            if (z < r[z3]) r[out_of_order] = 1.0f;
+            r[z3] = z;
+        }
+    }
+
+    // Pass 1.
+    Drawn find_run() {
+        PassState state = composite_state(accumulated_);
+        state.color[1] = registers_;
+        state.reads = {registers_, peel_, region_.opaque_depth()};
+        state.ordered_rmw = true;
+        ties_.start();
+        return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            composite_under(in, out);
+            for (std::size_t i = 0; i < lanes(in); ++i) {
+                std::array<float, 4> r{};
+                for (std::size_t c = 0; c < 4; ++c) r[c] = own.color(0)[c][i];
+                const float z = as_float(in.code[i]), peel = own.color(1)[0][i];
+                const bool counts = out.alive[i] != 0 && peel < z && z < r[z2];
+                const bool ends_run = z == peel && (published_ || z < as_float(own.depth(2)[i]));
+                if (counts) arrive(r, z);
+                if (counts) ++out.tally;
+                for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = r[c];
+                if (!ends_run)
+                    leave_alone(out, i);
+                else if (out.alive[i] != 0)
+                    ties_.add(in.pixel[i]);
+            }
+        });
+    }
+
+    // (0, 0, 0, 0) is neutral under UNDER.
+    static void leave_alone(Outputs& out, std::size_t i) noexcept {
+        for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = 0.0f;
+        out.side[i] = Side::none;
+    }
+
+    // Pass 2.
+    void composite_run() {
+        PassState state = composite_state(accumulated_);
+        state.reads = {registers_, peel_};
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t i = 0; i < lanes(in); ++i) {
+                const float z = as_float(in.code[i]);
+                out.alive[i] &= mask(own.color(1)[0][i] < z && z < own.color(0)[z3][i]);
+            }
+            composite_under(in, out);
+        }));
+    }
+
+    Region& region_;
+    BoundTies ties_;
+    bool published_;
+    DepthFormat format_ = region_.frame().key_request().format;
+    Target accumulated_ = region_.make_color();
+    Target registers_ = region_.make(Format::rgba32f), peel_ = region_.make(Format::r32f);
+};
+
+}  // namespace
+
+void coherent_ideal(Region& region) { IdealPeel{region}.run(); }
+
+}  // namespace strata::peeling

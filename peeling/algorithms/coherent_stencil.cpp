@@ -1,0 +1,50 @@
+// peeling/algorithms/coherent_stencil.cpp - coherent layer peeling A: runs of fragments in order, found by counting in the stencil buffer.
+// Carr, Mech and Miller 2008, section 5; algorithms.md 10.
+//
+// Needs      8-bit stencil beside a depth buffer that programs can read, separate alpha blending.
+// Passes     6 an iteration, 1 to see that nothing is left; ascending ceil(n/128) iterations, descending ceil(n/2) for n <= 255.
+//            Equal depths: all, the first arrival in front.
+// Invariant  before an iteration everything up to `reached` is composited. More than 255 prefix minima only cost time (E19).
+#include "peeling/algorithms/coherent.h"
+#include "peeling/algorithms/runs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+PassState find_in_what_is_left(const CoherentPeel& peel, Target target, const StencilFace& face) {
+    PassState state = find_state(target, CompareFunc::less);
+    state.stencil = {.enabled = true, .front = face, .back = {}};
+    state.stencil_target = peel.stencil;
+    state.reads = {peel.reached, peel.region.opaque_depth()};
+    return state;
+}
+
+// Pass 1: the nearest fragment; the stencil counts how often the depth was updated, it included.
+Drawn find_nearest(CoherentPeel& peel) {
+    peel.region.clear(peel.nearest, {.depth = 1.0f});
+    peel.region.clear(peel.stencil, {.stencil = 0});
+    const StencilFace face{.func = CompareFunc::always, .ref = 0, .pass = StencilOp::incr};
+    return peel.region.draw(
+        find_in_what_is_left(peel, peel.nearest, face),
+        [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); });
+}
+
+// Pass 2: the same updates again, counted down to 1: stops one before the nearest.
+void find_previous(CoherentPeel& peel) {
+    peel.region.clear(peel.previous, {.depth = 1.0f});  // the stencil is not cleared (E26)
+    const StencilFace face{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};
+    static_cast<void>(peel.region.draw(
+        find_in_what_is_left(peel, peel.previous, face),
+        [&](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_what_is_left(peel, in, own, out); }));
+}
+
+}  // namespace
+
+const FirstPasses stencil_passes{.geometry_passes = 2, .find_nearest = find_nearest, .find_previous = find_previous};
+
+void coherent_stencil(Region& region) { peel_coherently(region, stencil_passes); }
+
+}  // namespace strata::peeling

@@ -1,0 +1,60 @@
+// peeling/algorithms/depth_units.cpp - one layer a pass by two sequential depth units. Everitt 2001, Listing 1; algorithms.md 2.
+//
+// Needs      STRATA_depth_units, an emulator extension: no device had sequential depth units.
+// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order stays.
+// Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has none.
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/layer_quads.h"
+#include "peeling/programs/programs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// What is nearest behind `peeled`. A compare that is more than one of codes goes before the units, in the program.
+Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool first) {
+    const DepthCompare compare = region.frame().depth_compare();
+    const bool in_program = !first && !compare.is_plain();
+    PassState state;
+    state.depth_units[0] = {.depth = peeled, .func = CompareFunc::greater};
+    state.depth_unit_count = first || in_program ? 0 : 1;
+    if (in_program) state.reads[0] = peeled;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = nearest;
+    state.color[0] = layer;
+    state.needs.shader_z = false;
+    state.needs.reference = in_program;
+    const List list = first ? List::first : List::second;
+    return region.draw(state, list, [in_program, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.color[0] = in.color;
+        if (in_program) discard_peeled(compare, in, own.depth(0), out);
+    });
+}
+
+}  // namespace
+
+void depth_units(Region& region) {
+    SavedLayers layers;
+    Target peeled;
+    while (!region.limit_reached()) {
+        region.begin_iteration();
+        const Target layer = region.make_color();
+        const Target nearest = region.make_depth();
+        region.clear(layer, {.color = {0, 0, 0, 0}});
+        region.copy(region.opaque_depth(), nearest);
+        const Drawn drawn = peel(region, peeled, nearest, layer, layers.color.empty());
+        layers.color.push_back(layer);
+        layers.depth.push_back(nearest);
+        peeled = nearest;
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
+        region.keep_layer(layer, nearest);
+    }
+    const Target result = region.make_color();
+    region.copy(region.opaque_color(), result);
+    composite_quads(region, layers, result);
+    region.publish(result);
+}
+
+}  // namespace strata::peeling

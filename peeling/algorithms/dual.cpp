@@ -1,0 +1,114 @@
+// peeling/algorithms/dual.cpp - two layers a pass, the nearest and the farthest, blended on the fly under one shared MAX equation.
+// Bavoil and Myers 2008; algorithms.md 5, errata E7, E9 to E14.
+//
+// Needs      RG32F and float MAX blending, three render targets, separate alpha blending.
+// Passes     1 + max(1, ceil(N/2)) with the min-max exit; the paper's exit: floor(N/2) + 2. Ties at a peeled depth merge.
+// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 - transmittance),
+//            back = what lies behind far, over the background.
+#include <utility>
+
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/min_max.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+struct DualTargets {
+    Target min_max, next_min_max;  // RT0 and the one it is read from
+    Target front, next_front;      // RT1
+    Target back_dump, back;        // RT2 and what it is blended onto
+};
+
+// Nothing is discarded: RT1 is cleared every pass and survives by passing through under MAX (E13).
+Drawn peel(Region& region, const DualTargets& t) {
+    region.clear(t.next_min_max, empty_min_max);
+    region.clear(t.next_front, {.color = {0, 0, 0, 0}});
+    region.clear(t.back_dump, {.color = {0, 0, 0, 0}});
+    PassState state;
+    state.color = {t.next_min_max, t.next_front, t.back_dump};
+    state.blend = {blend_mode::max, blend_mode::max, blend_mode::max};
+    state.reads = {t.min_max, t.front, region.opaque_depth()};
+    const DepthCompare compare = region.frame().depth_compare();
+    state.needs.code = false;
+    state.needs.reference = !compare.is_plain();
+    return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        PeelLanes place;
+        classify(compare, in, own.color(0), own.depth(2), place);
+        write_min_max(in, place.is_between, out.color[0]);
+        write_layers(in, own.color(1), place, out.color[1], out.color[2]);
+    });
+}
+
+// OVER of the peeled back layer; counts the pixels that have something left to peel.
+Drawn blend_back(Region& region, const DualTargets& t) {
+    PassState state;
+    state.color[0] = t.back;
+    state.blend[0] = blend_mode::over;
+    state.blend[0].write_mask = 0x7;  // BACK has no alpha of its own
+    state.reads = {t.back_dump, t.next_min_max, t.min_max};
+    return region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.color[0] = own.color(0);
+        std::uint32_t left = 0;
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            out.alive[i] = own.color(0)[3][i] != 0.0f ? ~0u : 0u;
+            left += own.color(1)[0][i] != -1.0f || own.color(1)[1][i] != -1.0f ? 1 : 0;
+        }
+        out.tally += left;
+    });
+}
+
+// For the audit: which depths this pass has composited, at which end. Not a pass of the machine.
+void trace_peel(Region& region, const DualTargets& t) {
+    for (const Side side : {Side::front, Side::back})
+        region.trace_pixels(t.min_max, [side](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t i = 0; i < lanes(in); ++i) {
+                const float near = -own.color(0)[0][i], far = own.color(0)[1][i];
+                const bool has = side == Side::front ? near <= far : near < far;
+                out.side[i] = has ? side : Side::none;
+                out.key[i] = ordered_code(side == Side::front ? near : far);
+            }
+        });
+}
+
+// The front over the back, alpha 1; the front's alpha is 1 - transmittance (algorithms.md 5).
+void publish(Region& region, Target front, Target back) {
+    const Target result = region.make_color();
+    PassState state;
+    state.color[0] = result;
+    state.reads = {front, back};
+    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < lanes(in); ++i)
+                out.color[0][c][i] = composited(own.color(0)[c][i], 1.0f - own.color(0)[3][i], own.color(1)[c][i]);
+        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
+    }));
+    region.publish(result);
+}
+
+}  // namespace
+
+void dual(Region& region) {
+    const auto rg = Format::rg32f;
+    DualTargets t{region.make(rg),     region.make(rg),     region.make_color(),
+                  region.make_color(), region.make_color(), region.make_color()};
+    region.clear(t.front, {.color = {0, 0, 0, 0}});
+    region.copy(region.opaque_color(), t.back);
+    initialize(region, t.min_max);
+    const bool paper = region.frame().termination.rule == TerminationRule::paper;
+    while (!region.limit_reached()) {
+        region.begin_iteration();
+        static_cast<void>(peel(region, t));
+        const Drawn blended = blend_back(region, t);
+        trace_peel(region, t);
+        std::swap(t.min_max, t.next_min_max);
+        std::swap(t.front, t.next_front);
+        // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
+        if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::steady))) break;
+    }
+    publish(region, t.front, t.back);
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,66 @@
+// peeling/algorithms/dual_independent.cpp - dual peeling with a blend equation a target: UNDER in front, OVER behind, during the peel.
+// Bavoil and Myers 2008, "Blending on the Fly" (DirectX 10.1); algorithms.md 6.
+//
+// Needs      ARB_draw_buffers_blend (independent blending), RG32F and float MAX blending, three render targets.
+// Passes     ceil(N/2) + 2: the last peel finds nothing. No layer is lost on ties.
+// Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = transmittance),
+//            back = what lies behind far, over the background. Neither is cleared between passes.
+#include <utility>
+
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/min_max.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Target back) {
+    region.clear(next_min_max, empty_min_max);
+    PassState state;
+    state.color = {next_min_max, front, back};
+    state.blend = {blend_mode::max, blend_mode::under, blend_mode::over};
+    state.blend[2].write_mask = 0x7;
+    state.reads = {min_max, region.opaque_depth()};
+    const DepthCompare compare = region.frame().depth_compare();
+    state.needs.code = false;
+    state.needs.reference = !compare.is_plain();
+    return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        PeelLanes place;
+        classify(compare, in, own.color(0), own.depth(1), place);
+        write_min_max(in, place.is_between, out.color[0]);
+        premultiply(in.color, out.color[1], lanes(in));
+        out.color[2] = in.color;
+        out.traced = true;
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const std::uint32_t is_near = place.is_near[i], is_far = place.is_far[i];
+            out.alive[i] &= is_near | is_far | place.is_between[i];
+            for (std::size_t c = 0; c < 4; ++c) {  // (0, 0, 0, 0) is neutral in both blends
+                if (is_near == 0) out.color[1][c][i] = 0.0f;
+                if (is_far == 0) out.color[2][c][i] = 0.0f;
+            }
+            out.side[i] = is_near != 0 ? Side::front : is_far != 0 ? Side::back : Side::none;
+            out.key[i] = ordered_code(in.shader_z[i]);
+        }
+    });
+}
+
+}  // namespace
+
+void dual_independent(Region& region) {
+    Target min_max = region.make(Format::rg32f), next_min_max = region.make(Format::rg32f);
+    const Target front = region.make_color(), back = region.make_color();
+    region.clear(front, {.color = {0, 0, 0, 1}});
+    region.copy(region.opaque_color(), back);
+    initialize(region, min_max);
+    while (!region.limit_reached()) {
+        region.begin_iteration();
+        const Drawn drawn = peel(region, min_max, next_min_max, front, back);
+        std::swap(min_max, next_min_max);
+        if (!region.any(drawn.passed, Idle::steady)) break;
+    }
+    publish_over_background(region, front, back);
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,73 @@
+// peeling/algorithms/front_to_back.cpp - one layer a pass, nearest first, blended under what is already there.
+// Everitt 2001 (the peel), Bavoil and Myers 2008 section "Under Blending"; algorithms.md 4.
+//
+// Needs      a fragment program with discard, separate alpha blending, a depth buffer that it can read.
+// Passes     N + 1 for N distinct depths: the last one finds nothing. Equal depths: the first in submission order stays.
+// Invariant  before pass i, `accumulated` = layers 0 .. i-1 composited, alpha = what they let through,
+//            and `peeled` = the depth of layer i-1.
+#include <utility>
+
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/layer_target.h"
+#include "peeling/programs/programs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// What is nearest behind `peeled`. The first pass peels nothing: a flag, because below-zero depths do not exist in D24 (E23).
+Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool first) {
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = nearest;
+    state.color[0] = layer;
+    if (!first) state.reads[0] = peeled;
+    const DepthCompare compare = region.frame().depth_compare();
+    state.needs.shader_z = false;
+    state.needs.reference = !first && !compare.is_plain();
+    const List list = first ? List::first : List::second;
+    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        premultiply(in.color, out.color[0], lanes(in));
+        if (!first) discard_peeled(compare, in, own.depth(0), out);
+    });
+}
+
+}  // namespace
+
+void composite_layer(Region& region, Target layer, Target depth, Target accumulated) {
+    PassState state;
+    state.color[0] = accumulated;
+    state.blend[0] = blend_mode::under;
+    state.reads = {layer, depth, region.opaque_depth()};
+    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves it alone
+        out.traced = true;
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? Side::front : Side::none;
+            out.key[i] = own.depth(1)[i];
+        }
+    }));
+}
+
+void front_to_back(Region& region) {
+    const Target accumulated = region.make_color();
+    const Target layer = region.make_color();
+    Target peeled = region.make_depth();
+    Target nearest = region.make_depth();
+    region.clear(accumulated, {.color = {0, 0, 0, 1}});
+    for (bool first = true; !region.limit_reached(); first = false) {
+        region.begin_iteration();
+        region.clear(layer, {.color = {0, 0, 0, 0}});
+        region.copy(region.opaque_depth(), nearest);
+        const Drawn drawn = peel(region, layer, nearest, peeled, first);
+        composite_layer(region, layer, nearest, accumulated);
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
+        region.keep_layer(layer, nearest);
+        std::swap(peeled, nearest);
+    }
+    publish_over_background(region, accumulated, region.opaque_color());
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,18 @@
+// peeling/algorithms/hybrid.cpp - unordered meshes peeled, ordered ones composited between the peels. Carr, Mech and Miller 2008,
+// Algorithm 1; algorithms.md 9.
+//
+// Needs      a fragment program with discard, separate alpha blending; an ordered set that arrives front to back at every pixel.
+// Passes     3 N + 2 in N + 1 iterations for N layers of the unordered set alone. Equal depths: the ordered set in front.
+// Invariant  before iteration i everything up to the unordered layer i-2 is composited, and so are the ordered fragments up to i-1.
+#include "peeling/algorithms/peel_sets.h"
+#include "peeling/algorithms/runs.h"
+
+namespace strata::peeling {
+
+// The list has two parts: the ordered set, then the unordered one (Algorithm::order).
+void hybrid(pipeline::Region& region) {
+    const auto& parts = region.frame().transparent->parts;
+    peel_sets(region, {.ordered = parts.at(0).primitives, .unordered = parts.at(1).primitives});
+}
+
+}  // namespace strata::peeling

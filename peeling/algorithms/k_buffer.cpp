@@ -1,0 +1,117 @@
+// peeling/algorithms/k_buffer.cpp - the four nearest fragments so far at every pixel, sorted as they come; the fifth pushes the nearest out.
+// Bavoil et al. 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 14.
+//
+// Needs      STRATA_ordered_rmw (real devices had read-modify-write hazards here), six float render targets.
+// Passes     1. Right where no fragment has more than four deeper visible ones before it. Equal depths: first arrival in front.
+// Invariant  a pixel's entries are sorted by depth, ties as they came, and behind all that is composited unless a fault says so.
+#include <array>
+
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/depth_float.h"
+#include "peeling/programs/depth_range.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr std::size_t k = 4;      // entries: a colour target each, and one for their depths
+constexpr float no_entry = 2.0f;  // behind every depth
+
+struct Entry {
+    float depth = no_entry;
+    Rgba color{};  // straight
+};
+
+class KBuffer {
+  public:
+    explicit KBuffer(Region& region) : region_{region}, overflow_{region}, pushed_out_(region.rect().area(), -1.0f) {
+        region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
+        region_.clear(depths_, {.color = {no_entry, no_entry, no_entry, no_entry}});
+        for (Target& color : colors_) color = region_.make(Format::rgba32f);
+    }
+
+    void run() {
+        region_.begin_iteration();
+        insert_all();
+        for (std::size_t i = 0; i < k; ++i) composite_entry(i);
+        overflow_.report(region_, Fault::buffer_overflow,
+                         "a fragment came after more than 4 deeper ones: composited too late");
+        publish_over_background(region_, accumulated_, region_.opaque_color());
+    }
+
+  private:
+    void insert_all() {
+        PassState state = composite_state(accumulated_);
+        state.reads = {region_.opaque_depth(), depths_};
+        state.color[1] = depths_;
+        for (std::size_t i = 0; i < k; ++i) state.color[2 + i] = state.reads[2 + i] = colors_[i];
+        state.ordered_rmw = true;
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            keep_before(in, own.depth(0), out);
+            for (std::size_t i = 0; i < lanes(in); ++i)
+                if (out.alive[i] != 0) insert(in, own, out, i);
+        }));
+    }
+
+    // Sorts the fragment behind all entries up to its depth, and composites the first of the k + 1 if there are so many.
+    void insert(const FragmentBatch& in, const Loads& own, Outputs& out, std::size_t i) {
+        std::array<Entry, k + 1> entries;
+        for (std::size_t e = 0; e < k; ++e) {
+            entries[e].depth = own.color(1)[e][i];
+            for (std::size_t c = 0; c < 4; ++c) entries[e].color[c] = own.color(2 + static_cast<int>(e))[c][i];
+        }
+        Entry fragment{depth_as_float(in.code[i], format_),
+                       {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
+        if (fragment.depth < pushed_out_[in.pixel[i]]) overflow_.add(in.pixel[i]);
+        std::size_t place = k;
+        for (; place > 0 && entries[place - 1].depth > fragment.depth; --place) entries[place] = entries[place - 1];
+        entries[place] = fragment;
+        const bool is_full = entries[k].depth != no_entry;
+        push_out(in.pixel[i], is_full ? entries[0] : Entry{}, out, i);
+        const std::size_t first = is_full ? 1 : 0;
+        for (std::size_t e = 0; e < k; ++e) {
+            out.color[1][e][i] = entries[first + e].depth;
+            for (std::size_t c = 0; c < 4; ++c) out.color[2 + e][c][i] = entries[first + e].color[c];
+        }
+    }
+
+    // An empty entry is neutral under UNDER.
+    void push_out(std::uint32_t pixel, const Entry& entry, Outputs& out, std::size_t i) {
+        for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = entry.color[c] * entry.color[3];
+        out.color[0][3][i] = entry.color[3];
+        if (entry.depth == no_entry) return;
+        pushed_out_[pixel] = std::max(pushed_out_[pixel], entry.depth);
+        if (region_.frame().trace) region_.trace({pixel, depth_as_code(entry.depth, format_), 0, Side::front, false});
+    }
+
+    void composite_entry(std::size_t e) {
+        PassState state = composite_state(accumulated_);
+        state.reads = {depths_, colors_[e]};
+        static_cast<void>(
+            region_.full_screen(state, [this, e](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                premultiply(own.color(1), out.color[0], lanes(in));
+                out.traced = true;
+                for (std::size_t i = 0; i < lanes(in); ++i) {
+                    const float depth = own.color(0)[e][i];
+                    out.alive[i] &= mask(depth != no_entry);
+                    out.side[i] = Side::front;
+                    out.key[i] = depth_as_code(depth, format_);
+                }
+            }));
+    }
+
+    Region& region_;
+    PixelSet overflow_;
+    std::vector<float> pushed_out_;  // the deepest depth that a pixel has composited before the end
+    DepthFormat format_ = region_.frame().key_request().format;
+    Target accumulated_ = region_.make_color(), depths_ = region_.make(Format::rgba32f);
+    std::array<Target, k> colors_;
+};
+
+}  // namespace
+
+void k_buffer(Region& region) { KBuffer{region}.run(); }
+
+}  // namespace strata::peeling

@@ -1,0 +1,79 @@
+// peeling/algorithms/object_sorted.cpp - objects ordered front to back by occlusion queries, then composited as they come.
+// Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 1.
+//
+// Needs      occlusion queries, separate alpha blending.
+// Passes     1 for each of n objects and 2 for every question: 3 n - 2 where they arrive front to back, n^2 + 2 n - 2 at most.
+//            An object's own fragments stay as they come, and cycles of objects are not cut: diagnosed, not repaired.
+// Invariant  what is composited lies, at every pixel, in front of all objects that remain, unless a fault says so.
+#include <vector>
+
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/depth_range.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+using Objects = std::vector<PrimitiveRange>;
+
+// Whether object `which` lies behind any of the others somewhere: its fragments behind the nearest of theirs are counted.
+bool is_occluded(Region& region, const Objects& remaining, std::size_t which, Target nearest) {
+    Objects others = remaining;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
+    region.copy(region.opaque_depth(), nearest);
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = nearest;
+    state.needs = code_only;
+    state.primitives = others;
+    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    state.depth = {.enabled = true, .func = CompareFunc::greater, .write = false};
+    state.reads[0] = region.opaque_depth();
+    state.primitives = {&remaining[which], 1};
+    const Drawn behind = region.draw(
+        state, [](const FragmentBatch& in, const Loads& own, Outputs& out) { keep_before(in, own.depth(0), out); });
+    return region.any(behind.passed, Idle::no);
+}
+
+void composite(Region& region, const PrimitiveRange& object, Target accumulated) {
+    PassState state = composite_state(accumulated);
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+    state.depth_target = region.opaque_depth();
+    state.primitives = {&object, 1};
+    static_cast<void>(
+        region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { composite_under(in, out); }));
+}
+
+// The first object that nothing occludes; the first of all, if each is occluded: a cycle.
+std::size_t front_object(Region& region, const Objects& remaining, Target nearest) {
+    if (remaining.size() == 1) return 0;
+    for (std::size_t i = 0; i < remaining.size(); ++i) {
+        if (region.limit_reached(2)) return 0;
+        if (!is_occluded(region, remaining, i, nearest)) return i;
+    }
+    merge(region.diagnostics(),
+          {Fault::out_of_order, 0, -1, -1, "no object lies in front of all others: the first is taken"});
+    return 0;
+}
+
+}  // namespace
+
+void object_sorted(Region& region) {
+    const Target accumulated = region.make_color(), nearest = region.make_depth();
+    region.clear(accumulated, {.color = {0, 0, 0, 1}});
+    Objects remaining;
+    for (const DrawPart& part : region.frame().transparent->parts)
+        if (part.near <= part.far) remaining.push_back(part.primitives);
+    while (!remaining.empty() && !region.limit_reached()) {
+        region.begin_iteration();
+        const std::size_t front = front_object(region, remaining, nearest);
+        if (region.limit_reached()) break;
+        composite(region, remaining[front], accumulated);
+        remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(front));
+    }
+    publish_over_background(region, accumulated, region.opaque_color());
+}
+
+}  // namespace strata::peeling

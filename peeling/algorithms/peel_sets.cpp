@@ -1,0 +1,107 @@
+#include "peeling/algorithms/peel_sets.h"
+
+#include <utility>
+
+#include "peeling/programs/depth_range.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+std::span<const PrimitiveRange> as_span(const std::optional<PrimitiveRange>& range) {
+    if (!range) return {};
+    return {&*range, 1};
+}
+
+class Peel {
+  public:
+    Peel(Region& region, const PeelSets& sets)
+        : region_{region},
+          sets_{sets},
+          ties_{region},
+          published_{region.frame().formulation == Formulation::published} {
+        region_.clear(accumulated_, {.color = {0, 0, 0, 1}});
+        region_.clear(peeled_, {.depth = 0.0f});  // as published: zNear, which strict comparisons lose (E23)
+        from_the_start_ = !published_;
+    }
+
+    void run() {
+        bool more = true, has_layer = false;
+        while (!region_.limit_reached((has_layer ? 1 : 0) + 1 + (sets_.ordered ? 1 : 0))) {
+            region_.begin_iteration();
+            if (has_layer) composite_layer();
+            const Drawn found = find_layer();
+            if (sets_.ordered) composite_ordered();
+            has_layer = true;
+            if (!(more = region_.any(found.passed, idle()))) break;
+        }
+        if (more && has_layer && !region_.limit_reached()) composite_layer();  // a limit ended it, and leaves room
+        ties_.report(region_);
+        publish_over_background(region_, accumulated_, region_.opaque_color());
+    }
+
+  private:
+    // As published, finished pixels change while others are peeled; and under a limit the last layer waits for its composite.
+    [[nodiscard]] Idle idle() const {
+        return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::when_zero;
+    }
+
+    Drawn find_layer() {
+        region_.copy(region_.opaque_depth(), layer_);
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = layer_;
+        state.reads[0] = peeled_;
+        state.needs = code_only;
+        state.primitives = as_span(sets_.unordered);
+        return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            if (!from_the_start_) keep_behind(in, own.depth(0), out);
+        });
+    }
+
+    void composite_ordered() {
+        PassState state = composite_state(accumulated_);
+        state.reads = {peeled_, layer_, region_.opaque_depth()};
+        state.primitives = as_span(sets_.ordered);
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            if (!from_the_start_) keep_behind(in, own.depth(0), out);
+            if (published_)
+                keep_before(in, own.depth(1), out);  // loses what is at the layer's depth (E24)
+            else
+                keep_up_to(in, own.depth(1), out);
+            keep_before(in, own.depth(2), out);
+            composite_under(in, out);
+        }));
+    }
+
+    // The layer of this iteration becomes the peeled one of the next.
+    void composite_layer() {
+        PassState state = composite_state(accumulated_);
+        state.reads = {layer_, region_.opaque_depth()};
+        state.primitives = as_span(sets_.unordered);
+        ties_.start();
+        static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            keep_at(in, own.depth(0), out);
+            if (!published_)
+                keep_before(in, own.depth(1), out);  // a finished pixel's layer is the opaque surface (E24)
+            composite_under(in, out);
+            ties_.add(in, out);
+        }));
+        std::swap(peeled_, layer_);
+        from_the_start_ = false;
+    }
+
+    Region& region_;
+    const PeelSets& sets_;
+    BoundTies ties_;
+    bool published_, from_the_start_ = true;
+    Target accumulated_ = region_.make_color(), peeled_ = region_.make_depth(), layer_ = region_.make_depth();
+};
+
+}  // namespace
+
+void peel_sets(Region& region, const PeelSets& sets) { Peel{region, sets}.run(); }
+
+}  // namespace strata::peeling

@@ -1,0 +1,75 @@
+// peeling/algorithms/shadow_map.cpp - one layer a pass by a shadow map as seen from the eye. Everitt 2001, "Shadow Mapping as Depth Test";
+// algorithms.md 3.
+//
+// Needs      depth textures and an alpha test; shadow_map_depth_replace: NV_texture_shader, too.
+// Passes     N + 1 for N distinct depths if the compared depth R is the stored one (depth_replace writes, perspective_rq
+//            compares). Where R is another path's, a fragment may lie behind itself, and its layer never goes.
+// Invariant  before pass i, `map` = the copied depth buffer of pass i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has none.
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/layer_quads.h"
+#include "peeling/programs/programs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+struct Buffers {
+    Target color, depth;  // of the frame
+    Target map;           // the depth texture of the pass before; none before the first
+};
+
+// A fragment whose R is not behind the map is in shadow; alpha times (1 - shadow), and the alpha test kills what is 0. The
+// map's texel is the fragment's own: s/q and t/q of a screen-aligned lookup are off by less than a subpixel (hardware.md 3).
+// Fragments that store alpha 0 die in pass 0 as well: a layer they would win would be of no use.
+Drawn peel(Region& region, const Buffers& to) {
+    const bool first = !to.map.exists();
+    const DepthCompare compare = region.frame().depth_compare();
+    PassState state;
+    state.alpha = {.enabled = true, .func = CompareFunc::greater, .ref = 0.0f};
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = to.depth;
+    state.color[0] = to.color;
+    state.reads[0] = to.map;
+    state.needs.shader_z = false;
+    state.needs.reference = !first;
+    const List list = first ? List::first : List::second;
+    return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.color[0] = in.color;
+        if (first) return;
+        Lanes<float>& alpha = out.color[0][3];
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            alpha[i] = select(mask(compare.is_behind(in, i, own.depth(0)[i])), alpha[i], 0.0f);
+    });
+}
+
+// glCopyTexSubImage2D of the whole buffer.
+[[nodiscard]] Target copied(Region& region, Target from, Target to) {
+    region.copy(from, to);
+    return to;
+}
+
+}  // namespace
+
+void shadow_map(Region& region) {
+    Buffers buffers{region.make_color(), region.make_depth(), {}};
+    SavedLayers layers;
+    while (!region.limit_reached()) {
+        region.begin_iteration();
+        region.clear(buffers.color, {.color = {0, 0, 0, 0}});
+        region.copy(region.opaque_depth(), buffers.depth);
+        const Drawn drawn = peel(region, buffers);
+        buffers.map = copied(region, buffers.depth, region.make_depth());
+        layers.depth.push_back(buffers.map);
+        layers.color.push_back(copied(region, buffers.color, region.make_color()));
+        if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
+        region.keep_layer(layers.color.back(), layers.depth.back());
+    }
+    const Target result = region.make_color();
+    region.copy(region.opaque_color(), result);
+    composite_quads(region, layers, result);
+    region.publish(result);
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,133 @@
+// peeling/algorithms/stencil_routed_k_buffer.cpp - eight fragments a pass, each routed by the stencil test into a sample of its own, sorted
+// afterwards. Myers and Bavoil 2007, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 13.
+//
+// Needs      8-sample colour, depth and stencil targets, sample masks, a fragment covering all samples.
+// Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Equal depths: all, the first arrival in front.
+// Invariant  after pass p sample s holds fragment 8 p + s of its pixel, in order of arrival; the last sample's stencil is 0
+//            where more have come.
+#include <algorithm>
+#include <vector>
+
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/depth_range.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr int k = 8;
+constexpr int most_passes = 31;  // the stencil of the last sample starts at k - 1 + 2 + k p <= 255
+
+struct Capture {
+    Target color, depth;
+};
+
+// Every arriving fragment decrements all stencils, down to 0 and no further; the sample that stands at 2 takes it.
+Capture capture(Region& region, Target stencil, int pass) {
+    const Capture into{region.make(region.frame().color_format, k),
+                       region.make(target_format(region.frame().key_request().format), k)};
+    region.clear(into.depth, {.depth = 1.0f});  // a sample that stays empty: nothing visible lies there
+    for (int s = 0; s < k; ++s)
+        region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + k * pass)},
+                     static_cast<std::uint8_t>(1u << s));
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::always, .write = true};
+    state.depth_target = into.depth;
+    state.stencil = {.enabled = true,
+                     .front = {.func = CompareFunc::equal,
+                               .ref = 2,
+                               .fail = StencilOp::decr,
+                               .depth_fail = StencilOp::decr,
+                               .pass = StencilOp::decr},
+                     .back = {}};
+    state.stencil_target = stencil;
+    state.saturates_by_design = true;
+    state.color[0] = into.color;
+    state.reads[0] = region.opaque_depth();
+    state.needs = code_with_color;
+    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        keep_before(in, own.depth(0), out);  // before the stencil test: what is hidden takes no sample
+        out.color[0] = in.color;
+    }));
+    return into;
+}
+
+// Pixels that had more than k fragments left for the last pass.
+Count overflowing(Region& region, Target stencil) {
+    PassState state;
+    state.stencil = {.enabled = true, .front = {.func = CompareFunc::equal, .ref = 0}, .back = {}};
+    state.stencil_target = stencil;
+    state.sample_mask = 1u << (k - 1);
+    return region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}).passed;
+}
+
+struct Sample {
+    std::uint32_t code = 0;
+    Rgba color{};
+};
+
+// In the post-processing program's registers: binary32 UNDER, nearest first, ties as they came.
+Rgba composite(std::vector<Sample>& samples, const Rgba& background) {
+    std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.code < b.code; });
+    Rgba front{0, 0, 0, 1};
+    for (const Sample& s : samples) {
+        for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * (s.color[3] * s.color[c]);
+        front[3] *= 1.0f - s.color[3];
+    }
+    for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * background[c];
+    front[3] = 1.0f;
+    return front;
+}
+
+// One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's books.
+Target resolve(Region& region, const std::vector<Capture>& captures) {
+    const Target result = region.make_color();
+    const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
+    std::vector<Sample> samples;
+    for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel) {
+        samples.clear();
+        for (const Capture& c : captures)
+            for (int s = 0; s < k; ++s)
+                if (const std::uint32_t code = region.storage(c.depth).depth(s)[pixel]; code != empty)
+                    samples.push_back({code, region.color(c.color, pixel, s)});
+        region.store_pixel(result, pixel, composite(samples, region.color(region.opaque_color(), pixel)));
+        if (!region.frame().trace) continue;
+        for (const Sample& s : samples) region.trace({pixel, s.code, 0, Side::front, false});
+    }
+    const auto bytes = [&](Target t) {
+        return static_cast<std::uint64_t>(info(region.storage(t).format()).bytes_per_pixel) * region.rect().area();
+    };
+    region.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
+    for (std::size_t pass = 0; pass < captures.size(); ++pass) {
+        region.count_with(static_cast<int>(pass) + 1);
+        region.count({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
+    }
+    return result;
+}
+
+void report_overflow(Region& region, Target stencil) {
+    PixelSet lost{region};
+    const std::uint32_t* const last = region.storage(stencil).stencil(k - 1);
+    for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
+        if (last[pixel] == 0) lost.add(pixel);
+    lost.report(region, Fault::buffer_overflow,
+                "more fragments than the passes have captured: the later ones are lost");
+}
+
+}  // namespace
+
+void stencil_routed_k_buffer(Region& region) {
+    const Target stencil = region.make(Format::s8, k);
+    std::vector<Capture> captures;
+    while (static_cast<int>(captures.size()) < most_passes && !region.limit_reached()) {
+        region.begin_iteration();
+        captures.push_back(capture(region, stencil, static_cast<int>(captures.size())));
+        if (!region.any(overflowing(region, stencil), Idle::when_zero)) break;
+    }
+    if (!captures.empty()) report_overflow(region, stencil);
+    region.publish(resolve(region, captures));
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,36 @@
+// peeling/algorithms/unsorted.cpp - OVER in submission order: the baseline, and with triangles sorted by centroid the painter's algorithm.
+// algorithms.md 1.
+//
+// Needs      nothing.
+// Passes     1.
+// Invariant  the target holds OVER of what has arrived; right exactly where every pixel's fragments arrive back to front.
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/programs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+void unsorted(Region& region) {
+    const Target color = region.make_color();
+    region.copy(region.opaque_color(), color);
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+    state.depth_target = region.opaque_depth();
+    state.color[0] = color;
+    state.blend[0] = blend_mode::over;
+    state.blend[0].write_mask = 0x7;  // the final alpha stays 1
+    state.needs.shader_z = false;
+    region.begin_iteration();
+    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        out.color[0] = in.color;
+        out.traced = true;
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            out.side[i] = Side::back;
+            out.key[i] = in.code[i];
+        }
+    }));
+    region.publish(color);
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,72 @@
+// peeling/algorithms/weighted_average.cpp - one pass, every colour of a pixel replaced by their average weighted by alpha.
+// Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8.
+//
+// Needs      fp16 additive blending, two render targets.
+// Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.
+// Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets' precision.
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/average.h"
+#include "peeling/programs/average_words.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+Target accumulate(Region& region, Target sums, Target count) {
+    region.clear(sums, {});
+    region.clear(count, {});
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+    state.depth_target = region.opaque_depth();
+    state.color = {sums, count};
+    state.blend = {blend_mode::sum, blend_mode::sum};
+    state.needs.shader_z = state.needs.code = false;
+    region.begin_iteration();
+    static_cast<void>(region.draw_sums(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        premultiply(in.color, out.color[0], lanes(in));
+        set(out.color[1], {1, 0, 0, 1}, lanes(in));
+    }));
+    return sums;
+}
+
+// Reads sums, count and background.
+StuckPixels resolve(Region& region, const PassState& state) {
+    constexpr std::array reads{Format::rgba16f, Format::r16f, Format::rgba8};
+    if (resolves_words())
+        if (const auto words = region.full_screen_words(state, reads, Format::rgba8))
+            return resolve_average_words(*words);
+    const bool half_count = region.storage(state.reads[1]).format() == Format::r16f;
+    StuckPixels stuck;
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        const ColorLanes& sum = own.color(0);
+        const Lanes<float>& n = own.color(1)[0];
+        resolve_average(sum, n, own.color(2), out.color[0], lanes(in));
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            if (!(half_count && n[i] >= 2048.0f) && sum[3][i] <= 65504.0f) continue;
+            ++stuck.pixels;
+            stuck.first = std::min(stuck.first, in.pixel[i]);
+        }
+    }));
+    return stuck;
+}
+
+}  // namespace
+
+void weighted_average(Region& region) {
+    const bool wide = region.frame().color_format == Format::rgba32f;
+    const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
+    const Format count_format = wide ? Format::r32f : region.frame().average_count;
+    const Target count = region.make(count_format), result = region.make_color();
+    accumulate(region, sums, count);
+    PassState state;
+    state.color[0] = result;
+    state.reads = {sums, count, region.opaque_color()};
+    const StuckPixels stuck = resolve(region, state);
+    region.report(Fault::half_saturated, stuck.pixels, stuck.first,
+                  "an fp16 sum or count has stopped growing (hardware.md 9)");
+    region.publish(result);
+}
+
+}  // namespace strata::peeling

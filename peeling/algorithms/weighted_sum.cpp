@@ -1,0 +1,41 @@
+// peeling/algorithms/weighted_sum.cpp - one pass, the order-dependent terms of OVER ignored.
+// Bavoil and Myers 2008, "Weighted Sum" (after Meshkin 2007); algorithms.md 8.
+//
+// Needs      fp16 additive blending.
+// Passes     1. An approximation: the background's weight 1 - sum a goes negative where alphas add up to more than 1, and the
+//            picture darkens; it is clamped by nothing but the final store.
+// Invariant  sums.rgb = sum of c a, sums.a = sum of a, in submission order and in the target's precision.
+#include "peeling/algorithms/runs.h"
+#include "peeling/programs/programs.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+void weighted_sum(Region& region) {
+    const Target sums = region.make(region.frame().color_format == Format::rgba32f ? Format::rgba32f : Format::rgba16f);
+    const Target result = region.make_color();
+    region.clear(sums, {});
+    PassState add;
+    add.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+    add.depth_target = region.opaque_depth();
+    add.color[0] = sums;
+    add.blend[0] = blend_mode::sum;
+    add.needs.shader_z = add.needs.code = false;
+    region.begin_iteration();
+    static_cast<void>(region.draw(add, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        premultiply(in.color, out.color[0], lanes(in));
+    }));
+    PassState resolve;
+    resolve.color[0] = result;
+    resolve.reads = {sums, region.opaque_color()};
+    static_cast<void>(region.full_screen(resolve, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < lanes(in); ++i)
+                out.color[0][c][i] = own.color(0)[c][i] + own.color(1)[c][i] * (1.0f - own.color(0)[3][i]);
+        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
+    }));
+    region.publish(result);
+}
+
+}  // namespace strata::peeling

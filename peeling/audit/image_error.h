@@ -1,0 +1,31 @@
+// peeling/audit/image_error.h - how far a picture is from the true one: largest difference, root mean square, signal to noise.
+//
+// Rule     Over red, green and blue, in units of 1/255 of the frame's colour values. Sums run in row-major order in binary64.
+//          PSNR = 20 log10(255 / rmse) decibels: none where nothing differs.
+// Numbers  The logarithm is a sum of 24 terms of the series of atanh in a fixed order, so its bits are the same everywhere; its
+//          relative error is below 2^-48.
+// Tests    tests/peeling/audit/image_error_test.cpp
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "pipeline/formats/image.h"
+
+namespace strata::peeling {
+
+struct ImageError {
+    double max_difference = 0, rmse = 0;  // in 1/255
+    std::optional<double> psnr;           // in decibels
+    friend bool operator==(const ImageError&, const ImageError&) = default;
+};
+
+// Colour images of one size, of any colour format each.
+[[nodiscard]] ImageError image_error(const pipeline::Image& image, const pipeline::Image& truth);
+
+// image - truth, as rgba32f with alpha 1.
+[[nodiscard]] pipeline::Image difference(const pipeline::Image& image, const pipeline::Image& truth);
+
+// The value of one channel of one pixel as a number.
+[[nodiscard]] double channel_value(const pipeline::Image& image, int x, int y, int channel);
+
+}  // namespace strata::peeling

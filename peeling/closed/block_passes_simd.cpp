@@ -1,0 +1,239 @@
+// peeling/closed/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at a time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "peeling/closed/block_passes_simd.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "peeling/closed/block_passes.h"
+#include "pipeline/formats/unorm8-inl.h"
+#include "rasterizer/base/simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::peeling::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::CappedTag<std::uint32_t, block_lanes>;
+using Signed = hn::RebindToSigned<Words>;
+using Floats = hn::RebindToFloat<Words>;
+constexpr std::size_t vector_lanes = hn::MaxLanes(Words{});
+
+using WordVec = hn::Vec<Words>;
+using WordMask = hn::Mask<Words>;
+using FloatVec = hn::Vec<Floats>;
+
+HWY_INLINE FloatVec float_of(WordVec code) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, code)); }
+
+HWY_INLINE FloatVec value_of(WordVec code) { return pipeline::HWY_NAMESPACE::unorm8_values(Words{}, code); }
+HWY_INLINE WordVec code_of(FloatVec x) { return pipeline::HWY_NAMESPACE::unorm8_codes(Words{}, x); }
+
+// Unorm8Arithmetic::combine with BlendEquation::add.
+template <pipeline::BlendRounding rounding>
+HWY_INLINE WordVec blended(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
+    const Signed di;
+    const auto sum = hn::ConvertTo(di, hn::Add(hn::Mul(s, s_factor), hn::Mul(d, d_factor)));
+    const auto biased =
+        hn::Add(hn::Min(sum, hn::Set(di, 65025)), hn::Set(di, rounding == pipeline::BlendRounding::nearest ? 128 : 1));
+    return hn::BitCast(Words{}, hn::ShiftRight<8>(hn::Add(biased, hn::ShiftRight<8>(biased))));
+}
+
+// Some columns of a block, and their front and back while the passes run.
+template <pipeline::BlendRounding rounding>
+class Columns {
+  public:
+    HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane) : block_{block}, lane_{lane} {
+        visible_ = hn::LoadU(Words{}, &block.visible[lane]);
+        alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
+        is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.depth)));
+    }
+    HWY_INLINE void load(const BlockCodes& codes, WordVec (&to)[4]) const {
+        for (std::size_t c = 0; c < 4; ++c) to[c] = hn::LoadU(Words{}, &codes[c][lane_]);
+    }
+    HWY_INLINE void store(const WordVec (&from)[4], BlockCodes& codes) const {
+        for (std::size_t c = 0; c < 4; ++c) hn::StoreU(from[c], Words{}, &codes[c][lane_]);
+    }
+
+    HWY_INLINE void both_ends(BlockCodes& front_codes, BlockCodes& back_codes) const {
+        WordVec front[4], back[4];
+        load(front_codes, front);
+        load(back_codes, back);
+        for (std::uint32_t pass = 0; 2 * pass < block_.depth; ++pass) {
+            const WordMask has_near = hn::Lt(hn::Set(Words{}, 2 * pass), visible_);
+            blend_near(take(row(pass), has_near), has_near, front);
+            if (2 * pass + 1 == block_.depth) break;  // no column has a far one any more
+            const WordMask has_far = hn::Lt(hn::Set(Words{}, 2 * pass + 1), visible_);
+            const WordVec place = is_full_ ? row(block_.depth - 1 - pass) : far_places(pass, has_far);
+            blend_far(take(place, has_far), back);
+        }
+        store(front, front_codes);
+        store(back, back_codes);
+    }
+
+    HWY_INLINE void front_alone(BlockCodes& front_codes) const {
+        WordVec front[4];
+        load(front_codes, front);
+        for (std::uint32_t pass = 0; pass < block_.depth; ++pass)
+            blend_front(take(row(pass), hn::Lt(hn::Set(Words{}, pass), visible_)), front);
+        store(front, front_codes);
+    }
+
+  private:
+    struct Color {
+        FloatVec channel[4];
+    };
+
+    HWY_INLINE WordVec row(std::size_t k) const {
+        WordVec place, key;
+        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.rows + k * block_lanes + lane_),
+                             place, key);
+        return place;
+    }
+    HWY_INLINE WordVec far_places(std::uint32_t pass, WordMask has) const {
+        const Words d;
+        const WordVec row = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
+        const WordVec column = hn::Add(hn::Set(d, static_cast<std::uint32_t>(lane_)), hn::Iota(d, 0));
+        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(row), column));
+        return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.rows), hn::BitCast(Signed{}, word));
+    }
+
+    // With gathers, or where the places are one or follow each other, without.
+    HWY_INLINE Color take(WordVec place, WordMask has) const {
+        const Words d;
+        const Floats df;
+        place = hn::IfThenElseZero(has, place);
+        const std::uint32_t first = hn::GetLane(place);
+        const bool is_run = hn::AllTrue(d, hn::Eq(place, hn::Add(hn::Set(d, first), hn::Iota(d, 0))));
+        const bool is_one = hn::AllTrue(d, hn::Eq(place, hn::Set(d, first)));
+        Color color;
+        for (std::size_t c = 0; c < 4; ++c) {
+            color.channel[c] = is_one   ? hn::Set(df, block_.color[c][first])
+                               : is_run ? hn::LoadU(df, block_.color[c] + first)
+                                        : hn::GatherIndex(df, block_.color[c], hn::BitCast(Signed{}, place));
+            color.channel[c] = hn::IfThenElseZero(hn::RebindMask(df, has), color.channel[c]);
+        }
+        return color;
+    }
+
+    HWY_INLINE void blend_near(const Color& color, WordMask has, WordVec (&front)[4]) const {
+        const FloatVec one = hn::Set(Floats{}, 1.0f), alpha = color.channel[3];
+        const FloatVec let_through = hn::Sub(one, value_of(front[3]));
+        const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
+        const WordMask others = hn::Ne(alive_, own);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const FloatVec under =
+                c == 3 ? hn::Sub(one, hn::Mul(let_through, hn::Sub(one, alpha)))
+                       : hn::Add(value_of(front[c]), hn::Mul(let_through, hn::Mul(alpha, color.channel[c])));
+            front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(under)));
+        }
+    }
+
+    HWY_INLINE static void blend_far(const Color& color, WordVec (&back)[4]) {
+        const WordVec code = code_of(color.channel[3]);
+        const WordMask is_there = hn::Ne(code, hn::Zero(Words{}));
+        const FloatVec alpha = float_of(code), rest = hn::Sub(hn::Set(Floats{}, 255.0f), alpha);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const WordVec over = blended<rounding>(float_of(code_of(color.channel[c])), alpha, float_of(back[c]), rest);
+            back[c] = hn::IfThenElse(is_there, over, back[c]);
+        }
+    }
+
+    HWY_INLINE static void blend_front(const Color& color, WordVec (&front)[4]) {
+        const FloatVec all = hn::Set(Floats{}, 255.0f), let_through = float_of(front[3]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const WordVec source = code_of(hn::Mul(color.channel[c], color.channel[3]));
+            front[c] = blended<rounding>(float_of(source), let_through, float_of(front[c]), all);
+        }
+        const FloatVec alpha = float_of(code_of(color.channel[3]));
+        front[3] = blended<rounding>(alpha, hn::Zero(Floats{}), let_through, hn::Sub(all, alpha));
+    }
+
+    const ColumnBlock& block_;
+    std::size_t lane_;
+    WordVec visible_, alive_;
+    bool is_full_;
+};
+
+void both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
+    using enum pipeline::BlendRounding;
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+        if (rounding == nearest)
+            Columns<nearest>{block, lane}.both_ends(front, back);
+        else
+            Columns<truncate>{block, lane}.both_ends(front, back);
+}
+
+void front_alone(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
+    using enum pipeline::BlendRounding;
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+        if (rounding == nearest)
+            Columns<nearest>{block, lane}.front_alone(front);
+        else
+            Columns<truncate>{block, lane}.front_alone(front);
+}
+
+void codes(const std::uint32_t* words, BlockCodes& out) {
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
+        const WordVec word = hn::LoadU(Words{}, words + lane);
+        for (int c = 0; c < 4; ++c)
+            hn::StoreU(hn::And(hn::ShiftRightSame(word, 8 * c), hn::Set(Words{}, 0xffu)), Words{},
+                       &out[static_cast<std::size_t>(c)][lane]);
+    }
+}
+
+void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
+    const Words d;
+    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
+        const FloatVec alpha = value_of(hn::LoadU(d, &front[3][lane]));
+        const FloatVec let_through = meaning == FrontAlpha::covers ? hn::Sub(hn::Set(Floats{}, 1.0f), alpha) : alpha;
+        WordVec word = hn::Set(d, 0xff000000u);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const FloatVec behind = hn::Mul(let_through, value_of(hn::LoadU(d, &back[c][lane])));
+            const WordVec code = code_of(hn::Add(value_of(hn::LoadU(d, &front[c][lane])), behind));
+            word = hn::Or(word, hn::ShiftLeftSame(code, static_cast<int>(8 * c)));
+        }
+        hn::StoreU(word, d, words + lane);
+    }
+}
+
+}  // namespace strata::peeling::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace strata::peeling {
+HWY_EXPORT(both_ends);
+HWY_EXPORT(front_alone);
+HWY_EXPORT(codes);
+HWY_EXPORT(last_quad);
+
+void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
+    using enum pipeline::BlendRounding;
+    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(both_ends)(block, front, back, rounding);
+    if (rounding == nearest)
+        scalar::peel_both_ends<nearest>(block, front, back);
+    else
+        scalar::peel_both_ends<truncate>(block, front, back);
+}
+
+void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
+    using enum pipeline::BlendRounding;
+    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(front_alone)(block, front, rounding);
+    if (rounding == nearest)
+        scalar::peel_front<nearest>(block, front);
+    else
+        scalar::peel_front<truncate>(block, front);
+}
+
+BlockCodes codes_of(const std::uint32_t* words) {
+    BlockCodes result;
+    if (simd_is_scalar())
+        scalar::codes_of(words, result);
+    else
+        HWY_DYNAMIC_DISPATCH(codes)(words, result);
+    return result;
+}
+
+void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
+    if (simd_is_scalar()) return scalar::composite(front, back, meaning, words);
+    HWY_DYNAMIC_DISPATCH(last_quad)(front, back, meaning, words);
+}
+
+}  // namespace strata::peeling
+#endif

@@ -1,0 +1,268 @@
+// peeling/closed/dual_closed.cpp - dual peeling as a closed form: pass i takes the i-th depth from the front and the i-th from the back.
+//
+// Holds      for 8-bit targets, where MAX over codes does not ask for an order; for visible depths that MAX keeps as they are: not
+//            below the cleared -1, and not flushed as denormals.
+// Ties       a depth is one group: MAX over its fragments' blends, and over the front that every other fragment passes through.
+// Invariant  before pass i, [near, far) are the fragments between the depths already peeled.
+#include <algorithm>
+#include <numeric>
+
+#include "peeling/closed/closed_form.h"
+#include "peeling/programs/min_max.h"
+#include "pipeline/formats/convert.h"
+#include "pipeline/stages/blend.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// The fragments of one depth of every pixel of a group: [begin, end) in its sorted column, empty where nothing is left.
+struct DepthGroup {
+    Lanes<std::uint32_t> begin, end;
+};
+
+// The course of some pixels of a block, pass after pass.
+class GroupPeel {
+  public:
+    GroupPeel(Region& region, const ColumnBlock& block, const BlockPixels& pixels, const BlockCodes& opaque)
+        : region_{region}, block_{block}, lane_{pixels.lane}, n_{pixels.count} {
+        for (std::size_t i = 0; i < n_; ++i) {
+            near_[i] = 0;
+            far_[i] = block.visible[lane_[i]];
+        }
+        for (auto& channel : front_) std::fill_n(channel.begin(), n_, 0u);
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) back_[c][i] = opaque[c][lane_[i]];
+    }
+
+    // False once every pixel is done.
+    [[nodiscard]] bool pass() {
+        if (!next_groups()) return false;
+        blend_front();
+        blend_back();
+        return true;
+    }
+    void result(BlockCodes& front, BlockCodes& back) const {
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) {
+                front[c][lane_[i]] = front_[c][i];
+                back[c][lane_[i]] = back_[c][i];
+            }
+    }
+
+  private:
+    [[nodiscard]] std::uint32_t key(std::size_t i, std::uint32_t k) const noexcept { return block_.key(lane_[i], k); }
+
+    [[nodiscard]] bool next_groups() {
+        bool any = false;
+        for (std::size_t i = 0; i < n_; ++i) {
+            std::uint32_t near = near_[i], far = far_[i];
+            near_group_.begin[i] = near;
+            if (near < far) {
+                any = true;
+                trace(i, near, Side::front);
+                const std::uint32_t nearest = key(i, near++);
+                while (near < far && key(i, near) == nearest) ++near;
+            }
+            near_group_.end[i] = far_group_.end[i] = near;
+            if (near < far) {
+                far_group_.end[i] = far;
+                trace(i, far - 1, Side::back);
+                const std::uint32_t farthest = key(i, --far);
+                while (near < far && key(i, far - 1) == farthest) --far;
+            }
+            far_group_.begin[i] = std::min(far, far_group_.end[i]);
+            near_[i] = near;
+            far_[i] = far;
+        }
+        return any;
+    }
+
+    void trace(std::size_t i, std::uint32_t k, Side side) {
+        if (!region_.frame().trace) return;
+        region_.trace({static_cast<std::uint32_t>(block_.first + lane_[i]), key(i, k), 0, side, false});
+    }
+
+    // The colours of the groups' `member`-th fragments; false if no group has so many.
+    [[nodiscard]] bool take(const DepthGroup& group, std::uint32_t member) {
+        bool any = false;
+        for (std::size_t i = 0; i < n_; ++i) {
+            near_place_.is_near[i] = group.begin[i] + member < group.end[i] ? ~0u : 0u;
+            any |= near_place_.is_near[i] != 0;
+            const bool has = near_place_.is_near[i] != 0;
+            const std::size_t place = has ? block_.place(lane_[i], group.begin[i] + member) : 0;
+            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? block_.color[c][place] : 0.0f;
+        }
+        return any;
+    }
+
+    // blended = MAX over what it holds and the codes of `values`, where the group has this member.
+    void max_into(const ColorLanes& values, ColorCodes& blended) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            encode(ChannelType::unorm8, region_.profile().half_rounding, values[c], codes_, static_cast<int>(n_));
+            for (std::size_t i = 0; i < n_; ++i)
+                blended[c][i] = std::max(blended[c][i], codes_[i] & near_place_.is_near[i]);
+        }
+    }
+
+    void blend_front() {
+        for (std::size_t c = 0; c < 4; ++c) {
+            decode(ChannelType::unorm8, front_[c], front_values_[c], static_cast<int>(n_));
+            for (std::size_t i = 0; i < n_; ++i) {
+                const std::uint32_t in_group = near_group_.end[i] - near_group_.begin[i];
+                const bool passes_through = block_.visible[lane_[i]] + block_.hidden[lane_[i]] > in_group;
+                front_[c][i] = passes_through ? front_[c][i] : 0u;
+            }
+        }
+        for (std::uint32_t member = 0; take(near_group_, member); ++member) {
+            scalar::write_layers(color_, front_values_, near_place_, blended_, unused_, n_);
+            max_into(blended_, front_);
+        }
+    }
+
+    void blend_back() {
+        for (auto& channel : dump_) std::fill_n(channel.begin(), n_, 0u);
+        for (std::uint32_t member = 0; take(far_group_, member); ++member) max_into(color_, dump_);
+        for (std::size_t c = 0; c < 4; ++c) decode(ChannelType::unorm8, dump_[c], color_[c], static_cast<int>(n_));
+        ColorCodes& over = blended_codes_;
+        over = back_;
+        static constexpr Blend colors_only = [] {
+            Blend b = blend_mode::over;
+            b.write_mask = 0x7;  // BACK has no alpha of its own
+            return b;
+        }();
+        blend(colors_only, ChannelType::unorm8, region_.profile(), 4, color_, over, static_cast<int>(n_));
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < n_; ++i) back_[c][i] = dump_[3][i] != 0 ? over[c][i] : back_[c][i];
+    }
+
+    Region& region_;
+    const ColumnBlock& block_;
+    std::array<std::size_t, block_lanes> lane_;
+    std::size_t n_;
+    Lanes<std::uint32_t> near_, far_, codes_;
+    PeelLanes near_place_{};  // is_near: the group has the member that `take` took
+    DepthGroup near_group_, far_group_;
+    ColorCodes front_, back_, dump_, blended_codes_;
+    ColorLanes front_values_, color_, blended_, unused_;
+};
+
+// What MAX blending of (-z, z) onto (-1, -1) would not keep.
+bool has_foreign_depths(const RegionFragments& fragments, const DeviceProfile& profile) {
+    const bool flushes = profile.denormals == DenormalRule::flush;
+    return fragments.nearest < ordered_code(-1.0f) || (flushes && fragments.has_denormals);
+}
+
+// Depths of a sorted column.
+std::uint32_t distinct(const ColumnBlock& block, std::size_t lane) {
+    std::uint32_t count = 0;
+    for (std::uint32_t k = 0; k < block.visible[lane]; ++k)
+        count += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
+    return count;
+}
+
+// Pass by pass, the front before the back.
+void trace_pixel(Region& region, const ColumnBlock& block, std::size_t lane) {
+    const std::uint32_t n = block.visible[lane];
+    const auto add = [&](std::uint32_t k, Side side) {
+        region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, side, false});
+    };
+    for (std::uint32_t pass = 0; 2 * pass < n; ++pass) {
+        add(pass, Side::front);
+        if (2 * pass + 1 < n) add(n - 1 - pass, Side::back);
+    }
+}
+
+struct Course {
+    Region& region;
+    const std::uint32_t* opaque;  // words of the region
+    std::uint32_t* result;
+    std::vector<std::uint64_t> pixels_by_depths{};  // rows of sixteen: how many pixels have so many, by lane
+
+    void run(const ColumnBlock& block) {
+        if (block.depth == 0) return;
+        count_depths(block);
+        const BlockCodes opaque_codes = codes_of(opaque + block.first);
+        BlockCodes front{}, back = opaque_codes;
+        peel_both_ends(block, front, back, region.profile().blend_rounding);
+        if (block.has_any_tie()) {
+            GroupPeel peel{region, block, pixels_of(block, true), opaque_codes};
+            while (peel.pass()) {
+            }
+            peel.result(front, back);
+        }
+        composite_block(front, back, FrontAlpha::covers, result + block.first);
+        if (!region.frame().trace) return;
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
+            if (block.has_ties[lane] == 0) trace_pixel(region, block, lane);
+    }
+
+    // Lane by lane, so that no count waits for the one before it; row 0 is nobody's.
+    void count_depths(const ColumnBlock& block) {
+        if (pixels_by_depths.size() <= (block.depth + 1) * block_lanes)
+            pixels_by_depths.resize((block.depth + 1) * block_lanes);
+        LaneWords depths = block.visible;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            if (block.has_ties[lane] != 0) depths[lane] = distinct(block, lane);
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) ++pixels_by_depths[depths[lane] * block_lanes + lane];
+    }
+
+    // Pixels that have something left after `passes` peels.
+    [[nodiscard]] std::uint64_t left(std::size_t passes) const {
+        const std::size_t first = std::min((2 * passes + 1) * block_lanes, pixels_by_depths.size());
+        return std::accumulate(pixels_by_depths.begin() + static_cast<std::ptrdiff_t>(first), pixels_by_depths.end(),
+                               std::uint64_t{0});
+    }
+};
+
+// What the draws and the quad of `dual` count; its clears and copies are done, or counted here where they repeat.
+Counters of_initialize(const RegionFragments& fragments) {
+    const std::uint64_t alive = fragments.rasterized - fragments.masked;
+    return {.fragments_rasterized = fragments.rasterized,
+            .alpha_killed = fragments.masked,
+            .blended = alive,
+            .bytes_read = 4 * fragments.rasterized + 8 * alive,
+            .bytes_written = 8 * alive};
+}
+Counters of_peel(const RegionFragments& fragments, std::uint64_t area) {
+    const std::uint64_t alive = fragments.rasterized - fragments.masked;
+    constexpr std::uint64_t min_max = 8, color = 4, depth = 4, targets = min_max + 2 * color;
+    return {.fragments_rasterized = fragments.rasterized,
+            .alpha_killed = fragments.masked,
+            .blended = alive,
+            .bytes_read = (min_max + color + depth) * fragments.rasterized + targets * alive +
+                          (color + 2 * min_max + color) * area,  // the quad's loads and its blending
+            .bytes_written = targets * (area + alive) + color * area};
+}
+
+}  // namespace
+
+bool dual_closed(Region& region) {
+    const Frame& frame = region.frame();
+    if (!peels_to_the_end(frame) || frame.color_format != Format::rgba8) return false;
+    const std::size_t area = region.rect().area();
+    const Target result = region.make_color();
+    Course course{region, region.words(region.opaque_color()), region.words(result)};
+    for (std::size_t pixel = 0; pixel < area; ++pixel)  // where there is no fragment
+        course.result[pixel] = course.opaque[pixel] | 0xff000000u;
+    const std::size_t traced = region.trace().size();
+    const auto fragments = for_each_block(region, [&](const ColumnBlock& block) { course.run(block); });
+    if (!fragments || has_foreign_depths(*fragments, region.profile())) {
+        region.trace().resize(traced);
+        return false;
+    }
+    region.count({.bytes_read = 4 * area, .bytes_written = (4 + 4 + 8) * area}, {.copies = 1});  // front, back, min-max
+    region.count(of_initialize(*fragments), {.geometry = 1});
+    for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
+        region.begin_iteration();
+        region.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
+        if (!region.any(Region::counted(course.left(passes)), Idle::steady)) break;
+    }
+    region.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
+    region.publish(result);
+    return true;
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,331 @@
+// peeling/closed/front_to_back_closed.cpp - front-to-back peeling as a closed form: pass i composites the i-th depth of every pixel.
+//
+// Ties       the first arrival of a depth is its layer; the others are never seen.
+// Counters   pass i discards what lies at or before depth i - 1 (behind a pixel's last layer: at or before the opaque surface), and
+//            the depth test passes whatever is nearer than all that came before it and still counts. Fragment f does so in
+//            the passes whose threshold lies in [depth of m, depth of f), where m is the farthest of the earlier arrivals that
+//            are not behind f: from no depth at all (pass 1) if there is none.
+#include <algorithm>
+
+#include "peeling/closed/arrivals.h"
+#include "peeling/closed/closed_form.h"
+#include "pipeline/formats/convert.h"
+#include "pipeline/stages/blend.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+// What the passes count, summed over pixels. Index i is pass i, from 1.
+struct PassTallies {
+    std::vector<std::uint64_t> first_passed,
+        no_longer_passed;                  // fragments that begin, and cease, to pass the depth test there
+    std::vector<std::uint64_t> discarded;  // by pixels that have a layer i - 1
+    std::vector<std::uint64_t> exhausted;  // discarded from there on by pixels that have none
+
+    void make_room(std::size_t passes) {
+        if (exhausted.size() > passes) return;
+        for (auto* const tally : {&first_passed, &no_longer_passed, &discarded, &exhausted})
+            tally->resize(2 * passes + 1);
+    }
+};
+
+class ColumnTallies {
+  public:
+    explicit ColumnTallies(PassTallies& tallies) : tallies_{tallies} {}
+
+    void add(const ColumnBlock& block) {
+        tallies_.make_room(block.depth + 2);
+        if (columns_.size() <= block.depth) columns_.resize(block.depth + 1);
+        if (thresholds_.size() <= block.depth * block_lanes) thresholds_.resize((block.depth + 1) * block_lanes);
+        before_.resize(block.depth * block_lanes);
+        find_arrived_before(block, before_.data());
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
+            if (block.has_ties[lane] != 0) {
+                add_tied(block, lane);
+                continue;
+            }
+            const std::uint32_t n = block.visible[lane];
+            ++columns_[n];
+            tallies_.exhausted[n + 2] += block.at_surface[lane];
+        }
+        add_untied(block);
+    }
+
+    // What untied columns of n fragments have in common, whatever their order of arrival.
+    void finish() {
+        for (std::size_t n = 0; n < columns_.size(); ++n) {
+            for (std::size_t k = 1; k <= n; ++k) {
+                tallies_.discarded[k + 1] += k * columns_[n];
+                tallies_.no_longer_passed[k + 1] += columns_[n];
+            }
+            tallies_.exhausted[n + 2] += n * columns_[n];
+        }
+        for (std::size_t i = 0; i < thresholds_.size(); ++i)
+            tallies_.first_passed[i / block_lanes + 1] += thresholds_[i];
+    }
+
+  private:
+    // Without branches, and lane by lane, so that no count waits for the one before it.
+    void add_untied(const ColumnBlock& block) {
+        LaneWords heights;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane)
+            heights[lane] = block.has_ties[lane] != 0 ? 0 : block.visible[lane];
+        for (std::uint32_t k = 0; k < block.depth; ++k)
+            for (std::size_t lane = 0; lane < block_lanes; ++lane)
+                thresholds_[before_[k * block_lanes + lane] * block_lanes + lane] += k < heights[lane] ? 1 : 0;
+    }
+
+    void add_tied(const ColumnBlock& block, std::size_t lane) {
+        const std::uint32_t n = block.visible[lane];
+        rank_.resize(n);
+        std::uint32_t depths = 0;
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const bool is_new = k == 0 || block.key(lane, k) != block.key(lane, k - 1);
+            if (is_new && k > 0) tallies_.discarded[depths + 1] += k;  // at or before depth `depths`
+            depths += is_new ? 1 : 0;
+            rank_[k] = depths;
+        }
+        tallies_.discarded[depths + 1] += n;
+        tallies_.exhausted[depths + 2] += n + block.at_surface[lane];
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const std::uint32_t before = before_[k * block_lanes + lane];
+            const std::uint32_t threshold = before > 0 ? rank_[before - 1] : 0;
+            if (threshold == rank_[k]) continue;
+            ++tallies_.first_passed[threshold + 1];
+            ++tallies_.no_longer_passed[rank_[k] + 1];
+        }
+    }
+
+    PassTallies& tallies_;
+    std::vector<std::uint64_t> columns_;  // untied ones, by height
+    std::vector<std::uint64_t>
+        thresholds_;  // of their fragments, rows of sixteen, by lane: how many begin to pass after so many depths
+    std::vector<std::uint32_t> before_;  // by place in the block
+    std::vector<std::uint32_t> rank_;    // by place in a column: its depth, from 1
+};
+
+void trace_layer(Region& region, const ColumnBlock& block, std::size_t lane, std::uint32_t k) {
+    if (!region.frame().trace) return;
+    region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, Side::front, false});
+}
+
+// Composites the layers of some pixels of a block as `peel` and `composite` do: stored, loaded, blended UNDER.
+class GroupComposite {
+  public:
+    GroupComposite(Region& region, const ColumnBlock& block, const BlockPixels& pixels)
+        : region_{region}, block_{block}, lane_{pixels.lane}, n_{pixels.count} {
+        std::fill_n(next_.begin(), n_, 0u);
+    }
+
+    // The last layer is an empty one, as in the last pass.
+    void run(BlockCodes& codes) {
+        const Format format = region_.frame().color_format;
+        const auto count = static_cast<int>(n_);
+        ColorCodes accumulated;
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) accumulated[c][i] = codes[c][lane_[i]];
+        for (bool any = true; any;) {
+            any = take_layer();
+            for (std::size_t c = 0; c < 4; ++c) {
+                encode(info(format).type, region_.profile().half_rounding, layer_[c], codes_, count);
+                decode(info(format).type, codes_, layer_[c], count);
+            }
+            blend(blend_mode::under, info(format).type, region_.profile(), 4, layer_, accumulated, count);
+        }
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < n_; ++i) codes[c][lane_[i]] = accumulated[c][i];
+    }
+
+  private:
+    [[nodiscard]] bool take_layer() {
+        bool any = false;
+        for (std::size_t i = 0; i < n_; ++i) {
+            const std::size_t lane = lane_[i];
+            const std::uint32_t k = next_[i], end = block_.visible[lane];
+            const bool has = k < end;
+            const std::size_t place = has ? block_.place(lane, k) : 0;
+            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? block_.color[c][place] : 0.0f;
+            if (!has) continue;
+            any = true;
+            trace_layer(region_, block_, lane, k);
+            while (next_[i] < end && block_.key(lane, next_[i]) == block_.key(lane, k)) ++next_[i];
+        }
+        premultiply(color_, layer_, n_);
+        return any;
+    }
+
+    Region& region_;
+    const ColumnBlock& block_;
+    std::array<std::size_t, block_lanes> lane_;
+    std::size_t n_;
+    Lanes<std::uint32_t> next_, codes_;
+    ColorLanes color_, layer_;
+};
+
+// What the accumulated colour is cleared to, (0, 0, 0, 1), as codes.
+BlockCodes cleared(const Region& region) {
+    BlockCodes block{};
+    Lanes<float> one;
+    Lanes<std::uint32_t> code;
+    std::fill_n(one.begin(), block_lanes, 1.0f);
+    encode(info(region.frame().color_format).type, region.profile().half_rounding, one, code, int{block_lanes});
+    std::copy_n(code.begin(), block_lanes, block[3].begin());
+    return block;
+}
+
+// Everything that one iteration counts; called with 1, 2, 3 ...
+class PassCounters {
+  public:
+    PassCounters(const Region& region, const RegionFragments& fragments, const PassTallies& tallies)
+        : tallies_{tallies},
+          fragments_{fragments},
+          area_{region.rect().area()},
+          color_{bytes_per_pixel(region.frame().color_format)},
+          depth_{bytes_per_pixel(target_format(region.frame().key_request().format))} {}
+
+    [[nodiscard]] Counters of(std::size_t pass) {
+        passed_ += at(tallies_.first_passed, pass) - at(tallies_.no_longer_passed, pass);
+        exhausted_ += at(tallies_.exhausted, pass);
+        const std::uint64_t discarded = at(tallies_.discarded, pass) + exhausted_;
+        const std::uint64_t arriving = fragments_.rasterized - fragments_.masked - discarded;
+        const std::uint64_t loads = pass > 1 ? depth_ * fragments_.rasterized : 0;
+        const std::uint64_t clear_and_copy = (color_ + depth_) * area_, quad = (2 * color_ + 2 * depth_) * area_;
+        return {.fragments_rasterized = fragments_.rasterized,
+                .discarded = discarded,
+                .alpha_killed = fragments_.masked,
+                .depth_killed = arriving - passed_,
+                .blended = passed_,
+                .bytes_read = loads + depth_ * arriving + depth_ * area_ + quad,
+                .bytes_written = (color_ + depth_) * passed_ + clear_and_copy + color_ * area_};
+    }
+    [[nodiscard]] std::uint64_t passed() const noexcept { return passed_; }  // in the latest pass
+
+  private:
+    [[nodiscard]] static std::uint64_t bytes_per_pixel(Format format) {
+        return static_cast<std::uint64_t>(info(format).bytes_per_pixel);
+    }
+    [[nodiscard]] static std::uint64_t at(const std::vector<std::uint64_t>& tally, std::size_t i) {
+        return i < tally.size() ? tally[i] : 0;
+    }
+
+    const PassTallies& tallies_;
+    RegionFragments fragments_;
+    std::uint64_t area_, color_, depth_;
+    std::uint64_t passed_ = 0, exhausted_ = 0;
+};
+
+// The blocks of an rgba8 frame, from fragments to the last quad.
+class Rgba8Blocks {
+  public:
+    explicit Rgba8Blocks(Region& region)
+        : region_{region},
+          target_{region.make_color()},
+          background_{region.words(region.opaque_color())},
+          result_{region.words(target_)},
+          before_{cleared(region)} {
+        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
+            result_[pixel] = background_[pixel] | 0xff000000u;
+    }
+
+    void add(const ColumnBlock& block) {
+        BlockCodes front = before_;
+        peel_front(block, front, region_.profile().blend_rounding);
+        if (block.has_any_tie()) {
+            const BlockPixels tied = pixels_of(block, true);
+            for (std::size_t i = 0; i < tied.count; ++i)
+                for (std::size_t c = 0; c < 4; ++c) front[c][tied.lane[i]] = before_[c][tied.lane[i]];
+            GroupComposite{region_, block, tied}.run(front);
+        }
+        composite_block(front, codes_of(background_ + block.first), FrontAlpha::lets_through, result_ + block.first);
+        if (!region_.frame().trace) return;
+        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
+            for (std::uint32_t k = 0; k < block.visible[lane] && block.has_ties[lane] == 0; ++k)
+                trace_layer(region_, block, lane, k);
+    }
+
+    void publish() {
+        const std::uint64_t area = region_.rect().area();
+        region_.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
+        region_.publish(target_);
+    }
+
+  private:
+    Region& region_;
+    Target target_;
+    const std::uint32_t* background_;
+    std::uint32_t* result_;
+    BlockCodes before_;
+};
+
+// The same in every other format, by the passes' own functions.
+class OtherBlocks {
+  public:
+    explicit OtherBlocks(Region& region)
+        : region_{region}, accumulated_{region.make_color()}, before_{cleared(region)} {
+        fill();
+    }
+
+    void add(const ColumnBlock& block) {
+        BlockCodes codes = before_;
+        GroupComposite{region_, block, pixels_of(block, false)}.run(codes);
+        for (std::size_t c = 0; c < 4; ++c) std::copy_n(codes[c].begin(), block.count, codes_[c].begin());
+        region_.store_pixels(accumulated_, static_cast<std::uint32_t>(block.first), block.count, codes_);
+    }
+
+    // Not a clear: nothing is counted before it is sure that this form applies.
+    void fill() {
+        const std::size_t pixels = region_.rect().area();
+        for (std::size_t c = 0; c < 4; ++c) codes_[c].fill(before_[c][0]);
+        for (std::size_t first = 0; first < pixels; first += batch_capacity)
+            region_.store_pixels(accumulated_, static_cast<std::uint32_t>(first),
+                                 static_cast<int>(std::min<std::size_t>(pixels - first, batch_capacity)), codes_);
+    }
+
+    void publish() { publish_over_background(region_, accumulated_, region_.opaque_color()); }
+
+  private:
+    Region& region_;
+    Target accumulated_;
+    BlockCodes before_;
+    ColorCodes codes_;
+};
+
+void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
+    PassCounters counters{region, fragments, tallies};
+    for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
+        region.begin_iteration();
+        region.count(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
+        if (!region.any(Region::counted(counters.passed()), Idle::when_zero)) break;
+    }
+}
+
+template <class Blocks>
+bool composite_layers(Region& region) {
+    PassTallies tallies;
+    ColumnTallies columns{tallies};
+    Blocks blocks{region};
+    const auto fragments = for_each_block(region, [&](const ColumnBlock& block) {
+        columns.add(block);
+        blocks.add(block);
+    });
+    if (!fragments) return false;
+    columns.finish();
+    const auto color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
+    region.count({.bytes_written = color * region.rect().area()}, {});  // the accumulated colour's clear
+    count_passes(region, *fragments, tallies);
+    blocks.publish();
+    return true;
+}
+
+}  // namespace
+
+bool front_to_back_closed(Region& region) {
+    if (!peels_to_the_end(region.frame())) return false;
+    if (region.frame().color_format == Format::rgba8) return composite_layers<Rgba8Blocks>(region);
+    return composite_layers<OtherBlocks>(region);
+}
+
+}  // namespace strata::peeling

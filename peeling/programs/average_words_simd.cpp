@@ -1,0 +1,115 @@
+// peeling/programs/average_words_simd.cpp - resolve_average_words for the sets that convert halves. Whole vectors: planes have spare words.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "peeling/programs/average_words_simd.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "peeling/programs/average_words.h"
+#include "pipeline/formats/unorm8-inl.h"
+#include "rasterizer/base/simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::peeling::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
+constexpr bool has_halves = true;
+
+using Words = hn::ScalableTag<std::uint32_t>;
+using Floats = hn::Repartition<float, Words>;
+using Integers = hn::RebindToSigned<Words>;
+using pipeline::HWY_NAMESPACE::unorm8_codes;
+using pipeline::HWY_NAMESPACE::unorm8_values;
+using WordVec = hn::Vec<Words>;
+using FloatVec = hn::Vec<Floats>;
+
+HWY_INLINE FloatVec widened(WordVec halves) {
+    const auto narrow = hn::DemoteTo(hn::Rebind<std::uint16_t, Words>{}, hn::BitCast(Integers{}, halves));
+    return hn::PromoteTo(Floats{}, hn::BitCast(hn::Rebind<hwy::float16_t, Floats>{}, narrow));
+}
+HWY_INLINE FloatVec low_half(WordVec words) { return widened(hn::And(words, hn::Set(Words{}, 0xffffu))); }
+HWY_INLINE FloatVec high_half(WordVec words) { return widened(hn::ShiftRight<16>(words)); }
+
+// (1 - a / n)^n of average.h.
+HWY_INLINE FloatVec transmittance(FloatVec a, FloatVec n) {
+    const Floats d;
+    const FloatVec one = hn::Set(d, 1.0f);
+    FloatVec base = hn::Sub(one, hn::Div(a, n)), power = one;
+    const FloatVec positive = hn::IfThenElseZero(hn::Gt(n, hn::Zero(d)), n);
+    const FloatVec whole = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 0x1p30f)), positive, hn::Set(d, 0x1p30f));
+    WordVec left = hn::BitCast(Words{}, hn::ConvertTo(Integers{}, whole));
+    while (!hn::AllTrue(Words{}, hn::Eq(left, hn::Zero(Words{})))) {
+        const auto is_odd = hn::Ne(hn::And(left, hn::Set(Words{}, 1)), hn::Zero(Words{}));
+        power = hn::IfThenElse(hn::RebindMask(d, is_odd), hn::Mul(power, base), power);
+        left = hn::ShiftRight<1>(left);
+        base = hn::Mul(base, base);
+    }
+    return power;
+}
+
+void note_stuck(hn::Mask<Floats> stuck, std::size_t first, std::size_t pixels, StuckPixels& all) {
+    alignas(8) std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Floats{}, stuck, bits);
+    for (std::size_t i = 0; i < hn::Lanes(Floats{}) && first + i < pixels; ++i) {
+        if ((bits[i / 8] >> i % 8 & 1) == 0) continue;
+        all.first = std::min(all.first, static_cast<std::uint32_t>(first + i));
+        ++all.pixels;
+    }
+}
+
+StuckPixels resolve(const pipeline::ScreenWords& words) {
+    const Words d;
+    const Floats df;
+    StuckPixels stuck;
+    for (std::size_t i = 0; i < words.pixels; i += hn::Lanes(d)) {
+        const auto load = [&](std::size_t read, std::size_t word)
+                              HWY_ATTR { return hn::LoadU(d, words.reads[read].plane(word).words + i); };
+        const WordVec red_green = load(0, 0), blue_alpha = load(0, 1), background = load(2, 0);
+        const FloatVec a = high_half(blue_alpha), n = low_half(load(1, 0));
+        const auto sound = hn::And(hn::Lt(n, hn::Set(df, 2048.0f)), hn::Le(a, hn::Set(df, 65504.0f)));
+        if (HWY_UNLIKELY(!hn::AllTrue(df, sound))) note_stuck(hn::Not(sound), i, words.pixels, stuck);
+        const auto has = hn::And(hn::Gt(n, hn::Zero(df)), hn::Gt(a, hn::Zero(df)));
+        WordVec result = hn::Or(background, hn::Set(d, 0xff000000u));  // a code is its own value's code
+        if (!hn::AllFalse(df, has)) {
+            const FloatVec t = transmittance(a, n), opacity = hn::Sub(hn::Set(df, 1.0f), t);
+            const auto channel = [&](FloatVec sum, WordVec behind) HWY_ATTR {
+                const FloatVec color = hn::Mul(hn::Div(sum, a), opacity);
+                return unorm8_codes(d, hn::Add(color, hn::Mul(unorm8_values(d, behind), t)));
+            };
+            const WordVec byte = hn::Set(d, 0xffu);
+            WordVec mixed = hn::Or(hn::Set(d, 0xff000000u), channel(low_half(red_green), hn::And(background, byte)));
+            mixed = hn::Or(
+                mixed, hn::ShiftLeft<8>(channel(high_half(red_green), hn::And(hn::ShiftRight<8>(background), byte))));
+            mixed = hn::Or(
+                mixed, hn::ShiftLeft<16>(channel(low_half(blue_alpha), hn::And(hn::ShiftRight<16>(background), byte))));
+            result = hn::IfThenElse(hn::RebindMask(d, has), mixed, result);
+        }
+        hn::StoreU(result, d, words.color.plane(0).words + i);
+    }
+    return stuck;
+}
+#else
+constexpr bool has_halves = false;
+
+StuckPixels resolve(const pipeline::ScreenWords&) { return {}; }
+#endif
+
+bool converts_halves() { return has_halves; }
+
+}  // namespace
+}  // namespace strata::peeling::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace strata::peeling {
+HWY_EXPORT(resolve);
+HWY_EXPORT(converts_halves);
+
+StuckPixels resolve_average_words(const pipeline::ScreenWords& words) noexcept {
+    return HWY_DYNAMIC_DISPATCH(resolve)(words);
+}
+bool resolves_words() noexcept { return !simd_is_scalar() && HWY_DYNAMIC_DISPATCH(converts_halves)(); }
+
+}  // namespace strata::peeling
+#endif

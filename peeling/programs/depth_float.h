@@ -1,0 +1,24 @@
+// peeling/programs/depth_float.h - stored depths as colours: what a program writes into a float target, and reads back as a code.
+//
+// Rule     D32F: the float itself. D16, D24: code / (2^n - 1) rounded to binary32, and back to the nearest code; every code
+//          comes back, and greater codes have greater values (24 bits fit into a binary32).
+// Tests    tests/peeling/programs/programs_test.cpp
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "rasterizer/rules/depth_code.h"
+
+namespace strata::peeling {
+inline namespace strict {
+
+[[nodiscard]] constexpr float depth_as_float(std::uint32_t code, rasterizer::DepthFormat format) noexcept {
+    return static_cast<float>(rasterizer::depth_value(code, format));
+}
+
+[[nodiscard]] constexpr std::uint32_t depth_as_code(float depth, rasterizer::DepthFormat format) noexcept {
+    return rasterizer::to_depth_code(depth, format, rasterizer::DepthRounding::nearest);
+}
+
+}  // namespace strict
+}  // namespace strata::peeling

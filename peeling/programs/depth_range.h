@@ -1,0 +1,98 @@
+// peeling/programs/depth_range.h - what the fragment programs of Carr's algorithms share: discards outside a range of stored codes,
+// composites in arrival order, and pixels that a fault concerns.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "peeling/programs/programs.h"
+
+namespace strata::peeling {
+
+using CodeLanes = pipeline::Lanes<std::uint32_t>;
+
+// Each discards what its name does not say; codes of one format order like depths.
+inline void keep_behind(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
+    discard_peeled(in, bound, out);
+}
+inline void keep_from(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
+    for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(in.code[i] >= bound[i]);
+}
+inline void keep_before(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
+    for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(in.code[i] < bound[i]);
+}
+inline void keep_up_to(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
+    for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(in.code[i] <= bound[i]);
+}
+inline void keep_at(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
+    for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(in.code[i] == bound[i]);
+}
+
+// A pass that looks at depth alone.
+inline constexpr rasterizer::FragmentNeeds code_only{
+    .shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
+inline constexpr rasterizer::FragmentNeeds code_with_color{
+    .shader_z = false, .code = true, .exact_code = false, .color = true, .texcoord = false, .facing = false};
+
+// A pass without depth and stencil tests that blends what its program keeps UNDER `accumulated`.
+[[nodiscard]] inline pipeline::PassState composite_state(pipeline::Target accumulated) {
+    pipeline::PassState state;
+    state.color[0] = accumulated;
+    state.blend[0] = pipeline::blend_mode::under;
+    state.needs = code_with_color;
+    return state;
+}
+
+inline void composite_under(const pipeline::FragmentBatch& in, pipeline::Outputs& out) {
+    premultiply(in.color, out.color[0], lanes(in));
+    out.traced = true;
+    std::fill_n(out.side.begin(), lanes(in), pipeline::Side::front);
+    std::copy_n(in.code.begin(), lanes(in), out.key.begin());
+}
+
+// Pixels of a region, each once.
+class PixelSet {
+  public:
+    explicit PixelSet(const pipeline::Region& region) : has_(region.rect().area()) {}
+    // True if it is new.
+    bool add(std::uint32_t pixel) {
+        if (has_[pixel]) return false;
+        has_[pixel] = true;
+        first_ = count_++ == 0 || pixel < first_ ? pixel : first_;
+        return true;
+    }
+    void clear() {
+        if (count_ > 0) has_.assign(has_.size(), false);
+        count_ = 0;
+    }
+    void report(pipeline::Region& region, pipeline::Fault fault, const std::string& detail) const {
+        region.report(fault, count_, first_, detail);
+    }
+
+  private:
+    std::vector<bool> has_;
+    std::uint64_t count_ = 0;
+    std::uint32_t first_ = 0;
+};
+
+// Arrivals at a depth that a pass composites by equality: more than one at a pixel is a tie at a peel's bound.
+class BoundTies {
+  public:
+    explicit BoundTies(const pipeline::Region& region) : arrived_{region}, tied_{region} {}
+    void start() { arrived_.clear(); }
+    void add(const pipeline::FragmentBatch& in, const pipeline::Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            if (out.alive[i] != 0) add(in.pixel[i]);
+    }
+    void add(std::uint32_t pixel) {
+        if (!arrived_.add(pixel)) tied_.add(pixel);
+    }
+    void report(pipeline::Region& region) const {
+        tied_.report(region, pipeline::Fault::equal_at_bound,
+                     "fragments of equal depth at the bound of a peel, composited in order of arrival");
+    }
+
+  private:
+    PixelSet arrived_, tied_;
+};
+
+}  // namespace strata::peeling

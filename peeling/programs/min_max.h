@@ -1,0 +1,111 @@
+// peeling/programs/min_max.h - the min-max depth of dual peeling: (-near, far) in two binary32 channels under MAX blending.
+// Bavoil and Myers 2008, "Render Targets"; E9. Cleared to (-1, -1), which is near = 1 > far = -1: a pixel with nothing to peel.
+#pragma once
+#include "peeling/programs/programs.h"
+
+namespace strata::peeling {
+
+inline constexpr pipeline::ClearValue empty_min_max{.color = {-1, -1, 0, 0}};
+
+// A fragment's place against the peeled range, as 0 or ~0 a lane.
+struct alignas(64) PeelLanes {
+    pipeline::Lanes<std::uint32_t> is_near, is_far, is_between;
+};
+
+inline namespace strict {
+
+// z beyond the opaque surface, before `near` or behind `far`: skipped, no lane set. near == far counts as near.
+void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
+              const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept;
+
+// The same of the frame's reference depth, with its epsilon: within it, a depth is `near` or `far`. Ordered by value, as
+// binary32 or not rounded.
+inline void classify(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
+                     const pipeline::ColorLanes& min_max, const pipeline::Lanes<std::uint32_t>& opaque,
+                     PeelLanes& place) noexcept {
+    using pipeline::mask;
+    if (compare.is_plain()) return classify(in, min_max, opaque, place);
+    for (std::size_t i = 0; i < lanes(in); ++i) {
+        const double z = compare.quantizes ? double{static_cast<float>(in.reference_z[i])} : in.reference_z[i];
+        const double near = double{-min_max[0][i]}, far = double{min_max[1][i]};
+        const auto reaches = [&](double least, double greatest) { return !compare.exceeds(least, greatest); };
+        const bool left = near <= far && in.shader_z[i] < std::bit_cast<float>(opaque[i]);
+        const bool inside = left && reaches(near, z) && reaches(z, far);
+        const bool is_near = inside && reaches(z, near), is_far = inside && !is_near && reaches(far, z);
+        place.is_near[i] = mask(is_near);
+        place.is_far[i] = mask(is_far);
+        place.is_between[i] = mask(inside && !is_near && !is_far);
+    }
+}
+
+// (-z, z) where the mask is set, else (-1, -1), which MAX ignores.
+void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
+                   pipeline::ColorLanes& out) noexcept;
+
+// What a peel of dual writes beside the depths. RT1: the front colour, with the near fragment UNDER it; RT2: the colour
+// of the far one, else 0.
+void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& place,
+                  pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept;
+
+namespace scalar {
+
+inline void classify(const pipeline::Lanes<float>& shader_z, const pipeline::ColorLanes& min_max,
+                     const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place, std::size_t count) noexcept {
+    using pipeline::mask;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float z = shader_z[i], near = -min_max[0][i], far = min_max[1][i];
+        const std::uint32_t inside = mask(z < std::bit_cast<float>(opaque[i])) & mask(z >= near) & mask(z <= far);
+        const std::uint32_t is_near = inside & mask(z == near), is_far = inside & mask(z == far) & ~is_near;
+        place.is_near[i] = is_near;
+        place.is_far[i] = is_far;
+        place.is_between[i] = inside & ~is_near & ~is_far;
+    }
+}
+
+inline void write_min_max(const pipeline::Lanes<float>& shader_z, const pipeline::Lanes<std::uint32_t>& chosen,
+                          pipeline::ColorLanes& out, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float z = shader_z[i];
+        out[0][i] = pipeline::select(chosen[i], -z, -1.0f);
+        out[1][i] = pipeline::select(chosen[i], z, -1.0f);
+    }
+}
+
+inline void write_layers(const pipeline::ColorLanes& color, const pipeline::ColorLanes& front, const PeelLanes& place,
+                         pipeline::ColorLanes& next_front, pipeline::ColorLanes& back, std::size_t count) noexcept {
+    using pipeline::select;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < count; ++i) {
+            const float under = front[c][i] + (1.0f - front[3][i]) * (color[3][i] * color[c][i]);
+            next_front[c][i] = select(place.is_near[i], under, front[c][i]);
+            back[c][i] = select(place.is_far[i], color[c][i], 0.0f);
+        }
+    for (std::size_t i = 0; i < count; ++i) {
+        const float covered = 1.0f - (1.0f - front[3][i]) * (1.0f - color[3][i]);
+        next_front[3][i] = select(place.is_near[i], covered, front[3][i]);
+        back[3][i] = select(place.is_far[i], color[3][i], 0.0f);
+    }
+}
+
+}  // namespace scalar
+}  // namespace strict
+
+// The first pass of both dual algorithms: the nearest and farthest visible depth of every pixel.
+inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
+    using namespace pipeline;
+    region.clear(min_max, empty_min_max);
+    PassState state;
+    state.color[0] = min_max;
+    state.blend[0] = blend_mode::max;
+    state.reads[0] = region.opaque_depth();
+    state.needs = {
+        .shader_z = true, .code = false, .exact_code = false, .color = false, .texcoord = false, .facing = false};
+    static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        Lanes<std::uint32_t> visible;
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            visible[i] = mask(in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i]));
+        write_min_max(in, visible, out.color[0]);
+    }));
+}
+
+}  // namespace strata::peeling

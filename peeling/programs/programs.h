@@ -1,0 +1,90 @@
+// peeling/programs/programs.h - what several algorithms' fragment programs and passes have in common.
+// Functions over the lanes of a batch are loops in namespace scalar, which is their meaning; outside it stand the same
+// loops compiled for the chosen instruction set (programs_simd.cpp). Tests: tests/peeling/programs/programs_test.cpp
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/formats/lane_mask.h"
+#include "pipeline/region/region.h"
+#include "rasterizer/base/numerics.h"
+
+namespace strata::peeling {
+inline namespace strict {
+
+// An order-preserving code of any float that is not NaN: the audit's form of a shader_z key.
+[[nodiscard]] inline std::uint32_t ordered_code(float z) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(z == 0.0f ? 0.0f : z);  // -0 is 0
+    return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
+}
+
+[[nodiscard]] inline std::size_t lanes(const pipeline::FragmentBatch& batch) noexcept {
+    return static_cast<std::size_t>(batch.count);
+}
+
+// What is in front, over what it lets through of what is behind; premultiplied.
+[[nodiscard]] inline float composited(float front, float let_through, float behind) noexcept {
+    return front + let_through * behind;
+}
+
+// out = (c a, a): what UNDER and additive blending expect.
+void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept;
+void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept;
+// A fragment dies unless its code is greater than the one already peeled at its pixel.
+void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,
+                    pipeline::Outputs& out) noexcept;
+
+// A fragment dies unless it lies behind the one already peeled: by the frame's compare, reference and epsilon included.
+// Needs the reference arrays unless the compare is plain.
+inline void discard_peeled(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
+                           const pipeline::Lanes<std::uint32_t>& peeled, pipeline::Outputs& out) noexcept {
+    if (compare.is_plain()) return discard_peeled(in, peeled, out);
+    for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(compare.is_behind(in, i, peeled[i]));
+}
+
+// What a one-layer peel may promise about a region whose count is 0. Such a pass leaves the opaque depth as what is peeled, and
+// a fragment that is stored before that but compared as behind it would have been found. Only a first pass that draws other
+// vertices and compares nothing may find nothing where the second finds such a fragment.
+[[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
+    return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::when_zero : pipeline::Idle::no;
+}
+
+namespace scalar {
+
+inline void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < count; ++i) out[c][i] = color[c][i] * color[3][i];
+    for (std::size_t i = 0; i < count; ++i) out[3][i] = color[3][i];
+}
+
+inline void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept {
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < count; ++i) lanes[c][i] = value[c];
+}
+
+inline void discard_peeled(const pipeline::Lanes<std::uint32_t>& code, const pipeline::Lanes<std::uint32_t>& peeled,
+                           pipeline::Lanes<std::uint32_t>& alive, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) alive[i] &= pipeline::mask(code[i] > peeled[i]);
+}
+
+}  // namespace scalar
+
+// Publishes accumulated.rgb + accumulated.a * background, alpha 1: the end of every front-to-back composite.
+inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated,
+                                    pipeline::Target background) {
+    using namespace pipeline;
+    const Target result = region.make_color();
+    PassState state;
+    state.color[0] = result;
+    state.reads = {accumulated, background};
+    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < lanes(in); ++i)
+                out.color[0][c][i] = composited(own.color(0)[c][i], own.color(0)[3][i], own.color(1)[c][i]);
+        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
+    }));
+    region.publish(result);
+}
+
+}  // namespace strict
+}  // namespace strata::peeling

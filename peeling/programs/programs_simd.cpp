@@ -1,0 +1,113 @@
+// peeling/programs/programs_simd.cpp - the lane loops of programs.h and min_max.h, inlined (flatten) and compiled once an instruction
+// set, over whole vectors: the arrays of a batch have room for them. Tests: tests/peeling/programs/programs_test.cpp
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "peeling/programs/programs_simd.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "peeling/programs/average.h"
+#include "peeling/programs/min_max.h"
+#include "peeling/programs/programs.h"
+#include "rasterizer/base/simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::peeling::HWY_NAMESPACE {
+namespace {
+
+using pipeline::ColorLanes;
+using MaskLanes = pipeline::Lanes<std::uint32_t>;
+using FloatLanes = pipeline::Lanes<float>;
+
+constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::size_t{15}; }
+
+[[gnu::flatten]] void premultiply_lanes(const ColorLanes& color, ColorLanes& out, std::size_t count) {
+    scalar::premultiply(color, out, padded(count));
+}
+
+[[gnu::flatten]] void set_lanes(ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) {
+    scalar::set(lanes, value, padded(count));
+}
+
+[[gnu::flatten]] void discard_lanes(const MaskLanes& code, const MaskLanes& peeled, MaskLanes& alive,
+                                    std::size_t count) {
+    scalar::discard_peeled(code, peeled, alive, padded(count));
+}
+
+[[gnu::flatten]] void classify_lanes(const FloatLanes& z, const ColorLanes& min_max, const MaskLanes& opaque,
+                                     PeelLanes& place, std::size_t count) {
+    scalar::classify(z, min_max, opaque, place, padded(count));
+}
+
+[[gnu::flatten]] void min_max_lanes(const FloatLanes& z, const MaskLanes& chosen, ColorLanes& out, std::size_t count) {
+    scalar::write_min_max(z, chosen, out, padded(count));
+}
+
+[[gnu::flatten]] void layer_lanes(const ColorLanes& color, const ColorLanes& front, const PeelLanes& place,
+                                  ColorLanes& next_front, ColorLanes& back, std::size_t count) {
+    scalar::write_layers(color, front, place, next_front, back, padded(count));
+}
+
+[[gnu::flatten]] void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background,
+                                    ColorLanes& out, std::size_t count) {
+    scalar::resolve_average(sums, n, background, out, padded(count));
+}
+
+}  // namespace
+}  // namespace strata::peeling::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace strata::peeling {
+
+HWY_EXPORT(premultiply_lanes);
+HWY_EXPORT(set_lanes);
+HWY_EXPORT(discard_lanes);
+HWY_EXPORT(classify_lanes);
+HWY_EXPORT(min_max_lanes);
+HWY_EXPORT(layer_lanes);
+HWY_EXPORT(average_lanes);
+
+inline namespace strict {
+
+void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {
+    if (simd_is_scalar()) return scalar::premultiply(color, out, count);
+    HWY_DYNAMIC_DISPATCH(premultiply_lanes)(color, out, count);
+}
+
+void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept {
+    if (simd_is_scalar()) return scalar::set(lanes, value, count);
+    HWY_DYNAMIC_DISPATCH(set_lanes)(lanes, value, count);
+}
+
+void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,
+                    pipeline::Outputs& out) noexcept {
+    if (simd_is_scalar()) return scalar::discard_peeled(in.code, peeled, out.alive, lanes(in));
+    HWY_DYNAMIC_DISPATCH(discard_lanes)(in.code, peeled, out.alive, lanes(in));
+}
+
+void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
+              const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept {
+    if (simd_is_scalar()) return scalar::classify(in.shader_z, min_max, opaque, place, lanes(in));
+    HWY_DYNAMIC_DISPATCH(classify_lanes)(in.shader_z, min_max, opaque, place, lanes(in));
+}
+
+void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
+                   pipeline::ColorLanes& out) noexcept {
+    if (simd_is_scalar()) return scalar::write_min_max(in.shader_z, mask, out, lanes(in));
+    HWY_DYNAMIC_DISPATCH(min_max_lanes)(in.shader_z, mask, out, lanes(in));
+}
+
+void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& place,
+                  pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept {
+    if (simd_is_scalar()) return scalar::write_layers(in.color, front, place, next_front, back, lanes(in));
+    HWY_DYNAMIC_DISPATCH(layer_lanes)(in.color, front, place, next_front, back, lanes(in));
+}
+
+void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,
+                     const pipeline::ColorLanes& background, pipeline::ColorLanes& out, std::size_t count) noexcept {
+    if (simd_is_scalar()) return scalar::resolve_average(sums, n, background, out, count);
+    HWY_DYNAMIC_DISPATCH(average_lanes)(sums, n, background, out, count);
+}
+
+}  // namespace strict
+}  // namespace strata::peeling
+#endif

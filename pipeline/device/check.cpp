@@ -1,0 +1,193 @@
+#include "pipeline/device/check.h"
+
+#include <array>
+#include <cassert>
+#include <utility>
+#include <vector>
+
+namespace strata::pipeline {
+namespace {
+
+struct FeatureRow {
+    Feature feature;
+    std::string_view words, extension;
+    bool DeviceProfile::*has;
+};
+
+constexpr std::array feature_rows{
+    FeatureRow{Feature::d16, "16-bit depth buffers", "", &DeviceProfile::has_d16},
+    FeatureRow{Feature::d24, "24-bit depth buffers", "", &DeviceProfile::has_d24},
+    FeatureRow{Feature::d32f, "float depth buffers", "ARB_depth_buffer_float", &DeviceProfile::has_d32f},
+    FeatureRow{Feature::float_targets, "float render targets that blend", "ARB_color_buffer_float",
+               &DeviceProfile::has_float_targets},
+    FeatureRow{Feature::unclamped_depth_clear, "unclamped depth clears", "NV_depth_buffer_float",
+               &DeviceProfile::has_unclamped_depth_clear},
+    FeatureRow{Feature::fragment_programs, "fragment programs that discard after a compare", "ARB_fragment_program",
+               &DeviceProfile::has_fragment_programs},
+    FeatureRow{Feature::separate_alpha_blend, "separate blend functions for alpha", "EXT_blend_func_separate",
+               &DeviceProfile::has_separate_alpha_blend},
+    FeatureRow{Feature::independent_blend, "independent blend equations", "ARB_draw_buffers_blend",
+               &DeviceProfile::has_independent_blend},
+    FeatureRow{Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side",
+               &DeviceProfile::has_two_sided_stencil},
+    FeatureRow{Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", &DeviceProfile::has_depth_clamp},
+    FeatureRow{Feature::depth_replace, "depth replace by texture shaders", "NV_texture_shader",
+               &DeviceProfile::has_depth_replace},
+    FeatureRow{Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units",
+               &DeviceProfile::has_sequential_depth_units},
+    FeatureRow{Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw",
+               &DeviceProfile::has_ordered_rmw},
+    FeatureRow{Feature::signed_blend, "signed blend equations", "", &DeviceProfile::has_signed_blend},
+    FeatureRow{Feature::d16f, "16-bit float depth buffers", "", &DeviceProfile::has_d16f},
+    FeatureRow{Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "",
+               &DeviceProfile::has_narrow_surfaces},
+};
+
+const FeatureRow& row(Feature feature) {
+    const FeatureRow& found = feature_rows[static_cast<std::size_t>(feature)];
+    assert(found.feature == feature && "feature_rows follows the order of Feature");
+    return found;
+}
+
+// "use geforce8 or ideal": the built-in profiles that `can`.
+std::string way_out(auto can) {
+    std::vector<std::string> names;
+    for (const DeviceProfile& profile : builtin_profiles())
+        if (can(profile)) names.push_back(profile.name);
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        text += (i == 0 ? "use " : i + 1 == names.size() ? " or " : ", ") + names[i];
+    return text;
+}
+
+// A number that a profile limits.
+Verdict check_limit(const DeviceProfile& profile, int DeviceProfile::*limit, int wanted, const std::string& feature,
+                    const std::string& extension) {
+    if (wanted <= profile.*limit) return std::nullopt;
+    return Refusal{feature, extension, way_out([&](const DeviceProfile& p) { return wanted <= p.*limit; })};
+}
+
+bool shares_terms(const Blend& a, const Blend& b) {
+    return a.color == b.color && a.alpha == b.alpha && a.constant == b.constant;
+}
+
+}  // namespace
+
+std::string Refusal::sentence(const DeviceProfile& profile) const {
+    std::string text = "profile " + profile.name + " has no " + feature;
+    if (!extension.empty()) text += " (" + extension + ")";
+    if (!way_out.empty()) text += "; " + way_out;
+    return text;
+}
+
+bool has(const DeviceProfile& profile, Feature feature) { return profile.*row(feature).has; }
+
+Verdict check(const DeviceProfile& profile, Feature feature) {
+    if (has(profile, feature)) return std::nullopt;
+    const FeatureRow& missing = row(feature);
+    return Refusal{std::string{missing.words}, std::string{missing.extension},
+                   way_out([&](const DeviceProfile& p) { return has(p, feature); })};
+}
+
+Verdict check(const DeviceProfile& profile, std::span<const Feature> needed) {
+    for (const Feature feature : needed)
+        if (Verdict refusal = check(profile, feature)) return refusal;
+    return std::nullopt;
+}
+
+Verdict check(const DeviceProfile&, UnsupportedState state) {
+    switch (state) {
+        case UnsupportedState::fog: return Refusal{"fog", "EXT_fog_coord", "disable it: no algorithm here needs it"};
+        case UnsupportedState::color_sum:
+            return Refusal{"colour sum", "EXT_secondary_color", "disable it: no algorithm here needs it"};
+        case UnsupportedState::dither: return Refusal{"dithering", "", "disable it: no algorithm here needs it"};
+        case UnsupportedState::logic_op:
+            return Refusal{"logic operations", "EXT_blend_logic_op", "disable it: no algorithm here needs it"};
+    }
+    return std::nullopt;  // unreachable: the enum is closed
+}
+
+Verdict check(const DeviceProfile& profile, DepthFormat format) {
+    switch (format) {
+        case DepthFormat::d16: return check(profile, Feature::d16);
+        case DepthFormat::d24: return check(profile, Feature::d24);
+        case DepthFormat::d32f: return check(profile, Feature::d32f);
+        case DepthFormat::d16f: return check(profile, Feature::d16f);
+    }
+    return std::nullopt;  // unreachable: the enum is closed
+}
+
+Verdict check(const DeviceProfile& profile, Format target) {
+    if (is_depth(target)) return check(profile, depth_format(target));
+    const ChannelType type = info(target).type;
+    if (type == ChannelType::half || type == ChannelType::single) return check(profile, Feature::float_targets);
+    if (is_narrow(target)) return check(profile, Feature::narrow_surfaces);
+    return std::nullopt;
+}
+
+Verdict check(const DeviceProfile& profile, const StencilTest& state) {
+    if (state.enabled && state.two_sided) return check(profile, Feature::two_sided_stencil);
+    return std::nullopt;
+}
+
+Verdict check(const DeviceProfile& profile, const Blend& state) {
+    const auto is_signed = [](const BlendTerm& term) {
+        return term.equation == BlendEquation::signed_add || term.equation == BlendEquation::signed_reverse_subtract;
+    };
+    if (state.enabled && (is_signed(state.color) || is_signed(state.alpha)))
+        if (Verdict refusal = check(profile, Feature::signed_blend)) return refusal;
+    if (state.enabled && state.color != state.alpha) return check(profile, Feature::separate_alpha_blend);
+    return std::nullopt;
+}
+
+Verdict check(const DeviceProfile& profile, std::span<const Blend> targets) {
+    const int count = static_cast<int>(targets.size());
+    if (Verdict refusal = check_limit(profile, &DeviceProfile::max_render_targets, count,
+                                      std::to_string(count) + " render targets in one pass", "ARB_draw_buffers"))
+        return refusal;
+    const Blend* first = nullptr;  // of those that blend
+    for (const Blend& target : targets) {
+        if (Verdict refusal = check(profile, target)) return refusal;
+        if (!target.enabled) continue;
+        if (first != nullptr && !shares_terms(*first, target))
+            if (Verdict refusal = check(profile, Feature::independent_blend)) return refusal;
+        if (first == nullptr) first = &target;
+    }
+    return std::nullopt;
+}
+
+Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared) {
+    if (compared == rasterizer::DepthPath::depth_replace) return check(profile, Feature::depth_replace);
+    return std::nullopt;
+}
+
+Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written) {
+    if (written == rasterizer::DepthPath::perspective_rq && !profile.has_fragment_programs)
+        return Refusal{"fragment programs that write a depth", "ARB_fragment_program",
+                       "use depth path depth_replace, which writes the same depth"};
+    return check_reference(profile, written);
+}
+
+Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value) {
+    const bool is_clamped = value >= 0.0f && value <= 1.0f;
+    if (format != DepthFormat::d32f || is_clamped) return std::nullopt;  // fixed formats clamp
+    return check(profile, Feature::unclamped_depth_clear);
+}
+
+Verdict check_size(const DeviceProfile& profile, int width_px, int height_px) {
+    const int larger = width_px > height_px ? width_px : height_px;
+    return check_limit(profile, &DeviceProfile::max_viewport_px, larger,
+                       "viewport of " + std::to_string(width_px) + " x " + std::to_string(height_px) + " pixels", "");
+}
+
+Verdict check_samples(const DeviceProfile& profile, int samples) {
+    return check_limit(profile, &DeviceProfile::max_samples, samples, std::to_string(samples) + " samples a pixel",
+                       "ARB_multisample");
+}
+
+Verdict check_texture_units(const DeviceProfile& profile, int units) {
+    return check_limit(profile, &DeviceProfile::max_texture_units, units, std::to_string(units) + " texture units",
+                       "ARB_multitexture");
+}
+
+}  // namespace strata::pipeline

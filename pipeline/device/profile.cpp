@@ -1,0 +1,124 @@
+// pipeline/device/profile.cpp - the built-in devices. Each number's source stands in profile_fields.cpp; describe() prints it.
+#include "pipeline/device/profile.h"
+
+#include <algorithm>
+
+#include "pipeline/device/profile_fields.h"
+
+namespace strata::pipeline {
+namespace {
+
+using namespace rasterizer;
+
+DeviceProfile geforce3() {
+    DeviceProfile p;
+    p.name = "geforce3";
+    p.description = "NV20 (2001): 8-bit targets, integer depth, one blend function; numbers from captures of an NV2A";
+    p.raster = {.subpixel_bits = 4,
+                .snap = Snap::toward_zero,
+                .z_clip = ZClip::per_fragment,
+                .w_divide = WDivide::reciprocal,
+                .window_z = WindowZ::buffer_units,
+                .depth_path = DepthPath::window_z,
+                .depth_rounding = DepthRounding::floor,
+                .color = ColorInterpolation::weights_8bit,
+                .interpolation = {.vertex_color_bits = 14, .texture_coordinates = CoordinateRule::cut_weights}};
+    p.alpha_test = AlphaTestPrecision::unorm8;
+    p.texture_filter = TextureFilterPrecision::unorm8;
+    p.has_d16 = true;
+    p.has_depth_clamp = true;
+    p.has_signed_blend = true;
+    p.has_d16f = true;
+    p.has_narrow_surfaces = true;
+    p.has_depth_replace = true;
+    p.max_samples = 4;
+    return p;
+}
+
+DeviceProfile geforce8() {
+    DeviceProfile p;
+    p.name = "geforce8";
+    p.description = "G80 (2006): Direct3D 10.0, float targets and depth, eight targets that share one blend equation";
+    p.has_d32f = true;
+    p.has_float_targets = true;
+    p.has_unclamped_depth_clear = true;
+    p.has_fragment_programs = true;
+    p.has_separate_alpha_blend = true;
+    p.has_two_sided_stencil = true;
+    p.has_depth_clamp = true;
+    p.max_render_targets = 8;
+    p.max_texture_units = 16;
+    p.max_viewport_px = 8192;
+    p.max_samples = 8;
+    return p;
+}
+
+DeviceProfile geforce8_dx101() {
+    DeviceProfile p = geforce8();
+    p.name = "geforce8_dx101";
+    p.description = "GT215 (2009): geforce8 with Direct3D 10.1's independent blend equations";
+    p.has_independent_blend = true;
+    return p;
+}
+
+DeviceProfile ideal() {
+    DeviceProfile p = geforce8_dx101();
+    p.name = "ideal";
+    p.description = "no device: every feature, exact depth, denormals kept";
+    p.raster.depth_path = DepthPath::exact;
+    p.denormals = DenormalRule::keep;
+    p.has_d16 = true;
+    p.has_depth_replace = true;
+    p.has_ordered_rmw = true;
+    p.max_viewport_px = 16384;
+    return p;
+}
+
+// A software rasterizer to run side by side with: which fragments it draws is measured (tools/bench/README.md).
+DeviceProfile llvmpipe() {
+    DeviceProfile p = geforce8_dx101();
+    p.name = "llvmpipe";
+    p.description = "no device: Mesa 22.3's llvmpipe, whose fragments tools/bench compares with ours";
+    p.raster.tie_rule = TieRule::bottom_left;
+    p.raster.w_divide = WDivide::reciprocal;
+    p.raster.plane_origin = PlaneOrigin::unsnapped;
+    p.has_d16 = true;
+    p.max_texture_units = 32;
+    p.max_viewport_px = 16384;
+    p.max_samples = 4;
+    return p;
+}
+
+// Column of ProfileField::source.
+int source_column(std::string_view name) {
+    if (name == "geforce3") return 0;
+    if (name == "geforce8" || name == "geforce8_dx101") return 1;
+    return name == "llvmpipe" ? 3 : 2;
+}
+
+}  // namespace
+
+const std::vector<DeviceProfile>& builtin_profiles() {
+    static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(), geforce8_dx101(), ideal(), llvmpipe()};
+    return profiles;
+}
+
+const DeviceProfile* find_profile(std::string_view name) {
+    const auto& all = builtin_profiles();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const DeviceProfile& p) { return p.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<ProfileEntry> describe(const DeviceProfile& profile) {
+    const DeviceProfile* const builtin = find_profile(profile.name);
+    std::vector<ProfileEntry> entries;
+    for (const ProfileField& field : profile_fields()) {
+        const bool is_sourced = builtin != nullptr && field.value(*builtin) == field.value(profile);
+        const auto column = static_cast<std::size_t>(source_column(profile.name));
+        entries.push_back({std::string{field.key}, text_of(field, profile),
+                           is_sourced ? std::string{field.source[column]} : "the profile's own file"});
+    }
+    return entries;
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,70 @@
+// pipeline/formats/convert.h - a batch of colour channels between the codes that a target stores and binary32.
+// The rules stand in unorm8.h and half.h; binary32 channels pass with every bit kept. `scalar` holds the meaning; the
+// functions outside are the same loops compiled for the chosen instruction set (stages_simd.cpp).
+// Tests: tests/pipeline/formats/convert_test.cpp, tests/pipeline/stages/simd_stages_test.cpp
+#pragma once
+#include <bit>
+#include <cassert>
+#include <cstdint>
+
+#include "pipeline/formats/format.h"
+#include "pipeline/formats/half.h"
+#include "pipeline/formats/unorm8.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+// Lanes [0, count), and scratch up to the next multiple of 16; `type` is unorm8, half or single.
+void decode(ChannelType type, const rasterizer::Lanes<std::uint32_t>& codes, rasterizer::Lanes<float>& values,
+            int count) noexcept;
+void encode(ChannelType type, HalfRounding rounding, const rasterizer::Lanes<float>& values,
+            rasterizer::Lanes<std::uint32_t>& codes, int count) noexcept;
+
+inline namespace strict {
+namespace scalar {
+
+template <HalfRounding rounding>
+void encode_half(const float* __restrict values, std::uint32_t* __restrict codes, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) codes[i] = to_half<rounding>(values[i]);
+}
+
+inline void decode(ChannelType type, const std::uint32_t* __restrict codes, float* __restrict values,
+                   std::size_t count) noexcept {
+    switch (type) {
+        case ChannelType::unorm8:
+            for (std::size_t i = 0; i < count; ++i) values[i] = unorm8_value(codes[i]);
+            return;
+        case ChannelType::half:
+            for (std::size_t i = 0; i < count; ++i) values[i] = half_to_float(static_cast<std::uint16_t>(codes[i]));
+            return;
+        case ChannelType::single:
+            for (std::size_t i = 0; i < count; ++i) values[i] = std::bit_cast<float>(codes[i]);
+            return;
+        case ChannelType::depth:
+        case ChannelType::stencil: break;
+    }
+    assert(!"depth and stencil targets have no colour channels");
+}
+
+inline void encode(ChannelType type, HalfRounding rounding, const float* __restrict values,
+                   std::uint32_t* __restrict codes, std::size_t count) noexcept {
+    switch (type) {
+        case ChannelType::unorm8:
+            for (std::size_t i = 0; i < count; ++i) codes[i] = to_unorm8(values[i]);
+            return;
+        case ChannelType::half:
+            if (rounding == HalfRounding::nearest_even)
+                return encode_half<HalfRounding::nearest_even>(values, codes, count);
+            return encode_half<HalfRounding::toward_zero>(values, codes, count);
+        case ChannelType::single:
+            for (std::size_t i = 0; i < count; ++i) codes[i] = std::bit_cast<std::uint32_t>(values[i]);
+            return;
+        case ChannelType::depth:
+        case ChannelType::stencil: break;
+    }
+    assert(!"depth and stencil targets have no colour channels");
+}
+
+}  // namespace scalar
+}  // namespace strict
+}  // namespace strata::pipeline

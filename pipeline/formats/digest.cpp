@@ -1,0 +1,87 @@
+// pipeline/formats/digest.cpp - one string for all bits of a target.
+//
+// Rule     XXH3-128, seed 0, of: the format's name in ASCII, a zero byte, u32 width, height and samples, then the codes
+//          in the order of Image: UNORM8 and stencil u8, half u16, binary32 and every depth (D16 too) u32; all little
+//          endian.
+// Source   decisions.md 5
+// Tests    tests/scenes/digest_test.cpp against a buffer serialised on its own
+#include <xxhash.h>
+
+#include <array>
+#include <memory>
+#include <new>
+#include <string_view>
+
+#include "pipeline/formats/image.h"
+
+namespace strata::pipeline {
+namespace {
+
+struct FreeState {
+    void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }
+};
+
+class Hash {
+  public:
+    Hash() : state_{XXH3_createState()} {
+        if (state_ == nullptr) throw std::bad_alloc{};
+        XXH3_128bits_reset(state_.get());
+    }
+
+    void text(std::string_view bytes) { XXH3_128bits_update(state_.get(), bytes.data(), bytes.size()); }
+
+    // The lowest `size` bytes of `code`, least significant first.
+    void word(std::uint32_t code, int size) {
+        if (used_ + 4 > buffer_.size()) flush();
+        for (int i = 0; i < size; ++i) buffer_[used_++] = static_cast<unsigned char>(code >> (8 * i));
+    }
+
+    [[nodiscard]] std::string hexadecimal() {
+        flush();
+        XXH128_canonical_t bytes{};
+        XXH128_canonicalFromHash(&bytes, XXH3_128bits_digest(state_.get()));
+        std::string result;
+        for (const unsigned char byte : bytes.digest) {
+            result += "0123456789abcdef"[byte >> 4];
+            result += "0123456789abcdef"[byte & 15];
+        }
+        return result;
+    }
+
+  private:
+    void flush() {
+        XXH3_128bits_update(state_.get(), buffer_.data(), used_);
+        used_ = 0;
+    }
+
+    std::unique_ptr<XXH3_state_t, FreeState> state_;
+    std::array<unsigned char, 16384> buffer_{};
+    std::size_t used_ = 0;
+};
+
+int code_bytes(ChannelType type) noexcept {
+    switch (type) {
+        case ChannelType::unorm8: return 1;
+        case ChannelType::half: return 2;
+        case ChannelType::single: return 4;
+        case ChannelType::depth: return 4;
+        case ChannelType::stencil: return 1;
+    }
+    return 4;  // unreachable: the enum is closed
+}
+
+}  // namespace
+
+std::string digest(const Image& image) {
+    const FormatInfo format = info(image.format);
+    Hash hash;
+    hash.text(format.name);
+    hash.word(0, 1);
+    for (const int number : {image.width, image.height, image.samples})
+        hash.word(static_cast<std::uint32_t>(number), 4);
+    const int size = code_bytes(format.type);
+    for (const std::uint32_t code : image.codes) hash.word(code, size);
+    return hash.hexadecimal();
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,94 @@
+// pipeline/formats/format.h - the formats of render targets.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "rasterizer/rules/depth_code.h"
+
+namespace strata::pipeline {
+
+using rasterizer::DepthFormat;
+using rasterizer::DepthRounding;
+
+// Colour formats hold 1, 2 or 4 channels; depth and stencil have targets of their own (d24s8 is a d24 beside an s8).
+// The narrow formats of GeForce3's surfaces hold 8-bit codes as the blender reads them back (narrow.h).
+enum class Format : std::uint8_t {
+    rgba8,
+    rgba16f,
+    rgba32f,
+    r16f,
+    r32f,
+    rg32f,
+    d16,
+    d24,
+    d24s8,
+    d32f,
+    s8,
+    d16f,
+    x8r8g8b8,
+    x1a7r8g8b8,
+    r5g6b5,
+    x1r5g5b5
+};
+
+enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil };
+
+struct FormatInfo {
+    std::string_view name;
+    ChannelType type;
+    int channels;         // colour channels; 1 for depth and for stencil
+    int bytes_per_pixel;  // as the device stores it, for the counters of bytes read and written
+};
+
+[[nodiscard]] constexpr FormatInfo info(Format format) noexcept {
+    switch (format) {
+        case Format::rgba8: return {"rgba8", ChannelType::unorm8, 4, 4};
+        case Format::rgba16f: return {"rgba16f", ChannelType::half, 4, 8};
+        case Format::rgba32f: return {"rgba32f", ChannelType::single, 4, 16};
+        case Format::r16f: return {"r16f", ChannelType::half, 1, 2};
+        case Format::r32f: return {"r32f", ChannelType::single, 1, 4};
+        case Format::rg32f: return {"rg32f", ChannelType::single, 2, 8};
+        case Format::d16: return {"d16", ChannelType::depth, 1, 2};
+        case Format::d24: return {"d24", ChannelType::depth, 1, 4};
+        case Format::d24s8: return {"d24s8", ChannelType::depth, 1, 4};
+        case Format::d32f: return {"d32f", ChannelType::depth, 1, 4};
+        case Format::s8: return {"s8", ChannelType::stencil, 1, 1};
+        case Format::d16f: return {"d16f", ChannelType::depth, 1, 2};
+        case Format::x8r8g8b8: return {"x8r8g8b8", ChannelType::unorm8, 4, 4};
+        case Format::x1a7r8g8b8: return {"x1a7r8g8b8", ChannelType::unorm8, 4, 4};
+        case Format::r5g6b5: return {"r5g6b5", ChannelType::unorm8, 4, 2};
+        case Format::x1r5g5b5: return {"x1r5g5b5", ChannelType::unorm8, 4, 2};
+    }
+    return {"", ChannelType::single, 0, 0};  // unreachable: the enum is closed
+}
+
+[[nodiscard]] constexpr bool is_color(Format f) noexcept {
+    const ChannelType t = info(f).type;
+    return t == ChannelType::unorm8 || t == ChannelType::half || t == ChannelType::single;
+}
+[[nodiscard]] constexpr bool is_narrow(Format f) noexcept {
+    return f == Format::x8r8g8b8 || f == Format::x1a7r8g8b8 || f == Format::r5g6b5 || f == Format::x1r5g5b5;
+}
+[[nodiscard]] constexpr bool is_depth(Format f) noexcept { return info(f).type == ChannelType::depth; }
+[[nodiscard]] constexpr bool has_stencil(Format f) noexcept { return f == Format::d24s8 || f == Format::s8; }
+
+[[nodiscard]] constexpr DepthFormat depth_format(Format f) noexcept {
+    switch (f) {
+        case Format::d16: return DepthFormat::d16;
+        case Format::d16f: return DepthFormat::d16f;
+        case Format::d32f: return DepthFormat::d32f;
+        default: return DepthFormat::d24;
+    }
+}
+[[nodiscard]] constexpr Format target_format(DepthFormat f) noexcept {
+    switch (f) {
+        case DepthFormat::d16: return Format::d16;
+        case DepthFormat::d24: return Format::d24;
+        case DepthFormat::d16f: return Format::d16f;
+        case DepthFormat::d32f: break;
+    }
+    return Format::d32f;
+}
+
+}  // namespace strata::pipeline

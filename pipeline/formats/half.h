@@ -1,0 +1,73 @@
+// pipeline/formats/half.h - binary16 to binary32 and back.
+//
+//     15 14     10 9                 0     value = (-1)^s 2^(e-15) (1 + m/1024); e = 0: (-1)^s 2^-14 m/1024;
+//     [s][exponent][    mantissa     ]     e = 31: infinity where m = 0, else NaN
+//
+// Rule     to binary32: exact, a NaN keeps its sign and payload. From binary32: nearest even (65520 and above is
+//          infinity) or toward zero (finite values end at 65504); denormals are kept; a NaN keeps its sign and the
+//          upper ten payload bits and becomes quiet.
+// Source   hardware.md 8 and 9 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
+// Tests    tests/pipeline/formats/half_test.cpp: all 65,536 halves; all 2^32 floats under both roundings
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/formats/lane_mask.h"
+#include "rasterizer/base/numerics.h"
+
+namespace strata::pipeline {
+inline namespace strict {
+
+// How binary32 becomes binary16 on a store: nearest overflows to infinity, toward zero to 65504.
+enum class HalfRounding : std::uint8_t { nearest_even, toward_zero };
+
+namespace half_bits {
+inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bff, quiet_nan = 0x7e00;
+}
+
+// No branch, no shift by a variable: the compiler turns a loop over it into vector instructions.
+[[nodiscard]] constexpr float half_to_float(std::uint16_t half) noexcept {
+    const std::uint32_t sign = (std::uint32_t{half} & half_bits::sign) << 16;
+    const std::uint32_t magnitude = (std::uint32_t{half} & 0x7fffu)
+                                    << 13;                  // exponent and mantissa where binary32 has them
+    const std::uint32_t normal = magnitude + (112u << 23);  // the bias grows from 15 to 127
+    const std::uint32_t special = normal + (112u << 23);    // e = 31 becomes 255
+    // (1 + m/1024) 2^-14 - 2^-14: exact, and neither operand nor result is a binary32 denormal.
+    const float denormal = std::bit_cast<float>(magnitude + (113u << 23)) - 0x1p-14f;
+    std::uint32_t result = select(mask(magnitude < (1u << 23)), std::bit_cast<std::uint32_t>(denormal), normal);
+    result = select(mask(magnitude >= (31u << 23)), special, result);
+    return std::bit_cast<float>(sign | result);
+}
+
+template <HalfRounding rounding>
+[[nodiscard]] constexpr std::uint16_t to_half(float value) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & 0x7fffffffu;
+    const std::uint32_t is_denormal = mask(magnitude < (113u << 23));  // below 2^-14
+    const std::uint32_t rebiased = magnitude - (112u << 23);
+    const float small = std::bit_cast<float>(magnitude & is_denormal);
+    std::uint32_t normal = 0, denormal = 0, overflow = 0;
+    if constexpr (rounding == HalfRounding::nearest_even) {
+        normal =
+            (rebiased + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;  // a carry runs into the exponent, up to infinity
+        denormal =
+            std::bit_cast<std::uint32_t>(small + 0.5f) - std::bit_cast<std::uint32_t>(0.5f);  // 0.5's ulp is 2^-24
+        overflow = half_bits::infinity;
+    } else {
+        normal = rebiased >> 13;
+        denormal = static_cast<std::uint32_t>(static_cast<std::int32_t>(small * 0x1p24f));  // the product is exact
+        overflow = select(mask(magnitude == (255u << 23)), half_bits::infinity, half_bits::largest);
+    }
+    std::uint32_t result = select(is_denormal, denormal, normal);
+    result = select(mask(magnitude >= (143u << 23)), overflow, result);  // 2^16 and above
+    result = select(mask(magnitude > (255u << 23)), half_bits::quiet_nan | ((magnitude >> 13) & 0x3ffu), result);
+    return static_cast<std::uint16_t>(((bits >> 16) & half_bits::sign) | result);
+}
+
+[[nodiscard]] constexpr std::uint16_t to_half(float value, HalfRounding rounding) noexcept {
+    return rounding == HalfRounding::nearest_even ? to_half<HalfRounding::nearest_even>(value)
+                                                  : to_half<HalfRounding::toward_zero>(value);
+}
+
+}  // namespace strict
+}  // namespace strata::pipeline

@@ -1,0 +1,25 @@
+// pipeline/formats/image_words.h - the words of an rgba8 target on their way into a finished image, past the caches: 16 bytes a pixel that
+// nobody looks at before the frame is done.
+//
+// Rule     A word becomes four codes, its lowest byte first.
+// Tests    tests/pipeline/formats/image_words_test.cpp
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace strata::pipeline {
+
+namespace scalar {
+
+inline void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept {
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < 4; ++c) codes[4 * i + c] = words[i] >> (8 * c) & 0xffu;
+}
+
+}  // namespace scalar
+
+void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept;
+// Between the last of these and whatever tells another thread of them.
+void finish_words() noexcept;
+
+}  // namespace strata::pipeline

@@ -1,0 +1,47 @@
+// pipeline/formats/image_words_simd.cpp - image_words.h for every instruction set. A vector is 16 bytes, one pixel of codes: images lie no
+// further aligned, and what passes the caches by is gathered into lines whatever the width.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/formats/image_words_simd.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "pipeline/formats/image_words.h"
+#include "rasterizer/base/simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::pipeline::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Pixel = hn::CappedTag<std::uint32_t, 4>;
+using Bytes = hn::Rebind<std::uint8_t, Pixel>;
+constexpr std::size_t lanes = hn::MaxLanes(Pixel{});
+
+void widen(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) {
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(words);
+    for (std::size_t i = 0; i < 4 * count; i += lanes)
+        hn::Stream(hn::PromoteTo(Pixel{}, hn::LoadU(Bytes{}, bytes + i)), Pixel{}, codes + i);
+}
+
+}  // namespace
+}  // namespace strata::pipeline::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include <bit>
+
+#include "hwy/cache_control.h"
+
+namespace strata::pipeline {
+HWY_EXPORT(widen);
+
+void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept {
+    const bool is_aligned = reinterpret_cast<std::uintptr_t>(codes) % 16 == 0;
+    if (simd_is_scalar() || !is_aligned || std::endian::native != std::endian::little)
+        return scalar::widen_words(words, count, codes);
+    HWY_DYNAMIC_DISPATCH(widen)(words, count, codes);
+}
+
+void finish_words() noexcept { hwy::FlushStream(); }
+
+}  // namespace strata::pipeline
+#endif

@@ -1,0 +1,50 @@
+// pipeline/formats/unorm8.h - 8-bit normalised colour: the code k means k / 255.
+//
+// Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product. From UNORM8: k / 255,
+//          rounded once.
+// Source   hardware.md 9 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9).
+// Numbers  255 x has at most 32 significant bits: exact in binary64. Where adding 1/2 rounds, x is far from every
+//          half code.
+// Tests    tests/pipeline/formats/unorm8_test.cpp: all 256 codes; all 2^32 floats
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/formats/lane_mask.h"
+#include "rasterizer/base/numerics.h"
+
+namespace strata::pipeline {
+inline namespace strict {
+
+[[nodiscard]] constexpr std::uint8_t to_unorm8(float x) noexcept {
+    const std::uint32_t positive = std::bit_cast<std::uint32_t>(x) & mask(x > 0.0f);  // 0 for NaN; orders like x
+    const auto clamped = std::min(static_cast<std::int32_t>(positive), std::bit_cast<std::int32_t>(1.0f));
+    return static_cast<std::uint8_t>(static_cast<std::int32_t>(double{std::bit_cast<float>(clamped)} * 255.0 + 0.5));
+}
+
+[[nodiscard]] constexpr float from_unorm8(std::uint8_t code) noexcept {
+    return static_cast<float>(code) / 255.0f;  // both exact: the division rounds once
+}
+
+// The same without a division: k / 255 = k 257/2^16 + k / (255 2^16). The first product is exact, the second at most 2^-15 of it,
+// so that its rounding does not reach the sum's; all 256 codes are checked below.
+[[nodiscard]] constexpr float unorm8_value(std::uint32_t code) noexcept {
+    const auto k = static_cast<float>(static_cast<std::int32_t>(code));  // this conversion has a vector form
+    return k * 0x1.01p-8f + k * (1.0f / 0xff0000p0f);
+}
+static_assert([] {
+    for (std::uint32_t k = 0; k < 256; ++k)
+        if (unorm8_value(k) != from_unorm8(static_cast<std::uint8_t>(k))) return false;
+    return true;
+}());
+
+inline constexpr auto unorm8_table = [] {
+    std::array<float, 256> table{};
+    for (int k = 0; k < 256; ++k) table[static_cast<std::size_t>(k)] = from_unorm8(static_cast<std::uint8_t>(k));
+    return table;
+}();
+
+}  // namespace strict
+}  // namespace strata::pipeline

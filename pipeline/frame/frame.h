@@ -1,0 +1,109 @@
+// pipeline/frame/frame.h - everything that is the same for all regions of one run: the machine, the lists, the formats, the options.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "pipeline/device/profile.h"
+#include "pipeline/stages/depth_compare.h"
+#include "pipeline/vertices/prepare.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+enum class Execution : std::uint8_t { literal, tiled, replay };
+
+// How occlusion queries end a peel (decisions.md 3).
+enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
+struct Termination {
+    TerminationRule rule = TerminationRule::exact;
+    double ratio = 0;  // ratio: stop when the count is below ratio * width * height
+    int passes = 0;    // fixed: that many geometry passes, no query
+    friend bool operator==(const Termination&, const Termination&) = default;
+};
+
+// What an algorithm orders fragments by (decisions.md 3).
+enum class DepthKey : std::uint8_t { shader_z, stored_code };
+
+// Of a listing with errata: repaired as little as it takes, or as it was printed.
+enum class Formulation : std::uint8_t { resolved, published };
+
+enum class Effects : std::uint8_t {
+    needed,
+    all
+};  // all: simulate every stage even where nothing calls for it; same bits
+
+// What a pass may simulate though nobody calls for it: values of its fragments, and stages with a state that changes nothing.
+enum class Effect : std::uint8_t {
+    none,
+    color,
+    texcoord,
+    shader_z,
+    code,
+    facing,
+    loads,
+    alpha_test,
+    stencil_test,
+    depth_test,
+    blending
+};
+
+// What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
+struct Replay {
+    std::uint64_t bytes = 0;          // a region; 0: every pass rasterizes
+    rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
+};
+
+struct PassLog;
+struct ShadowStage;
+
+struct Frame {
+    const DeviceProfile* profile = nullptr;
+    const PreparedDraw* opaque = nullptr;
+    const PreparedDraw* transparent = nullptr;
+    const PreparedDraw* second = nullptr;  // what List::second draws, binned alike; null: `transparent`
+    rasterizer::DepthRequest depth;  // the frame's depth buffer: path and format, and the path that programs compare
+    CompareEpsilon epsilon;          // what programs add to a stored depth before they compare
+    bool quantize_reference = true;  // false: they compare a depth that is not rounded like the stored one
+    DepthKey key = DepthKey::stored_code;
+    Format color_format = Format::rgba8;
+    std::optional<Format> published_format;  // of what the body publishes, if it is not a colour of the frame
+    Rgba background{0, 0, 0, 1};
+    Termination termination;
+    Formulation formulation = Formulation::resolved;
+    int max_passes = 0;  // geometry passes; 0: no limit
+    Effects effects = Effects::needed;
+    Effect once_more =
+        Effect::none;  // simulated once more than its state asks for; same bits, and what it costs can be measured
+    bool alike_where_blank =
+        false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
+    bool needs_frame = false;  // its texture lookups go anywhere: literal, whatever execution is asked for
+    bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
+    const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/textures/shadow_stage.h)
+    Replay replay;
+    bool keep_layers = false;
+    bool trace = false;
+    bool nearest_depth = false;  // also make the frame's Z
+    PassLog* pass_log =
+        nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/frame/effects.h)
+    Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
+
+    // Whether to simulate an effect that changes nothing.
+    [[nodiscard]] bool idles(Effect effect, bool is_called_for) const noexcept {
+        return once_more == effect || (effects == Effects::all && !is_called_for);
+    }
+    [[nodiscard]] rasterizer::Rect rect() const noexcept { return transparent->geometry.state.viewport; }
+
+    // How depths that this frame compares are computed and stored.
+    [[nodiscard]] rasterizer::DepthRequest key_request() const noexcept {
+        if (key == DepthKey::shader_z) return {rasterizer::DepthPath::float32, DepthFormat::d32f, depth.reference};
+        return depth;
+    }
+    [[nodiscard]] DepthCompare depth_compare() const noexcept {
+        const rasterizer::DepthRequest request = key_request();
+        return {request.format, epsilon, request.reference.value_or(request.path) != request.path, quantize_reference};
+    }
+    // Every pass sees the same fragments, and compares the depth that it stores: what closed forms rest on.
+    [[nodiscard]] bool is_invariant() const noexcept { return second == nullptr && depth_compare().is_plain(); }
+};
+
+}  // namespace strata::pipeline

@@ -1,0 +1,133 @@
+// pipeline/geforce3/combiner.h - GeForce3's register combiners: up to eight general stages and a final one, on 9-bit signed values.
+//
+// Rule     A value is an integer in units of 1/255, -255 to 255. A general stage computes A B, C D (products or dot products)
+//          and A B + C D or a choice between the two, then bias (- 128), scale, clamp to [-255, 255]; of the colours and of
+//          alpha apart. The final stage gives A B + (1 - A) C + D of colours and G as alpha, clamped to [0, 255].
+// Source   NV_register_combiners; hardware.md 6; nv2a-fragment.md 6, "Combiner" (bias, scales, inverts, MUX and sums as
+//          measured). Sums of products are exact and rounded once, to nearest: no tie exists for an odd divisor. That rounding
+//          is our assumption wherever two factors are fractions [A].
+// Numbers  |A B + C D| <= 2 * 255^2, three times that for dot products: far below 2^31.
+// Tests    tests/pipeline/geforce3/combiner_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/stages/target.h"
+
+namespace strata::pipeline {
+
+enum class CombinerRegister : std::uint8_t {
+    zero,
+    constant_color0,
+    constant_color1,
+    primary_color,
+    secondary_color,
+    texture0,
+    texture1,
+    texture2,
+    texture3,
+    spare0,
+    spare1,
+    spare0_plus_secondary_color,
+    e_times_f,  // of the final stage, inputs A to D alone
+    discard
+};
+inline constexpr std::size_t combiner_registers = 11;  // those that hold a value
+
+enum class CombinerMapping : std::uint8_t {
+    unsigned_identity,  // max(0, e)
+    unsigned_invert,    // 1 - clamp(e, 0, 1)
+    expand_normal,      // 2 max(0, e) - 1
+    expand_negate,
+    half_bias_normal,  // max(0, e) - 128/255
+    half_bias_negate,
+    signed_identity,
+    signed_negate
+};
+
+// Which part of a register an input takes: `own` is r g b in a colour portion, alpha in an alpha portion.
+enum class CombinerComponent : std::uint8_t { own, alpha, blue };
+
+struct CombinerInput {
+    CombinerRegister source = CombinerRegister::zero;
+    CombinerMapping mapping = CombinerMapping::unsigned_identity;
+    CombinerComponent component = CombinerComponent::own;
+    friend bool operator==(const CombinerInput&, const CombinerInput&) = default;
+};
+
+enum class CombinerProduct : std::uint8_t { component_wise, dot };
+enum class CombinerSum : std::uint8_t {
+    add,
+    mux,         // C D where alpha of spare0 is at least 128/255, else A B
+    mux_low_bit  // C D where that alpha's bit 0 is set: the chip's other mode, not OpenGL's
+};
+enum class CombinerScale : std::uint8_t { by_one, by_two, by_four, by_half };
+enum class CombinerBias : std::uint8_t { none, by_negative_half };
+
+struct CombinerPortion {
+    CombinerInput a{}, b{}, c{}, d{};
+    CombinerRegister ab = CombinerRegister::discard, cd = CombinerRegister::discard, sum = CombinerRegister::discard;
+    CombinerProduct ab_product = CombinerProduct::component_wise, cd_product = CombinerProduct::component_wise;
+    CombinerSum sum_rule = CombinerSum::add;
+    CombinerScale scale = CombinerScale::by_one;
+    CombinerBias bias = CombinerBias::none;
+    friend bool operator==(const CombinerPortion&, const CombinerPortion&) = default;
+};
+
+struct CombinerStage {
+    CombinerPortion rgb{}, alpha{};
+    std::array<std::array<float, 4>, 2> constant{};  // per stage, as NV_register_combiners2 has them
+    friend bool operator==(const CombinerStage&, const CombinerStage&) = default;
+};
+
+struct FinalCombiner {
+    CombinerInput a{}, b{}, c{}, d{}, e{}, f{}, g{};  // unsigned mappings only
+    bool clamps_color_sum = false;
+    bool inverts_spare0 = false, inverts_secondary_color = false;  // in their sum; flags of the chip, not of OpenGL
+    std::array<std::array<float, 4>, 2> constant{};
+    friend bool operator==(const FinalCombiner&, const FinalCombiner&) = default;
+};
+
+inline constexpr std::size_t max_combiner_stages = 8;
+struct Combiners {
+    std::vector<CombinerStage> stages;  // at most max_combiner_stages
+    FinalCombiner final_stage;
+    friend bool operator==(const Combiners&, const Combiners&) = default;
+};
+
+// What the combiners start from: colours in [0,1], rounded to 8 bits on the way in.
+struct CombinerSources {
+    const ColorLanes* primary = nullptr;
+    const ColorLanes* secondary = nullptr;       // null: 0
+    std::array<const ColorLanes*, 4> texture{};  // null: 0
+};
+
+class CombinerUnit {
+  public:
+    // Throws std::logic_error for what no machine could run: too many stages, an input that is not there.
+    explicit CombinerUnit(const Combiners& state);
+    // r g b a in [0,1], each k / 255.
+    void run(const CombinerSources& sources, ColorLanes& out, int count);
+
+  private:
+    using Values = rasterizer::Lanes<std::int32_t>;
+    using Register = std::array<Values, 4>;
+    struct Operand;
+
+    [[nodiscard]] Register& at(CombinerRegister r) noexcept { return registers_[static_cast<std::size_t>(r)]; }
+    [[nodiscard]] const Register& value_of(CombinerRegister r) const noexcept;
+    void load(CombinerRegister r, const ColorLanes* color, std::size_t count);
+    void set_constants(const std::array<std::array<float, 4>, 2>& constant, std::size_t count);
+    void run_stage(const CombinerStage& stage, std::size_t count);
+    void run_portion(const CombinerPortion& portion, bool is_alpha, std::size_t count);
+    void commit(const CombinerPortion& portion, bool is_alpha, std::size_t count);
+    void finish(ColorLanes& out, std::size_t count);
+
+    Combiners state_;
+    std::array<Register, combiner_registers> registers_{};
+    std::array<Register, 3> result_{};  // ab, cd and sum of a stage: both portions read what stood before it
+    Register sum_{}, product_{};        // spare0_plus_secondary_color, e_times_f
+};
+
+}  // namespace strata::pipeline

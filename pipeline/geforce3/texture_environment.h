@@ -1,0 +1,48 @@
+// pipeline/geforce3/texture_environment.h - OpenGL's texture environment, expressed through the register combiners.
+//
+// Rule     One general stage a unit, in order of the units; Cf, Af is the primary colour, then the stage before.
+//          REPLACE Ct; MODULATE Cf Ct; DECAL Cf (1 - At) + Ct At; BLEND Cf (1 - Ct) + Cc Ct; ADD Cf + Ct; alpha At, Af At,
+//          Af, Af At, Af At. COMBINE: REPLACE a; MODULATE a b; ADD a + b; ADD_SIGNED a + b - 1/2; INTERPOLATE a c + b (1 - c);
+//          SUBTRACT a - b; times 1, 2 or 4. Textures are taken as RGBA. GL_NONE passes Cf, Af on.
+// Source   GL 1.2.1 3.8.9 (table 3.22); ARB_texture_env_add; ARB_texture_env_combine. The arithmetic is combiner.h's.
+// Tests    tests/pipeline/geforce3/texture_environment_test.cpp
+#pragma once
+#include <array>
+#include <span>
+
+#include "pipeline/geforce3/combiner.h"
+
+namespace strata::pipeline {
+
+enum class TexEnvMode : std::uint8_t { none, replace, modulate, decal, blend, add, combine };
+enum class CombineFunc : std::uint8_t { replace, modulate, add, add_signed, interpolate, subtract };
+enum class CombineSource : std::uint8_t { texture, constant, primary_color, previous };
+enum class CombineOperand : std::uint8_t { src_color, one_minus_src_color, src_alpha, one_minus_src_alpha };
+
+struct CombineArgument {
+    CombineSource source = CombineSource::texture;
+    CombineOperand operand = CombineOperand::src_color;  // of alpha: src_alpha or one_minus_src_alpha
+    friend bool operator==(const CombineArgument&, const CombineArgument&) = default;
+};
+
+struct CombineState {
+    CombineFunc func = CombineFunc::modulate;
+    std::array<CombineArgument, 3> argument{};
+    CombinerScale scale = CombinerScale::by_one;  // not by_half
+    friend bool operator==(const CombineState&, const CombineState&) = default;
+};
+
+struct TexEnv {
+    TexEnvMode mode = TexEnvMode::none;
+    std::array<float, 4> color{0, 0, 0, 0};  // TEXTURE_ENV_COLOR
+    CombineState rgb, alpha;                 // of COMBINE
+    friend bool operator==(const TexEnv&, const TexEnv&) = default;
+};
+
+[[nodiscard]] Combiners texture_environment(std::span<const TexEnv> units);
+
+// The combiner of shadow-map peeling: colour stays, alpha becomes (1 - comparison) times alpha. `unit` holds the comparison
+// as luminance or intensity. hardware.md 6: published ports of Everitt's demo.
+[[nodiscard]] Combiners peel_combiners(std::size_t unit);
+
+}  // namespace strata::pipeline

@@ -1,0 +1,195 @@
+#include "pipeline/geforce3/texture_shader.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "pipeline/formats/lane_mask.h"
+#include "pipeline/formats/unorm8.h"
+#include "pipeline/textures/texel_address.h"
+#include "pipeline/textures/texture_sample.h"
+#include "rasterizer/values/depth_quotient.h"
+
+namespace strata::pipeline {
+namespace {
+
+using rasterizer::FragmentBatch;
+using rasterizer::Lanes;
+using Coordinates = std::array<Lanes<float>, 4>;
+
+struct StageRun {
+    const ShaderStages& stages;
+    const ShaderMachine& machine;
+    std::size_t number;
+    const Coordinates& coordinate;  // s t r q
+    std::size_t count;
+    ShaderResults& out;
+
+    [[nodiscard]] const ShaderStage& stage() const noexcept { return stages[number]; }
+    [[nodiscard]] StageResult& own() const noexcept { return out.stage[number]; }
+    [[nodiscard]] const StageResult& before() const noexcept { return out.stage[number - 1]; }
+    [[nodiscard]] std::size_t input() const noexcept { return static_cast<std::size_t>(stage().previous); }
+};
+
+void clear(ColorLanes& rgba, std::size_t count) noexcept {
+    for (Lanes<float>& channel : rgba) std::fill_n(channel.begin(), count, 0.0f);
+}
+
+// Every divide of a stage is the one of perspective_rq and depth_replace.
+[[nodiscard]] rasterizer::DivideRule divide_rule(const ShaderMachine& machine) noexcept {
+    return machine.profile->raster.hypothesis.divide;
+}
+
+void divide(const StageRun& run, std::size_t component, Lanes<float>& out) noexcept {
+    for (std::size_t i = 0; i < run.count; ++i)
+        out[i] = rasterizer::divide(run.coordinate[component][i], run.coordinate[3][i], divide_rule(run.machine));
+}
+
+float hilo_component(std::uint16_t k, bool is_signed) noexcept {
+    return is_signed ? static_cast<float>(static_cast<std::int16_t>(k)) / 32768.0f : static_cast<float>(k) / 65535.0f;
+}
+
+void look_up(const HiloTexture& texture, const DeviceProfile& profile, const Lanes<float>& s, const Lanes<float>& t,
+             StageResult& own, std::size_t count) {
+    TexelLanes column, row;
+    const PointSnap snap = point_snap(profile.texture_filter);
+    nearest_texels({texture.target, texture.wrap_s, texture.width}, snap, s, column, static_cast<int>(count));
+    nearest_texels({texture.target, texture.wrap_t, texture.height}, snap, t, row, static_cast<int>(count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [high, low] =
+            texture.texels[static_cast<std::size_t>(row.first[i]) * static_cast<std::size_t>(texture.width) +
+                           static_cast<std::size_t>(column.first[i])];
+        const float x = hilo_component(high, texture.is_signed), y = hilo_component(low, texture.is_signed);
+        const float rest = (1.0f - x * x) - y * y;
+        own.xyz[0][i] = x;
+        own.xyz[1][i] = y;
+        own.xyz[2][i] = !texture.is_signed ? 1.0f : rest > 0.0f ? std::sqrt(rest) : 0.0f;
+    }
+    clear(own.rgba, count);
+}
+
+void look_up(const StageRun& run, const Lanes<float>& s, const Lanes<float>& t) {
+    const BoundTexture& texture = run.stage().texture;
+    const DeviceProfile& profile = *run.machine.profile;
+    StageResult& own = run.own();
+    if (texture.hilo != nullptr) return look_up(*texture.hilo, profile, s, t, own, run.count);
+    if (texture.color != nullptr) {
+        sample(*texture.color, profile.texture_filter, s, t, own.rgba, static_cast<int>(run.count));
+    } else {
+        Lanes<float> r{};
+        if (texture.reference == CompareReference::r_over_q) divide(run, 2, r);
+        shadow_compare(run.machine.texels[run.number], texture.compare, profile, {s, t, r}, own.rgba,
+                       static_cast<int>(run.count));
+    }
+    for (std::size_t c = 0; c < 3; ++c) std::copy_n(own.rgba[c].begin(), run.count, own.xyz[c].begin());
+}
+
+void projective_lookup(const StageRun& run) {
+    Lanes<float> s, t;
+    divide(run, 0, s);
+    divide(run, 1, t);
+    look_up(run, s, t);
+}
+
+// [0, 1] to 8 bits as the chip does it: 12 bits, of which 255/256 by a shift, all cut. 1 is 255.
+[[nodiscard]] constexpr std::uint8_t pass_through_code(float x) noexcept {
+    const auto fixed = static_cast<std::uint32_t>(x * 4096.0f);  // exact before the cut
+    return static_cast<std::uint8_t>((fixed - (fixed >> 8)) >> 4);
+}
+
+void pass_through(const StageRun& run) {
+    const bool is_unorm8 = run.machine.profile->texture_filter == TextureFilterPrecision::unorm8;
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < run.count; ++i) {
+            const float x = run.coordinate[c][i] > 0.0f ? std::min(run.coordinate[c][i], 1.0f) : 0.0f;
+            run.own().rgba[c][i] = is_unorm8 ? from_unorm8(pass_through_code(x)) : x;
+        }
+}
+
+void cull(const StageRun& run) {
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < run.count; ++i) {
+            const float x = run.coordinate[c][i];
+            run.out.alive[i] &= mask(run.stage().cull[c] == CullMode::gequal ? x >= 0.0f : x < 0.0f);
+        }
+    clear(run.own().rgba, run.count);
+}
+
+void dot(const StageRun& run) {
+    const StageResult& from = run.out.stage[run.input()];
+    const bool is_colour = run.stages[run.input()].texture.hilo == nullptr;
+    const bool expands = is_colour && run.stage().mapping == DotMapping::expand_normal;
+    const auto mapped = [&](std::size_t c, std::size_t i) {
+        const float x = from.xyz[c][i];
+        return expands ? 2.0f * x - 1.0f : x;
+    };
+    for (std::size_t i = 0; i < run.count; ++i) {
+        const float x = run.coordinate[0][i] * mapped(0, i);
+        const float y = run.coordinate[1][i] * mapped(1, i);
+        const float z = run.coordinate[2][i] * mapped(2, i);
+        run.own().dot[i] = (x + y) + z;
+    }
+}
+
+// The range and the conversion of a replaced depth, in the units that the device's quotient has.
+struct DepthRule {
+    double least, greatest, units, half;
+    bool is_float, clamps;
+
+    explicit DepthRule(const ShaderMachine& m) : is_float{m.depth.format == DepthFormat::d32f}, clamps{m.depth_clamp} {
+        const rasterizer::RasterRules& rules = m.profile->raster;
+        const bool scaled = rules.window_z == rasterizer::WindowZ::buffer_units && !is_float;
+        const double max = is_float ? 1.0 : rasterizer::max_code(m.depth.format), range = scaled ? max : 1.0;
+        least = std::min(m.depth_near, m.depth_far) * range;
+        greatest = std::max(m.depth_near, m.depth_far) * range;
+        units = scaled ? 1.0 : max;
+        half = rules.depth_rounding == DepthRounding::nearest && !is_float ? 0.5 : 0.0;
+    }
+    [[nodiscard]] bool accepts(float z) const noexcept {
+        return rasterizer::is_in_depth_range(z, least, greatest) || (clamps && z == z);
+    }
+    [[nodiscard]] std::uint32_t code(float z) const noexcept {
+        const double clamped = std::clamp(double{z}, least, greatest);
+        if (is_float) return std::bit_cast<std::uint32_t>(static_cast<float>(clamped) + 0.0f);  // -0 is 0
+        return static_cast<std::uint32_t>(clamped * units + half);
+    }
+};
+
+void replace_depth(const StageRun& run) {
+    const DepthRule rule{run.machine};
+    for (std::size_t i = 0; i < run.count; ++i) {
+        const float z = rasterizer::divide(run.before().dot[i], run.own().dot[i], divide_rule(run.machine));
+        const bool accepted = rule.accepts(z);
+        run.out.alive[i] &= mask(accepted);
+        run.out.code[i] = accepted ? rule.code(z) : 0u;
+    }
+}
+
+void run_stage(const StageRun& run, ShaderOp op) {
+    switch (op) {
+        case ShaderOp::none: return clear(run.own().rgba, run.count);
+        case ShaderOp::texture_2d:
+        case ShaderOp::texture_rectangle: return projective_lookup(run);
+        case ShaderOp::pass_through: return pass_through(run);
+        case ShaderOp::cull_fragment: return cull(run);
+        case ShaderOp::dot_product: dot(run); return clear(run.own().rgba, run.count);
+        case ShaderOp::dot_product_texture_2d:
+        case ShaderOp::dot_product_texture_rectangle: dot(run); return look_up(run, run.before().dot, run.own().dot);
+        case ShaderOp::dot_product_depth_replace:
+            dot(run);
+            replace_depth(run);
+            return clear(run.own().rgba, run.count);
+    }
+}
+
+}  // namespace
+
+void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderMachine& machine,
+                        const FragmentBatch& in, ShaderResults& out) {
+    const auto count = static_cast<std::size_t>(in.count);
+    std::fill_n(out.alive.begin(), count, ~0u);
+    for (std::size_t stage = 0; stage < stages.size(); ++stage)
+        run_stage({stages, machine, stage, in.unit[stage], count, out}, ops[stage]);
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,117 @@
+// pipeline/geforce3/texture_shader.h - the four texture shader stages of GeForce3: from interpolated coordinates to texture results,
+// a culled fragment, or another depth.
+//
+// Rule     TEXTURE_2D, TEXTURE_RECTANGLE: lookup at s/q, t/q; a depth texture compares r/q. PASS_THROUGH: s t r q clamped to
+//          [0,1]; where the device's colours have 8 bits, X = floor(4096 x) and (X - (X >> 8)) >> 4 [M: our own fit, every one
+//          of 65,536 pixels of the chip's capture Passthru; floor(255 x) gives 9,656 others]. CULL_FRAGMENT: see CullMode.
+//          DOT_PRODUCT: (s x + t y) + r z with (x, y, z) of the previous texture input, not divided by q; _TEXTURE_2D,
+//          _TEXTURE_RECTANGLE look up at (dot of the stage before, own dot); _DEPTH_REPLACE: the stage's depth is dot of the
+//          stage before / own dot, one divide, floored or rounded like a depth write; outside the depth range, NaN and zero
+//          divisors among it, the fragment dies (with depth clamp it is clamped). A HILO texel is (HI, LO, 1), signed (HI,
+//          LO, sqrt(1 - HI^2 - LO^2)); in colour it is 0. A stage that is not consistent is NONE: (0, 0, 0, 0).
+// Source   NV_texture_shader 3.8.13; hardware.md 5; nv2a-geometry.md 2, 5.1, 5.2, 5.3. Binary32 in the written order [A].
+// Tests    tests/pipeline/geforce3/texture_shader_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/formats/texture.h"
+#include "pipeline/stages/target.h"
+#include "pipeline/textures/depth_texels.h"
+#include "pipeline/textures/shadow_compare.h"
+
+namespace strata::pipeline {
+
+enum class ShaderOp : std::uint8_t {
+    none,
+    texture_2d,
+    texture_rectangle,
+    pass_through,
+    cull_fragment,
+    dot_product,
+    dot_product_texture_2d,
+    dot_product_texture_rectangle,
+    dot_product_depth_replace
+};
+
+// A coordinate's test in CULL_FRAGMENT: the fragment dies if any of the four fails. 0 and -0 are not negative; NaN fails both.
+enum class CullMode : std::uint8_t {
+    gequal,  // the default: lives where the coordinate is at least 0
+    less     // lives where it is below 0
+};
+
+// How an unsigned colour enters a dot product: as k / 255, or stretched to [-1, 1].
+enum class DotMapping : std::uint8_t { unsigned_identity, expand_normal };
+
+// What a comparison takes as R. GL's drivers pick the three-dimensional projective stage, which compares r / q; the chip's
+// two-dimensional stage compares 0 (nv2a-geometry.md 3).
+enum class CompareReference : std::uint8_t { r_over_q, zero };
+
+// Two 16-bit components a texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Nearest lookups.
+struct HiloTexture {
+    TextureTarget target = TextureTarget::two_d;
+    int width = 1, height = 1;
+    TextureWrap wrap_s = TextureWrap::repeat, wrap_t = TextureWrap::repeat;
+    bool is_signed = false;
+    std::vector<std::array<std::uint16_t, 2>> texels;
+};
+
+// One at most; none: an incomplete texture. `depth` is a target of the pass's region, `depth_image` a finished one.
+struct BoundTexture {
+    const Texture* color = nullptr;
+    const HiloTexture* hilo = nullptr;
+    const Image* depth_image = nullptr;
+    Target depth{};
+    bool eight_bit_depth = false;  // DepthTexels::is_eight_bit
+    bool bottom_up = false;        // of depth_image; a target's follows from the frame
+    ShadowCompare compare{};       // of depth textures
+    CompareReference reference = CompareReference::r_over_q;
+
+    [[nodiscard]] bool is_depth() const noexcept { return depth_image != nullptr || depth.exists(); }
+};
+
+struct ShaderStage {
+    ShaderOp op = ShaderOp::none;
+    int previous = 0;  // PREVIOUS_TEXTURE_INPUT_NV: an earlier stage
+    std::array<CullMode, 4> cull{};
+    DotMapping mapping = DotMapping::unsigned_identity;
+    BoundTexture texture;
+};
+using ShaderStages = std::array<ShaderStage, rasterizer::texture_units>;
+using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
+
+// The operations as they take effect: NONE for those that are not consistent (a texture that is missing or of another kind;
+// a previous input that is no earlier stage or holds no texel; a dot product that is not continued after one).
+[[nodiscard]] ShaderOps consistent_operations(const ShaderStages& stages);
+[[nodiscard]] bool replaces_depth(const ShaderOps& ops) noexcept;
+// The coordinates that the operations look at, as FragmentNeeds::units.
+[[nodiscard]] rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept;
+
+// What every fragment of a pass has in common.
+struct ShaderMachine {
+    const DeviceProfile* profile = nullptr;
+    rasterizer::DepthRequest depth;             // the buffer that a replaced depth is for
+    float depth_near = 0.0f, depth_far = 1.0f;  // glDepthRange
+    bool depth_clamp = false;
+    std::array<DepthTexels, rasterizer::texture_units> texels;  // of the stages with depth textures
+};
+
+// What one stage hands on.
+struct StageResult {
+    ColorLanes rgba;                              // the texture's colour, for the combiners
+    std::array<rasterizer::Lanes<float>, 3> xyz;  // what a dot product multiplies with
+    rasterizer::Lanes<float> dot;
+};
+
+struct ShaderResults {
+    std::array<StageResult, rasterizer::texture_units> stage;
+    rasterizer::Lanes<std::uint32_t> alive;  // ~0, or 0 where the fragment died
+    rasterizer::Lanes<std::uint32_t> code;   // of the replaced depth, if there is one
+};
+
+// Throws NeedsFrame (depth_texels.h).
+void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderMachine& machine,
+                        const rasterizer::FragmentBatch& in, ShaderResults& out);
+
+}  // namespace strata::pipeline

@@ -1,0 +1,67 @@
+#include "pipeline/region/check_pass.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace strata::pipeline {
+
+namespace {
+
+void require(bool holds, const char* what) {
+    if (!holds) throw std::logic_error(std::string{"pass state: "} + what);
+}
+
+bool is_written(const PassState& state, Target t) {
+    return std::find(state.color.begin(), state.color.end(), t) != state.color.end() ||
+           (state.depth.enabled && state.depth.write && state.depth_target == t) ||
+           (state.stencil.enabled && state.stencil_target == t);
+}
+
+void check_targets(const PassState& state, const std::vector<TargetStorage>& targets) {
+    const auto format = [&](Target t) { return targets.at(static_cast<std::size_t>(t.id)).format(); };
+    require(!state.depth.enabled || (state.depth_target.exists() && is_depth(format(state.depth_target))),
+            "a depth test needs a depth target");
+    require(!state.stencil.enabled || (state.stencil_target.exists() && has_stencil(format(state.stencil_target))),
+            "a stencil test needs a stencil target");
+    for (const Target t : state.color)
+        require(!t.exists() || is_color(format(t)), "a colour output needs a colour target");
+    int samples = 0;
+    const auto agrees = [&](Target t) {
+        const int own = targets.at(static_cast<std::size_t>(t.id)).samples();
+        require(samples == 0 || own == samples, "targets of one pass have one number of samples");
+        samples = own;
+    };
+    for (const Target t : {state.depth_target, state.stencil_target})
+        if (t.exists()) agrees(t);
+    for (const Target t : state.color)
+        if (t.exists()) agrees(t);
+    for (const Target t : state.textures) {
+        require(!t.exists() || is_depth(format(t)), "texture units sample depth targets");
+        require(!t.exists() || !is_written(state, t), "a texture is sampled and written at once (a feedback loop)");
+    }
+    for (const Target t : state.reads)
+        require(!t.exists() || state.ordered_rmw || !is_written(state, t),
+                "a target is read and written at once (a feedback loop) without ordered_rmw");
+}
+
+void refuse_if(const DeviceProfile& profile, Verdict verdict) {
+    if (verdict) throw Refused{profile, *std::move(verdict)};
+}
+
+}  // namespace
+
+void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets) {
+    check_targets(state, targets);
+    std::vector<Blend> blends;
+    for (std::size_t k = 0; k < state.color.size(); ++k) {
+        if (!state.color[k].exists()) continue;
+        refuse_if(profile, check(profile, targets[static_cast<std::size_t>(state.color[k].id)].format()));
+        blends.push_back(state.blend[k]);
+    }
+    refuse_if(profile, check(profile, std::span<const Blend>{blends}));
+    if (state.stencil.enabled) refuse_if(profile, check(profile, state.stencil));
+    if (state.depth_unit_count > 0) refuse_if(profile, check(profile, Feature::sequential_depth_units));
+    if (state.ordered_rmw) refuse_if(profile, check(profile, Feature::ordered_rmw));
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,16 @@
+// pipeline/region/check_pass.h - a pass against the machine that shall run it, before its first fragment.
+#pragma once
+#include <vector>
+
+#include "pipeline/device/check.h"
+#include "pipeline/device/profile.h"
+#include "pipeline/frame/pass.h"
+#include "pipeline/region/target_storage.h"
+
+namespace strata::pipeline {
+
+// Throws Refused (check.h) for state that the profile lacks, and std::logic_error for a pass that no machine could run: targets
+// of unequal kind, a feedback loop (a target read and written without ordered_rmw), a test without its target.
+void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets);
+
+}  // namespace strata::pipeline

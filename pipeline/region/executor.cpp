@@ -1,0 +1,284 @@
+#include "pipeline/region/executor.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "pipeline/frame/verdict.h"
+#include "pipeline/region/region_scratch.h"
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/parallel.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+// What stays of a region when its storage is gone.
+struct RegionRun {
+    std::vector<Decision> decisions;
+    std::vector<IterationRecord> records;
+    std::vector<KeptLayer> layers;
+    std::vector<TraceEntry> trace;
+    std::vector<Diagnostic> diagnostics;
+    int iterations = 0;
+    int idle_from = -1;
+    bool probed = false;
+    std::size_t idle_layers = 0;
+    std::uint64_t fragments = 0;  // of all its runs
+    int runs = 0;
+};
+
+class FrameRun {
+  public:
+    FrameRun(const Frame& frame, const Body& body, Execution execution, int threads,
+             const std::function<void(double)>& progress)
+        : frame_{frame},
+          body_{body},
+          threads_{threads},
+          progress_{progress},
+          extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
+        const auto& geometry = frame.transparent->geometry;
+        const std::size_t tiles =
+            static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
+        regions_.resize(extent_ == Extent::frame ? 1 : tiles);
+        twin_.assign(regions_.size(), no_twin);
+        const rasterizer::Rect rect = frame.rect();
+        result_.color =
+            Image::for_overwrite(frame.published_format.value_or(frame.color_format), rect.width(), rect.height());
+        if (frame.nearest_depth)
+            result_.depth =
+                Image::for_overwrite(target_format(frame.key_request().format), rect.width(), rect.height());
+    }
+
+    FrameResult finish() {
+        const std::vector<std::size_t> others = run_one_blank_of_each_size();
+        parallel_for(others.size(), threads_, [&](std::size_t i) {
+            if (twin_[others[i]] == no_twin)
+                run_region(others[i], {});
+            else
+                copy_blank(others[i]);
+        });
+        settle();
+        gather();
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] rasterizer::Rect rect(std::size_t r) const {
+        return extent_ == Extent::frame ? frame_.rect() : tile_rect(frame_.transparent->geometry, r);
+    }
+
+    // Copies a part of the frame into its place; parts are disjoint, so threads do not meet.
+    void place(const Image& part, const rasterizer::Rect& at, Image& whole) const {
+        const auto row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels());
+        for (int y = 0; y < part.height; ++y)
+            std::copy_n(part.codes.begin() + static_cast<std::ptrdiff_t>(part.index(0, y)), row,
+                        whole.codes.begin() + static_cast<std::ptrdiff_t>(
+                                                  whole.index(at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
+    }
+
+    [[nodiscard]] bool is_blank(std::size_t r) const {
+        const auto is_empty = [&](const PreparedDraw* list) {
+            return list == nullptr || list->geometry.bin(r).empty();
+        };
+        return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.alike_where_blank &&
+               is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
+    }
+
+    // What one blank tile does, every blank tile of its size does: the first of them stands for the others. All but those first
+    // ones are returned.
+    [[nodiscard]] std::vector<std::size_t> run_one_blank_of_each_size() {
+        std::vector<std::size_t> others;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            if (!is_blank(r)) {
+                others.push_back(r);
+                continue;
+            }
+            const auto same_size = [&](std::size_t b) {
+                return rect(b).width() == rect(r).width() && rect(b).height() == rect(r).height();
+            };
+            const auto found = std::find_if(blanks_.begin(), blanks_.end(), same_size);
+            twin_[r] = found == blanks_.end() ? r : *found;
+            if (found != blanks_.end()) {
+                others.push_back(r);
+                continue;
+            }
+            run_region(r, {});
+            if (regions_[r].diagnostics.empty()) blanks_.push_back(r);  // they name pixels
+        }
+        return others;
+    }
+
+    void copy_blank(std::size_t r) {
+        regions_[r] = regions_[twin_[r]];
+        regions_[r].fragments = 0;
+        copy(twin_[r], r, result_.color);
+        if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
+    }
+
+    void copy(std::size_t from, std::size_t to, Image& image) const {
+        const auto row = static_cast<std::size_t>(rect(from).width()) * static_cast<std::size_t>(image.channels());
+        const auto at = [&](std::size_t r, int y) {
+            return image.codes.begin() + static_cast<std::ptrdiff_t>(image.index(rect(r).x0 - frame_.rect().x0,
+                                                                                 rect(r).y0 - frame_.rect().y0 + y));
+        };
+        for (int y = 0; y < rect(from).height(); ++y) std::copy_n(at(from, y), row, at(to, y));
+    }
+
+    void run_region(std::size_t r, const std::vector<bool>& script) {
+        Region region{frame_, rect(r), r, extent_, script, &scratch_};
+        body_(region);
+        region.write_image(region.published(), result_.color);
+        if (frame_.nearest_depth && regions_[r].runs == 0) region.write_image(region.nearest_depth(), result_.depth);
+        RegionRun& kept = regions_[r];
+        kept.decisions = region.decisions();
+        kept.records = region.records();
+        kept.layers = std::move(region.layers());
+        kept.trace = std::move(region.trace());
+        kept.diagnostics = std::move(region.diagnostics());
+        kept.iterations = region.iterations();
+        kept.idle_from = region.idle_from();
+        kept.probed = region.probed();
+        kept.idle_layers = region.idle_layers();
+        kept.fragments += region.fragments_drawn();
+        ++kept.runs;
+        if (progress_)  // runs again count as well: never more than the whole
+            progress_(std::min(1.0, static_cast<double>(++finished_) / static_cast<double>(regions_.size())));
+    }
+
+    void run(const std::vector<std::size_t>& which, const std::vector<bool>& script) {
+        parallel_for(which.size(), threads_, [&](std::size_t i) { run_region(which[i], script); });
+    }
+
+    // True if region r went past decision d of the frame without being bound by its answer: it counted nothing there, or it
+    // had stopped before, and has promised that further iterations change nothing.
+    [[nodiscard]] static bool is_idle(const RegionRun& r, std::size_t d) {
+        const std::size_t last = std::min(d, r.decisions.size() - 1);
+        return r.decisions[last].own == 0 && r.decisions[last].idle != Idle::no;
+    }
+
+    // How many further answers are "yes": those of a region that has gone the frame's way up to decision d, and counted enough
+    // by itself. A hint that saves runs: every answer is settled in its own round.
+    [[nodiscard]] std::size_t certain_after(std::size_t d, bool answer) const {
+        std::size_t longest = 0;
+        for (const RegionRun& r : regions_) {
+            std::size_t next = d + 1;
+            if (r.decisions.size() <= next || r.decisions[d].answer != answer) continue;
+            while (next < r.decisions.size() && continues(frame_.termination, frame_.rect(), r.decisions[next].own))
+                ++next;
+            longest = std::max(longest, next - d - 1);
+        }
+        return longest;
+    }
+
+    // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
+    // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
+    void settle() {
+        if (extent_ == Extent::frame) return;
+        std::vector<bool> answers;
+        for (std::size_t d = 0;; ++d) {
+            std::uint64_t sum = 0;
+            bool anyone = false;
+            for (const RegionRun& r : regions_) {
+                if (d >= r.decisions.size()) continue;
+                sum += r.decisions[d].own;
+                anyone = true;
+            }
+            if (!anyone) return;
+            answers.push_back(continues(frame_.termination, frame_.rect(), sum));
+            std::vector<std::size_t> again;
+            for (std::size_t r = 0; r < regions_.size(); ++r) {
+                if (regions_[r].decisions.empty() || is_idle(regions_[r], d)) continue;
+                if (d >= regions_[r].decisions.size() || regions_[r].decisions[d].answer != answers[d])
+                    again.push_back(r);
+            }
+            std::vector<bool> script = answers;
+            if (!again.empty()) script.insert(script.end(), certain_after(d, answers[d]), true);
+            run(again, script);
+            result_.work.reruns += again.size();
+        }
+    }
+
+    void gather() {
+        const bool ends_by_query = !regions_[0].decisions.empty();
+        result_.iterations = ends_by_query ? iterations_of_answers() : regions_[0].iterations;
+        result_.work.regions = regions_.size();
+        result_.work.tile_size = extent_ == Extent::frame ? 0 : frame_.transparent->geometry.tile_size;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            gather_counters(regions_[r]);
+            for (const Diagnostic& d : regions_[r].diagnostics) merge(result_.diagnostics, d);
+            result_.work.fragments += regions_[r].fragments;
+            if (frame_.trace) result_.traces.push_back({rect(r), r, std::move(regions_[r].trace)});
+        }
+        if (frame_.keep_layers) gather_layers();
+    }
+
+    // The frame runs as long as any region had something to count: idle probes do not prolong it.
+    [[nodiscard]] int iterations_of_answers() const {
+        int longest = 0;
+        for (const RegionRun& r : regions_) longest = std::max(longest, r.iterations - (r.probed ? 1 : 0));
+        return longest;
+    }
+
+    // Prologue, the frame's iterations (those that the region did not run repeat its idle one), epilogue.
+    void gather_counters(const RegionRun& r) {
+        PassCount passes;
+        const auto add = [&](const IterationRecord& record) {
+            result_.counters += record.counters;
+            passes += record.passes;
+        };
+        add(r.records.front());
+        for (int i = 1; i <= result_.iterations; ++i)
+            add(r.records[static_cast<std::size_t>(i <= r.iterations ? i : r.idle_from)]);
+        for (std::size_t i = static_cast<std::size_t>(r.iterations) + 1; i < r.records.size(); ++i) add(r.records[i]);
+        result_.passes = passes;  // the same in every region
+    }
+
+    // A region that stopped early shows its last layer, an empty one, in every further layer of the frame.
+    void gather_layers() {
+        std::size_t count = 0;
+        for (const RegionRun& r : regions_) count = std::max(count, r.layers.size() - r.idle_layers);
+        const rasterizer::Rect whole = frame_.rect();
+        for (std::size_t layer = 0; layer < count; ++layer) {
+            KeptLayer kept;
+            for (std::size_t r = 0; r < regions_.size(); ++r) {
+                const KeptLayer& part = regions_[r].layers[std::min(layer, regions_[r].layers.size() - 1)];
+                if (kept.color.codes.empty()) {
+                    kept.color = Image{part.color.format, whole.width(), whole.height()};
+                    kept.depth = Image{part.depth.format, whole.width(), whole.height()};
+                }
+                place(part.color, rect(r), kept.color);
+                place(part.depth, rect(r), kept.depth);
+            }
+            result_.layers.push_back(std::move(kept));
+        }
+    }
+
+    const Frame& frame_;
+    const Body& body_;
+    int threads_;
+    const std::function<void(double)>& progress_;
+    Extent extent_;
+    Region::ScratchPool scratch_;
+    std::vector<RegionRun> regions_;
+    static constexpr std::size_t no_twin = ~std::size_t{0};
+    std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
+    FrameResult result_;
+    std::atomic<std::size_t> finished_{0};
+};
+
+}  // namespace
+
+FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
+                const std::function<void(double)>& progress) {
+    const FloatEnvironment ours;
+    if (execution == Execution::literal) return FrameRun{frame, body, execution, threads, progress}.finish();
+    if (!frame.needs_frame) try {
+            return FrameRun{frame, body, execution, threads, progress}.finish();
+        } catch (const NeedsFrame&) {  // a lookup left its region: all of it again, as the definition has it
+        }
+    Frame whole = frame;
+    whole.replay = {};
+    return FrameRun{whole, body, Execution::literal, threads, progress}.finish();
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,63 @@
+#include "pipeline/region/fragment_path.h"
+
+#include "pipeline/device/check.h"
+
+namespace strata::pipeline {
+namespace {
+
+ShaderMachine machine_of(const Region& region, const ShaderStages& stages) {
+    const rasterizer::RasterState& raster = region.frame().transparent->geometry.state;
+    ShaderMachine machine;
+    machine.profile = &region.profile();
+    machine.depth = region.frame().key_request();
+    machine.depth_near = raster.depth_near;
+    machine.depth_far = raster.depth_far;
+    machine.depth_clamp = raster.depth_clamp;
+    for (std::size_t u = 0; u < stages.size(); ++u) {
+        const BoundTexture& texture = stages[u].texture;
+        DepthTexels& texels = machine.texels[u];
+        if (texture.depth_image != nullptr) {
+            texels = DepthTexels{*texture.depth_image};
+            texels.bottom_up = texture.bottom_up;
+        } else if (texture.depth.exists()) {
+            texels = region.depth_texels(texture.depth);
+        }
+        texels.is_eight_bit = texture.eight_bit_depth;
+    }
+    return machine;
+}
+
+}  // namespace
+
+FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPath& path)
+    : path_{path},
+      ops_{consistent_operations(path.shader)},
+      machine_{machine_of(region, path.shader)},
+      combiners_{path.combiners},
+      results_{std::make_unique<ShaderResults>()} {
+    if (auto lacking = check(region.profile(), Feature::depth_replace))
+        throw Refused{region.profile(), {"texture shaders", lacking->extension, lacking->way_out}};
+}
+
+void FragmentPathProgram::apply(PassState& state) const {
+    state.needs.color = true;
+    state.needs.units |= coordinates_of(path_.shader, ops_);
+    state.replaces_depth = replaces_depth(ops_);
+    for (std::size_t u = 0; u < ops_.size(); ++u)
+        state.textures[u] = ops_[u] == ShaderOp::none ? Target{} : path_.shader[u].texture.depth;
+}
+
+void FragmentPathProgram::operator()(const FragmentBatch& in, const Loads&, Outputs& out) {
+    const auto count = static_cast<std::size_t>(in.count);
+    run_texture_shader(path_.shader, ops_, machine_, in, *results_);
+    for (std::size_t i = 0; i < count; ++i) out.alive[i] &= results_->alive[i];
+    if (replaces_depth(ops_)) {
+        std::copy_n(results_->code.begin(), count, out.depth.begin());
+        out.replaces_depth = true;
+    }
+    CombinerSources sources{.primary = &in.color};
+    for (std::size_t u = 0; u < ops_.size(); ++u) sources.texture[u] = &results_->stage[u].rgba;
+    combiners_.run(sources, out.color[0], in.count);
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,111 @@
+#include "pipeline/region/fragment_store.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace strata::pipeline {
+
+using rasterizer::FragmentBatch;
+using rasterizer::FragmentNeeds;
+using rasterizer::Lanes;
+
+template <class Visit>
+void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visit&& visit) {
+    visit(batch.pixel);
+    visit(batch.x);
+    visit(batch.y);
+    visit(batch.primitive);
+    if (needs.shader_z) visit(batch.shader_z);
+    if (needs.code) visit(batch.code);
+    if (needs.exact_code) visit(batch.exact_code);
+    if (needs.color)
+        for (auto& channel : batch.color) visit(channel);
+    if (needs.texcoord)
+        for (auto& coordinate : batch.texcoord) visit(coordinate);
+    if (needs.reference) {
+        visit(batch.reference_z);
+        visit(batch.reference_code);
+    }
+    if (needs.facing) visit(batch.front_facing);
+    for (std::size_t u = 0; needs.units != 0 && u < rasterizer::texture_units; ++u)
+        for (std::size_t c = 0; c < 4; ++c)
+            if (rasterizer::names(needs.units, u, c)) visit(batch.unit[u][c]);
+}
+
+std::size_t FragmentStore::packed_bytes(std::size_t count) const noexcept {
+    static const FragmentBatch shape{};         // only the types of its arrays are looked at
+    std::size_t bytes = sizeof(std::uint32_t);  // `alive`, whether it is kept or not
+    for_each_array(needs_, shape, [&](const auto& array) { bytes += sizeof(array[0]); });
+    return count * bytes;
+}
+
+void FragmentStore::start(const FragmentNeeds& needs, std::uint64_t limit) {
+    forget();
+    needs_ = needs;
+    limit_ = limit;
+    state_ = State::filling;
+}
+
+void FragmentStore::forget() {
+    state_ = State::empty;
+    used_chunks_ = used_bytes_ = 0;
+    batches_.clear();
+}
+
+void FragmentStore::finish() {
+    if (state_ == State::filling) state_ = State::complete;
+}
+
+void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t>& alive) {
+    if (state_ != State::filling) return;
+    const auto count = static_cast<std::size_t>(batch.count);
+    if (used_chunks_ == 0 || used_bytes_ + packed_bytes(count) > chunk_bytes) {
+        if ((used_chunks_ + 1) * chunk_bytes > limit_) {
+            forget();
+            state_ = State::too_large;
+            return;
+        }
+        if (used_chunks_ == chunks_.size()) chunks_.emplace_back(std::size_t{chunk_bytes});
+        ++used_chunks_;
+        used_bytes_ = 0;
+    }
+    std::byte* at = chunks_[used_chunks_ - 1].data() + used_bytes_;
+    const bool has_dead =
+        std::any_of(alive.begin(), alive.begin() + batch.count, [](std::uint32_t a) { return a == 0; });
+    batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead});
+    const auto pack = [&](const auto& array) {
+        std::memcpy(at, array.data(), count * sizeof(array[0]));
+        at += count * sizeof(array[0]);
+    };
+    if (has_dead) pack(alive);
+    for_each_array(needs_, batch, pack);
+    used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].data());
+}
+
+bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
+    const auto has = [](bool held, bool needed) { return held || !needed; };
+    return state_ == State::complete && has(needs_.shader_z, needs.shader_z) && has(needs_.code, needs.code) &&
+           has(needs_.exact_code, needs.exact_code) && has(needs_.color, needs.color) &&
+           has(needs_.texcoord, needs.texcoord) && has(needs_.facing, needs.facing) &&
+           has(needs_.reference, needs.reference) && (needs.units & ~needs_.units) == 0;
+}
+
+void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::uint32_t>& alive) const {
+    assert(state_ == State::complete && number < batches_.size());
+    const Packed& packed = batches_[number];
+    const std::byte* at = packed.begin;
+    const auto unpack = [&](auto& array) {
+        std::memcpy(array.data(), at, packed.count * sizeof(array[0]));
+        at += packed.count * sizeof(array[0]);
+    };
+    batch.count = packed.count;
+    batch.material = packed.material;
+    if (packed.has_dead)
+        unpack(alive);
+    else
+        std::fill_n(alive.begin(), packed.count, ~0u);
+    for_each_array(needs_, batch, unpack);
+}
+
+}  // namespace strata::pipeline

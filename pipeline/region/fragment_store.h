@@ -1,0 +1,58 @@
+// pipeline/region/fragment_store.h - a region's fragments as its first draw saw them, for the draws that follow: what replay stands on.
+//
+// Rule     Batches are kept whole and in submission order, after texture and MASK: what later stages see of a batch does not
+//          depend on whether it was rasterized or recalled. A store that would outgrow its limit forgets everything, and its
+//          region rasterizes every pass.
+// Layout   The arrays of one batch lie one after the other, packed to its count; batches fill chunks of 256 KiB. Batches as the
+//          rasterizer made them cost no second sorting and read back in a straight line.
+// Tests    tests/pipeline/region/fragment_store_test.cpp; tests/peeling/execution_test.cpp
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rasterizer/base/uninitialized.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+class FragmentStore {
+  public:
+    // Forgets what it holds and takes in batches with the arrays that `needs` names, as long as they fit into `limit` bytes.
+    void start(const rasterizer::FragmentNeeds& needs, std::uint64_t limit);
+    void append(const rasterizer::FragmentBatch& batch, const rasterizer::Lanes<std::uint32_t>& alive);
+    void finish();  // nothing more will come
+    void forget();
+
+    [[nodiscard]] bool may_start() const noexcept { return state_ != State::too_large; }
+    // Whether the store is complete and holds every array that `needs` names.
+    [[nodiscard]] bool serves(const rasterizer::FragmentNeeds& needs) const noexcept;
+    [[nodiscard]] std::size_t batches() const noexcept { return batches_.size(); }
+    void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive) const;
+
+    [[nodiscard]] std::uint64_t bytes() const noexcept { return chunks_.size() * std::uint64_t{chunk_bytes}; }
+
+  private:
+    static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
+    enum class State : std::uint8_t { empty, filling, complete, too_large };
+    struct Packed {
+        const std::byte* begin;
+        std::uint32_t material;
+        std::uint16_t count;
+        bool has_dead;  // MASK killed some: `alive` is among the arrays
+    };
+
+    template <class Visit>
+    static void for_each_array(const rasterizer::FragmentNeeds& needs, auto& batch, Visit&& visit);
+    [[nodiscard]] std::size_t packed_bytes(std::size_t count) const noexcept;
+
+    State state_ = State::empty;
+    rasterizer::FragmentNeeds needs_;
+    std::uint64_t limit_ = 0;
+    std::vector<UninitializedVector<std::byte>> chunks_;  // kept from region to region: memory is asked for once
+    std::size_t used_chunks_ = 0, used_bytes_ = 0;        // the latter of the last chunk in use
+    std::vector<Packed> batches_;
+};
+
+}  // namespace strata::pipeline

@@ -1,0 +1,52 @@
+// pipeline/region/region_idle.cpp - stages that nobody calls for, simulated with a state that changes nothing: what Effects::all adds.
+//
+// Rule     An idle stage does the stage's work on the pass's own fragments and counts nothing. Its outcome goes on to the next stage
+//          wherever it is the same by the stage's own rule: every alpha test and depth test that passes all, a stencil that keeps,
+//          and blending ONE and ZERO of UNORM8 (write_colors). In float formats s + 0 d is not s for -0, infinity and NaN:
+//          there the sum is made and dropped.
+// Tests    tests/peeling/execution_test.cpp: against Effects::needed
+#include "pipeline/region/region.h"
+#include "pipeline/region/region_scratch.h"
+#include "pipeline/stages/alpha_test.h"
+#include "pipeline/stages/blend.h"
+#include "pipeline/stages/stencil.h"
+
+namespace strata::pipeline {
+
+// Whatever the alpha is, its 8-bit code is at least 0.
+void Region::idle_alpha_test(const PassState& state, const FragmentBatch& batch, Outputs& out) {
+    if (!state.color[0].exists()) return;  // no alpha of colour 0
+    constexpr AlphaTest passes_all{.enabled = true, .func = CompareFunc::gequal, .ref = 0.0f};
+    alpha_test(passes_all, true, out.color[0][3].data(), out.alive.data(), batch.count);
+}
+
+void Region::idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
+    const PixelLanes at_pixels{batch.pixel.data(), static_cast<std::size_t>(batch.count)};
+    if (frame_.idles(Effect::depth_test, state.depth.enabled)) {
+        constexpr DepthTest passes_all{.enabled = true, .func = CompareFunc::always, .write = false};
+        TargetStorage& depth = at(opaque_depth_);
+        static_cast<void>(test_depth(passes_all, depth_format(depth.format()), depth.depth_plane(0), at_pixels,
+                                     batch.code.data(), alive.data()));
+    }
+    if (!frame_.idles(Effect::stencil_test, state.stencil.enabled)) return;
+    if (!idle_stencil_) idle_stencil_.emplace(Format::s8, 1, rect_.area());
+    Scratch& s = *scratch_;
+    const Texels stencil{idle_stencil_->stencil_plane(0), 1, 32};
+    gather_codes(stencil, at_pixels, &s.stencil_stored);
+    std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
+    constexpr StencilTest keeps{.enabled = true, .two_sided = false, .front = {}, .back = {}};
+    static_cast<void>(stencil_test(keeps, {batch.front_facing.data(), s.depth_pass.data(), alive.data(),
+                                           s.stencil_stored.data(), s.saturated.data(), batch.count}));
+    scatter_codes(stencil, at_pixels, alive.data(), 1, &s.stencil_stored);
+}
+
+void Region::idle_blend(const Blend& blending, const FragmentBatch& batch, const ColorLanes& color,
+                        const TargetStorage& target, int sample) {
+    Blend again = blending;
+    again.enabled = true;
+    const FormatInfo format = info(target.format());
+    target.gather(batch.pixel, batch.count, sample, scratch_->idle_codes);
+    blend(again, format.type, profile(), format.channels, color, scratch_->idle_codes, batch.count);
+}
+
+}  // namespace strata::pipeline

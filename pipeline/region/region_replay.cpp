@@ -1,0 +1,138 @@
+// pipeline/region/region_replay.cpp - where a geometry pass gets its fragments from: the rasterizer, or what an earlier pass captured.
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/frame/effects.h"
+#include "pipeline/region/region.h"
+#include "pipeline/region/region_scratch.h"
+#include "rasterizer/rules/depth_code.h"
+#include "rasterizer/set_up/depth_bound.h"
+
+namespace strata::pipeline {
+
+using rasterizer::FragmentNeeds;
+
+FragmentStore& Region::store() noexcept { return scratch_->store; }
+
+// A second list's is not asked for tile by tile.
+const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
+    const bool is_transparent = &list == frame_.transparent, is_opaque = &list == frame_.opaque;
+    if (extent_ == Extent::frame || list.needs == MaterialNeeds{} || !(is_transparent || is_opaque)) return list.needs;
+    auto& needs = is_transparent ? transparent_needs_ : opaque_needs_;
+    if (!needs) needs = needs_of(list, list.geometry.bin(tile_));
+    return *needs;
+}
+
+void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
+                       rasterizer::BatchSink sink) {
+    samples_textures_ = needs.color && needs_of_tile(list).texcoord;
+    takes_shadow_ = needs.color && list.needs.shadow != 0;
+    const auto& geometry = list.geometry;
+    const auto triangles =
+        extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
+    if (primitives.empty()) rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
+    const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
+        return geometry.triangles[triangle].primitive < primitive;
+    };
+    for (const PrimitiveRange& range : primitives) {
+        const auto first = std::lower_bound(triangles.begin(), triangles.end(), range.first, before);
+        const auto last = std::lower_bound(first, triangles.end(), range.last, before);
+        rasterizer_.draw(geometry, {first, last}, frame_.key_request(), needs, sink);
+    }
+}
+
+void Region::count_coverage(std::span<std::uint32_t> coverage) {
+    constexpr FragmentNeeds nothing{false, false, false, false, false, false};
+    auto add = [&](FragmentBatch& batch) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
+    };
+    const rasterizer::Geometry& geometry = frame_.transparent->geometry;
+    rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
+}
+
+// Twice as many triangles each time: whoever has had enough soon is asked soon, and few batches end early for it.
+void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
+                            const bool& goes_on) {
+    const PreparedDraw& list = *frame_.transparent;
+    needs.color |= needs_of_tile(list).color;  // MASK decides which fragments there are
+    needs.texcoord |= needs_of_tile(list).texcoord && needs.color;
+    samples_textures_ = needs.texcoord;
+    takes_shadow_ = needs.color && list.needs.shadow != 0;
+    if (takes_shadow_) needs.units |= list.needs.shadow;
+    rasterizer::TileRasterizer rows{band};
+    auto triangles = list.geometry.bin(tile_);
+    for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
+        part = std::min(part, triangles.size());
+        rows.draw(list.geometry, triangles.first(part), frame_.key_request(), needs, sink);
+        triangles = triangles.subspan(part);
+    }
+}
+
+void Region::replay(rasterizer::BatchSink sink) {
+    const Source before = std::exchange(source_, Source::store);
+    for (std::size_t number = 0; number < store().batches(); ++number) {
+        store().recall(number, scratch_->recalled, scratch_->recalled_alive);
+        sink(scratch_->recalled);
+    }
+    source_ = before;
+}
+
+// Whether the test against a cleared opaque depth can be left out in this tile.
+DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& list) const {
+    using rasterizer::DepthPath;
+    const bool is_plain = state.depth.enabled && state.depth.func == CompareFunc::less && !state.depth.write &&
+                          state.depth_target == opaque_depth_ && !state.stencil.enabled &&
+                          state.depth_unit_count == 0 && !state.replaces_depth;
+    const rasterizer::DepthRequest depth = frame_.key_request();
+    const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
+    if (!is_plain || !has_bound || state.needs.code || !opaque_depth_is_cleared_ || extent_ == Extent::frame ||
+        frame_.effects == Effects::all || &list != frame_.transparent)
+        return DepthOutcome::open;
+    const double bound = depth_bound(list.geometry, list.geometry.bin(tile_));
+    const auto code = [&](float z) { return to_depth_code(z, depth.format, profile().raster.depth_rounding); };
+    return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
+}
+
+// The first pass over the transparent list captures what it and all later passes look at; a list that did not fit is rasterized
+// every time.
+void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
+    depth_ = depth_outcome(state, list);
+    const MaterialNeeds& materials = needs_of_tile(list);
+    FragmentNeeds needs = with_value(pass_needs(state, materials, frame_.effects, depth_), frame_.once_more);
+    if (frame_.pass_log != nullptr)
+        frame_.pass_log->passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
+                                           needs.color && materials.texcoord, &list == frame_.opaque, iterations_});
+    const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent && state.primitives.empty();
+    FragmentNeeds kept = needs;
+    kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow
+    kept.units = state.needs.units;
+    if (may_replay && store().serves(kept)) {
+        replay(sink);
+    } else if (may_replay && store().may_start()) {
+        source_ = Source::captured;
+        needs = needs | frame_.replay.needs;
+        needs.texcoord |= materials.texcoord && needs.color;
+        if (needs.color) needs.units |= materials.shadow;
+        store().start(kept | frame_.replay.needs, frame_.replay.bytes);
+        rasterize(list, needs, {}, sink);
+        store().finish();
+    } else {
+        rasterize(list, needs, state.primitives, sink);
+    }
+    source_ = Source::rasterizer;
+}
+
+// What the material stage leaves is the same whether it runs or is remembered, and so are its counters.
+void Region::shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
+    if (source_ != Source::store) {
+        shade(list, batch, out);
+        if (source_ == Source::captured) store().append(batch, out.alive);
+        return;
+    }
+    std::copy_n(scratch_->recalled_alive.begin(), batch.count, out.alive.begin());
+    Counters& counters = record().counters;
+    counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
+    counters.alpha_killed += static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count);
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,119 @@
+// pipeline/region/region_rows.cpp - geometry passes that need no batches: the rasterizer's rows go straight into the targets, where
+// that leaves the same bits and the same counts. Literal execution never takes this way: it is what this one is tested against.
+#include <algorithm>
+
+#include "pipeline/region/region.h"
+#include "pipeline/region/region_scratch.h"
+#include "pipeline/stages/sum_rows.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+static_assert(rasterizer::row_padding <= spare_words);
+
+// What the materials of a region's triangles call for; mostly nothing, and then no triangle is looked at.
+MaterialNeeds needs_in(const PreparedDraw& list, std::size_t tile) {
+    return list.needs == MaterialNeeds{} ? list.needs : needs_of(list, list.geometry.bin(tile));
+}
+
+}  // namespace
+
+bool Region::may_walk_rows(const PreparedDraw& list) const {
+    return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.once_more == Effect::none &&
+           row_walk_suits(list.geometry, frame_.key_request(), rect_);
+}
+
+std::optional<RowSource> Region::row_source() const {
+    const PreparedDraw& list = *frame_.transparent;
+    if (!may_walk_rows(list) || profile().raster.color != rasterizer::ColorInterpolation::exact_plane ||
+        needs_in(list, tile_) != MaterialNeeds{})
+        return {};
+    return RowSource{list.geometry, list.geometry.bin(tile_), frame_.key_request()};
+}
+
+// Whether nothing stands between the rasterizer and the tests of this pass.
+bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const {
+    if (!may_walk_rows(list)) return false;
+    const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
+                          (state.sample_mask & 1u) != 0 && state.primitives.empty() && !state.needs.reference &&
+                          !state.replaces_depth && std::ranges::none_of(state.reads, &Target::exists) &&
+                          std::ranges::none_of(state.textures, &Target::exists) && !needs_in(list, tile_).color;
+    const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
+    return is_plain && !is_recalled;
+}
+
+// What batches would have counted, with the test against the depth target.
+void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn) {
+    const auto bytes = static_cast<std::uint64_t>(info(at(state.depth_target).format()).bytes_per_pixel);
+    fragments_drawn_ += drawn.fragments;
+    record().counters += {.fragments_rasterized = drawn.fragments,
+                          .depth_killed = drawn.fragments - drawn.passed,
+                          .blended = drawn.passed,
+                          .bytes_read = bytes * drawn.fragments,
+                          .bytes_written = state.depth.write ? bytes * drawn.passed : 0};
+}
+
+Drawn Region::draw_depth(const PassState& state) {
+    const PreparedDraw& list = *frame_.transparent;
+    const bool is_nearest = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true};
+    if (!is_nearest || !is_one_sample(state.depth_target) || !draws_rows(state, list))
+        return draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {});
+    begin_pass(state, PassKind::geometry);
+    const rasterizer::DepthDrawn rows = draw_depth_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
+                                                        rect_, at(state.depth_target).depth_plane(0).words);
+    count_rows(state, rows);
+    Drawn drawn;
+    drawn.passed.own_ = rows.passed;
+    return drawn;
+}
+
+bool Region::sums_suit_rows(const PassState& state) const {
+    const auto is_sum = [&](std::size_t k, Format format) {
+        return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format &&
+               state.blend[k] == blend_mode::sum;
+    };
+    const PreparedDraw& list = *frame_.transparent;
+    const bool is_tested = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = false};
+    const bool counts = state.color[1].exists();
+    return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
+           (!counts || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
+           profile().raster.color == rasterizer::ColorInterpolation::exact_plane && draws_rows(state, list) &&
+           list.needs.shadow == 0 && !needs_in(list, tile_).texcoord;
+}
+
+Drawn Region::draw_sum_rows(const PassState& state) {
+    const PreparedDraw& list = *frame_.transparent;
+    begin_pass(state, PassKind::geometry);
+    const bool is_open = depth_outcome(state, list) == DepthOutcome::open, counts = state.color[1].exists();
+    const Texels sums = at(state.color[0]).texels(0);
+    const SumPlanes planes{{sums.plane(0).words, sums.plane(1).words},
+                           counts ? at(state.color[1]).texels(0).plane(0).words : nullptr,
+                           is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
+    const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
+                                                     rect_, planes, profile().denormals == DenormalRule::flush);
+    count_rows(state, rows);
+    for (std::size_t k = 0; k < (counts ? 2u : 1u); ++k)
+        count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);
+    Drawn drawn;
+    drawn.passed.own_ = rows.passed;
+    return drawn;
+}
+
+std::optional<ScreenWords> Region::full_screen_words(const PassState& state, std::span<const Format> reads,
+                                                     Format color) {
+    const auto is = [&](Target t, Format format) { return is_one_sample(t) && storage(t).format() == format; };
+    const auto first_read = state.reads.begin();
+    if (extent_ != Extent::tile || frame_.effects != Effects::needed || !is(state.color[0], color) ||
+        !std::equal(reads.begin(), reads.end(), first_read, [&](Format format, Target t) { return is(t, format); }))
+        return {};
+    begin_pass(state, PassKind::full_screen);
+    ScreenWords words{{}, at(state.color[0]).texels(0), rect_.area()};
+    for (std::size_t r = 0; r < reads.size(); ++r) {
+        words.reads[r] = at(state.reads[r]).texels(0);
+        record().counters.bytes_read += static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel) * words.pixels;
+    }
+    return words;
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,51 @@
+// pipeline/region/region_scratch.h - what a region borrows while it runs: the arrays that one batch passes through, the rasterizer's own,
+// and the captured fragments. Handed from region to region, so that nothing is allocated per batch and little per tile.
+#pragma once
+#include <mutex>
+
+#include "pipeline/region/arena.h"
+#include "pipeline/region/fragment_store.h"
+#include "pipeline/region/region.h"
+
+namespace strata::pipeline {
+
+struct alignas(64) Region::Scratch {
+    Loads loads;
+    Outputs out;
+    FragmentBatch screen;
+    FragmentBatch recalled;
+    Lanes<std::uint32_t> recalled_alive;
+    ColorLanes texel;
+    ColorCodes codes, idle_codes;
+    Lanes<std::uint32_t> alive;         // of one sample
+    Lanes<std::uint32_t> depth_stored;  // of a pixel that is stored alone
+    Lanes<std::uint32_t> depth_pass;
+    Lanes<std::uint32_t> stencil_stored;
+    Lanes<std::uint32_t> saturated;
+    FragmentStore store;
+    Arena arena;
+};
+
+// Free sets; as many as regions ever ran at once. A set carries no values from one region to the next.
+class Region::ScratchPool {
+  public:
+    [[nodiscard]] std::unique_ptr<Scratch> take() {
+        const std::scoped_lock lock{mutex_};
+        if (free_.empty()) return std::make_unique<Scratch>();
+        std::unique_ptr<Scratch> scratch = std::move(free_.back());
+        free_.pop_back();
+        scratch->store.forget();
+        scratch->arena.reset();
+        return scratch;
+    }
+    void give(std::unique_ptr<Scratch> scratch) {
+        const std::scoped_lock lock{mutex_};
+        free_.push_back(std::move(scratch));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Scratch>> free_;
+};
+
+}  // namespace strata::pipeline

@@ -1,0 +1,303 @@
+// pipeline/region/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order: texture and MASK,
+// (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. hardware.md 0.
+#include <algorithm>
+#include <stdexcept>
+
+#include "pipeline/formats/convert.h"
+#include "pipeline/formats/narrow.h"
+#include "pipeline/formats/unorm8.h"
+#include "pipeline/region/check_pass.h"
+#include "pipeline/frame/effects.h"
+#include "pipeline/region/region.h"
+#include "pipeline/region/region_scratch.h"
+#include "pipeline/stages/alpha_test.h"
+#include "pipeline/stages/blend.h"
+#include "pipeline/stages/depth_test.h"
+#include "pipeline/stages/stencil.h"
+#include "pipeline/textures/shadow_stage.h"
+#include "pipeline/textures/texture_sample.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+// The one channel of a depth or stencil plane.
+Texels codes_in(Plane plane) noexcept { return {plane, 1, 32}; }
+
+PixelLanes lanes_of(const FragmentBatch& batch) noexcept {
+    return {batch.pixel.data(), static_cast<std::size_t>(batch.count)};
+}
+
+std::uint64_t count_lanes(const Lanes<std::uint32_t>& mask, int count) noexcept {
+    return pipeline::count_lanes(mask.data(), static_cast<std::size_t>(count));
+}
+
+constexpr auto every_lane = [] {
+    Lanes<std::uint32_t> lanes{};
+    lanes.fill(~0u);
+    return lanes;
+}();
+
+void narrow(Format format, ColorCodes& codes, int count) noexcept {
+    for (int c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            codes[static_cast<std::size_t>(c)][i] = narrowed(format, c, codes[static_cast<std::size_t>(c)][i]);
+}
+// What a surface of 16 bits blends: colours already cut to its bits, alpha as it is (narrow.h).
+const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorLanes& cut, int count) noexcept {
+    if (info(format).bytes_per_pixel != 2 || !is_narrow(format)) return source;
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            cut[c][i] =
+                c == 3 ? source[c][i] : unorm8_value(narrowed(format, static_cast<int>(c), to_unorm8(source[c][i])));
+    return cut;
+}
+Blend idle(const Blend& blending) {
+    return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask};
+}
+
+std::uint64_t pixel_bytes(const TargetStorage& s) {
+    return static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
+}
+
+}  // namespace
+
+const Loads& Region::loads() const noexcept { return scratch_->loads; }
+FragmentBatch& Region::screen_batch() noexcept { return scratch_->screen; }
+std::uint64_t Region::alive_count(const Outputs& out, int count) noexcept { return count_lanes(out.alive, count); }
+
+void Region::begin_pass(const PassState& state, PassKind kind) {
+    kind_ = kind;
+    tallied_ = 0;
+    check_pass(profile(), state, storages_);
+    opaque_depth_is_cleared_ &= !(writes_depth(state.depth) && state.depth_target == opaque_depth_);
+    depth_ = DepthOutcome::open;
+    if (state.depth.enabled && depth_format(at(state.depth_target).format()) != frame_.key_request().format)
+        throw std::logic_error("pass state: the depth target's format is not that of the frame's depth codes");
+    pass_samples_ = 1;
+    for (const Target t : {state.depth_target, state.stencil_target})
+        if (t.exists()) pass_samples_ = at(t).samples();
+    for (const Target t : state.color)
+        if (t.exists()) pass_samples_ = at(t).samples();
+    if (kind == PassKind::geometry) {
+        ++record().passes.geometry;
+        if (counts_) ++geometry_passes_;
+        return;
+    }
+    ++record().passes.full_screen;
+    for (std::size_t k = 0; k < state.color.size();
+         ++k)  // a quad's traffic is every pixel's, whatever its program discards
+        if (state.color[k].exists()) count_color_bytes(state.blend[k], at(state.color[k]), rect_.area());
+}
+
+void Region::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
+    if (blending.enabled) record().counters.bytes_read += pixel_bytes(target) * pixels;
+    record().counters.bytes_written += pixel_bytes(target) * pixels;
+}
+
+bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
+    const std::size_t left = rect_.area() - next;
+    const std::size_t count = std::min<std::size_t>(left, batch_capacity);
+    const auto width = static_cast<std::size_t>(rect_.width());
+    std::size_t x = next % width, y = next / width;
+    for (std::size_t i = 0; i < count; ++i) {
+        batch.pixel[i] = static_cast<std::uint32_t>(next + i);
+        batch.x[i] = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.x0) + x);
+        batch.y[i] = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.y0) + y);
+        if (++x == width) x = 0, ++y;
+    }
+    next += count;
+    batch.count = static_cast<int>(count);
+    return count > 0;
+}
+
+Outputs& Region::start_batch(const FragmentBatch& batch) {
+    Outputs& out = scratch_->out;
+    std::fill_n(out.alive.begin(), batch.count, ~0u);
+    out.traced = out.replaces_depth = false;
+    return out;
+}
+
+void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
+    fragments_drawn_ += static_cast<std::uint64_t>(batch.count);
+    record().counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
+    const MaterialStage& material = list.materials[batch.material];
+    if (material.texture != nullptr && samples_textures_) {
+        sample(*material.texture, profile().texture_filter, batch.texcoord[0], batch.texcoord[1], scratch_->texel,
+               batch.count);
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                batch.color[c][i] *= scratch_->texel[c][i];
+    }
+    if (takes_shadow_) cast_shadow(*frame_.shadow, profile(), batch, scratch_->texel);
+    if (!material.mask.enabled) return;
+    const bool eight_bit = is_eight_bit_alpha(profile().alpha_test, info(frame_.color_format).type);
+    alpha_test(material.mask, eight_bit, batch.color[3].data(), out.alive.data(), batch.count);
+    record().counters.alpha_killed += static_cast<std::uint64_t>(batch.count) - alive_count(out, batch.count);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.color[3][i] *= material.alpha_scale;
+}
+
+void Region::load(const PassState& state, const FragmentBatch& batch) {
+    for (const Target t : state.textures)
+        if (t.exists()) record().counters.bytes_read += pixel_bytes(at(t)) * static_cast<std::uint64_t>(batch.count);
+    for (std::size_t r = 0; r < state.reads.size(); ++r) {
+        if (!state.reads[r].exists()) continue;
+        TargetStorage& from = at(state.reads[r]);
+        record().counters.bytes_read += pixel_bytes(from) * static_cast<std::uint64_t>(batch.count);
+        load_target(from, r, batch);
+        if (frame_.once_more == Effect::loads) load_target(from, r, batch);
+    }
+}
+
+void Region::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
+    if (is_depth(from.format()))
+        return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &scratch_->loads.depth_[read]);
+    const FormatInfo format = info(from.format());
+    from.gather(batch.pixel, batch.count, 0, scratch_->codes);
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (c < static_cast<std::size_t>(format.channels))
+            decode(format.type, scratch_->codes[c], scratch_->loads.color_[read][c], batch.count);
+        else
+            std::fill_n(scratch_->loads.color_[read][c].begin(), batch.count, c == 3 ? 1.0f : 0.0f);
+    }
+}
+
+void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
+    if (state.alpha.enabled) {
+        const std::uint64_t before = alive_count(out, batch.count);
+        const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
+        alpha_test(state.alpha, is_eight_bit_alpha(profile().alpha_test, type), out.color[0][3].data(),
+                   out.alive.data(), batch.count);
+        record().counters.alpha_killed += before - alive_count(out, batch.count);
+    }
+    if (frame_.idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
+    for (int sample = 0; sample < pass_samples_; ++sample)
+        if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
+    drawn.tallied = Count{tallied_};
+}
+
+void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                           Drawn& drawn) {
+    Lanes<std::uint32_t>& alive = scratch_->alive;
+    std::copy_n(out.alive.begin(), batch.count, alive.begin());
+    if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
+    idle_tests(state, batch, alive);
+    const bool is_tested = state.depth.enabled || state.stencil.enabled;
+    const std::uint64_t passed =
+        is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
+    drawn.passed.own_ += passed;
+    if (passed == 0) return;
+    if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
+    write_colors(state, batch, out, sample, alive, passed);
+    if (out.traced && frame_.trace && counts_ && sample == 0) record_trace(batch, out, alive);
+}
+
+void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+        if (alive[i] != 0 && out.side[i] != Side::none)
+            trace_.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
+                              out.side[i], kind_ == PassKind::geometry});
+}
+
+void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
+    for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
+        TargetStorage& target = at(state.depth_units[unit].depth);
+        const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
+        const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(0),
+                                              lanes_of(batch), batch.code.data(), alive.data());
+        record().counters.bytes_read += pixel_bytes(target) * result.arriving;
+        record().counters.depth_killed += result.arriving - result.passed;
+    }
+}
+
+std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                             Lanes<std::uint32_t>& alive) {
+    Scratch& s = *scratch_;
+    Counters& counters = record().counters;
+    TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
+    DepthResult tested;
+    std::uint64_t stencil_killed = 0;
+    if (depth_ == DepthOutcome::passes) {
+        tested.arriving = tested.passed = count_lanes(alive, batch.count);
+    } else if (!state.stencil.enabled) {
+        tested = test_depth(state.depth, depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
+                            batch.code.data(), alive.data());
+    } else {
+        // The depth's answer for every fragment first; it is written when the stencil has had its say.
+        tested.arriving = count_lanes(alive, batch.count);
+        std::fill_n(s.depth_pass.begin(), batch.count, ~0u);
+        if (depth != nullptr)
+            static_cast<void>(test_depth({.enabled = true, .func = state.depth.func, .write = false},
+                                         depth_format(depth->format()), depth->depth_plane(sample), lanes_of(batch),
+                                         batch.code.data(), s.depth_pass.data()));
+        stencil_killed = test_stencil(state, batch, sample, alive);
+        tested.passed = count_lanes(alive, batch.count);
+        if (depth != nullptr && state.depth.write)
+            scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
+    }
+    counters.stencil_killed += stencil_killed;
+    counters.depth_killed += tested.arriving - stencil_killed - tested.passed;
+    if (depth != nullptr) {
+        counters.bytes_read += pixel_bytes(*depth) * (tested.arriving - stencil_killed);
+        if (state.depth.write) counters.bytes_written += pixel_bytes(*depth) * tested.passed;
+    }
+    return tested.passed;
+}
+
+std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
+                                   Lanes<std::uint32_t>& alive) {
+    Scratch& s = *scratch_;
+    const Texels stencil = codes_in(at(state.stencil_target).stencil_plane(sample));
+    const std::uint64_t arriving = count_lanes(alive, batch.count);
+    gather_codes(stencil, lanes_of(batch), &s.stencil_stored);
+    const int killed = stencil_test(state.stencil, {batch.front_facing.data(), s.depth_pass.data(), alive.data(),
+                                                    s.stencil_stored.data(), s.saturated.data(), batch.count});
+    scatter_codes(stencil, lanes_of(batch), every_lane.data(), 1, &s.stencil_stored);
+    record().counters.bytes_read += arriving;
+    record().counters.bytes_written += arriving;
+    if (!state.saturates_by_design) report_saturation(batch);
+    return static_cast<std::uint64_t>(killed);
+}
+
+void Region::report_saturation(const FragmentBatch& batch) {
+    const Lanes<std::uint32_t>& saturated = scratch_->saturated;
+    if (count_lanes(saturated, batch.count) == 0) return;
+    has_saturated_.resize(rect_.area());
+    std::uint64_t pixels = 0;  // that had not saturated before
+    std::uint32_t first = ~0u;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+        if (saturated[i] == 0 || has_saturated_[batch.pixel[i]]) continue;
+        has_saturated_[batch.pixel[i]] = true;
+        first = std::min(first, batch.pixel[i]);
+        ++pixels;
+    }
+    report(Fault::stencil_saturated, pixels, first, "INCR or DECR at the end of the 8-bit range");
+}
+
+void Region::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
+                          const Lanes<std::uint32_t>& alive, std::uint64_t passed) {
+    for (std::size_t k = 0; k < state.color.size(); ++k) {
+        const Blend& blending = state.blend[k];
+        if (!state.color[k].exists() || blending.write_mask == 0) continue;
+        TargetStorage& target = at(state.color[k]);
+        const FormatInfo format = info(target.format());
+        if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
+        const bool idles = frame_.idles(Effect::blending, blending.enabled);
+        const bool keeps_source = idles && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do
+        if (idles && !keeps_source) idle_blend(blending, batch, out.color[k], target, sample);
+        const bool adds_halves = frame_.effects == Effects::needed && format.type == ChannelType::half &&
+                                 profile().half_rounding == HalfRounding::nearest_even && blending == blend_mode::sum;
+        if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],
+                                      profile().denormals == DenormalRule::flush))
+            continue;
+        const Blend used = keeps_source ? idle(blending) : blending;
+        if (used.enabled || blending.write_mask != 0xf || frame_.effects == Effects::all)
+            target.gather(batch.pixel, batch.count, sample, scratch_->codes);
+        const ColorLanes& source = blended_source(target.format(), out.color[k], scratch_->texel, batch.count);
+        blend(used, format.type, profile(), format.channels, source, scratch_->codes, batch.count);
+        if (is_narrow(target.format())) narrow(target.format(), scratch_->codes, batch.count);
+        target.scatter(batch.pixel, alive, batch.count, sample, blending.write_mask, scratch_->codes);
+    }
+}
+
+}  // namespace strata::pipeline

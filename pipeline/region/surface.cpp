@@ -1,0 +1,158 @@
+#include "pipeline/region/surface.h"
+
+#include <algorithm>
+
+#include "pipeline/device/check.h"
+#include "pipeline/formats/narrow.h"
+#include "pipeline/region/fragment_path.h"
+#include "rasterizer/base/float_environment.h"
+
+namespace strata::pipeline {
+
+struct Surface::State {
+    State(const DeviceProfile& p, const SurfaceLayout& l)
+        : profile{p},
+          layout{l},
+          list{empty(l)},
+          frame{make_frame(p, l, list)},
+          region{frame, frame.rect(), 0, Extent::frame},
+          color{region.make(l.color)},
+          depth{region.make_depth()},
+          stencil{region.make(Format::s8)} {}
+
+    static PreparedDraw empty(const SurfaceLayout& layout) {
+        PreparedDraw list;
+        list.geometry.state.viewport = {0, 0, layout.width, layout.height};
+        return list;
+    }
+    static Frame make_frame(const DeviceProfile& profile, const SurfaceLayout& layout, const PreparedDraw& list) {
+        Frame frame;
+        frame.profile = &profile;
+        frame.transparent = &list;
+        frame.depth = {profile.raster.depth_path, layout.depth};
+        frame.color_format = layout.color;
+        return frame;
+    }
+
+    DeviceProfile profile;
+    SurfaceLayout layout;
+    PreparedDraw list;  // what is drawn
+    Frame frame;
+    Region region;
+    Target color, depth, stencil;
+};
+
+namespace {
+
+void require(Verdict verdict, const DeviceProfile& profile) {
+    if (verdict) throw Refused{profile, *std::move(verdict)};
+}
+
+PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout, const DrawState& state,
+                      rasterizer::TriangleSoup soup) {
+    rasterizer::RasterState raster;
+    raster.viewport = {0, 0, layout.width, layout.height};
+    raster.y_direction = rasterizer::YDirection::up;  // facing is as seen; positions are done
+    raster.front_face = state.front_face;
+    raster.cull = state.cull;
+    raster.scissor = state.window_clip;
+    raster.depth_near = state.depth_near;
+    raster.depth_far = state.depth_far;
+    raster.depth_clamp = state.depth_clamp;
+    raster.window_positions = true;
+    raster.depth_format = layout.depth;
+    soup.runs = {{.first_index = 0,
+                  .index_count = static_cast<std::uint32_t>(soup.indices.size()),
+                  .double_sided = state.cull == rasterizer::CullFace::none}};
+    PreparedDraw list;
+    list.geometry = set_up(std::move(soup), raster, profile.raster, 1);
+    bin_triangles(list.geometry, 128);
+    list.materials.emplace_back().texture = state.texture;
+    list.needs.texcoord = state.texture != nullptr;
+    return list;
+}
+
+}  // namespace
+
+Surface::Surface(const DeviceProfile& profile, const SurfaceLayout& layout) {
+    require(check(profile, layout.color), profile);
+    require(check(profile, layout.depth), profile);
+    state_ = std::make_unique<State>(profile, layout);
+    clear_color({0, 0, 0, 0});
+    clear_depth(0);
+}
+
+Surface::~Surface() = default;
+Surface::Surface(Surface&&) noexcept = default;
+Surface& Surface::operator=(Surface&&) noexcept = default;
+
+void Surface::clear_color(const PixelCode& value) {
+    fill([&](int, int) { return value; });
+}
+
+void Surface::clear_depth(std::uint32_t code) {
+    State& s = *state_;
+    ColorCodes codes{};
+    codes[0].fill(code);
+    const std::size_t pixels = s.frame.rect().area();
+    for (std::size_t first = 0; first < pixels; first += batch_capacity)
+        s.region.store_pixels(s.depth, static_cast<std::uint32_t>(first),
+                              static_cast<int>(std::min<std::size_t>(batch_capacity, pixels - first)), codes);
+}
+
+void Surface::clear_stencil(std::uint8_t value) { state_->region.clear(state_->stencil, {.stencil = value}); }
+
+void Surface::fill(const std::function<PixelCode(int x, int y)>& value) {
+    State& s = *state_;
+    ColorCodes codes{};
+    for (int y = 0; y < s.layout.height; ++y)
+        for (int x = 0; x < s.layout.width; x += batch_capacity) {
+            const int count = std::min(batch_capacity, s.layout.width - x);
+            for (int i = 0; i < count; ++i) {
+                const PixelCode pixel = value(x + i, y);
+                for (int c = 0; c < 4; ++c)
+                    codes[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] =
+                        narrowed(s.layout.color, c, pixel[static_cast<std::size_t>(c)]);
+            }
+            s.region.store_pixels(s.color, static_cast<std::uint32_t>(y * s.layout.width + x), count, codes);
+        }
+}
+
+std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup soup) {
+    const FloatEnvironment ours;
+    State& s = *state_;
+    s.list = prepared(s.profile, s.layout, state, std::move(soup));
+    PassState pass;
+    pass.alpha = state.alpha;
+    pass.stencil = state.stencil;
+    pass.depth = state.depth;
+    pass.depth_target = s.depth;
+    if (state.stencil.enabled) pass.stencil_target = s.stencil;
+    pass.color[0] = s.color;
+    pass.blend[0] = state.blend;
+    pass.blend[0].write_mask = state.color_mask;
+    pass.needs.shader_z = false;
+    pass.needs.code = false;
+    const std::uint64_t before = s.region.records().front().counters.blended;
+    if (state.path != nullptr) {
+        FragmentPathProgram program{s.region, *state.path};
+        program.apply(pass);
+        static_cast<void>(s.region.draw(pass, program));
+    } else {
+        static_cast<void>(s.region.draw(pass, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+            for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), in.count, out.color[0][c].begin());
+        }));
+    }
+    return s.region.records().front().counters.blended - before;
+}
+
+Image Surface::color() const {
+    Image image = state_->region.image(state_->color);
+    image.format = Format::rgba8;
+    return image;
+}
+
+Image Surface::depth() const { return state_->region.image(state_->depth); }
+Image Surface::stencil() const { return state_->region.image(state_->stencil); }
+
+}  // namespace strata::pipeline

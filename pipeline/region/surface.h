@@ -1,0 +1,73 @@
+// pipeline/region/surface.h - immediate mode: a colour surface with depth and stencil that draws of any state change, one after
+// the other, as a driver's calls do. For scenes that are no peel: hardware checks, render to texture.
+//
+// Rule     A draw is set up, rasterized and finished before the next one begins, by the stages of region_stages.cpp. A
+//          surface is one region, the whole of itself. What one surface holds, another one samples: `color` and `depth` are
+//          finished images.
+// Tests    tests/tools/hardware_check/suites_test.cpp: pictures of silicon
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "pipeline/device/state.h"
+#include "pipeline/formats/image.h"
+#include "pipeline/vertices/prepare.h"
+
+namespace strata::pipeline {
+
+struct FragmentPath;  // pipeline/region/fragment_path.h
+
+struct SurfaceLayout {
+    Format color = Format::rgba8;
+    DepthFormat depth = DepthFormat::d24;  // d24 has 8 bits of stencil beside it
+    int width = 640, height = 480;         // pixels
+};
+
+// The state of one draw. Vertex positions are window coordinates, y down, with z in the profile's window z units.
+struct DrawState {
+    AlphaTest alpha{};
+    StencilTest stencil{};
+    DepthTest depth{};
+    Blend blend{};
+    std::uint8_t color_mask = 0xf;                  // bit 0 r, 1 g, 2 b, 3 a
+    std::optional<rasterizer::Rect> window_clip{};  // half-open, like every Rect
+    rasterizer::CullFace cull = rasterizer::CullFace::none;
+    rasterizer::FrontFace front_face = rasterizer::FrontFace::counter_clockwise;  // as seen
+    float depth_near = 0.0f, depth_far = 1.0f;  // fragments outside are dropped, or clamped
+    bool depth_clamp = false;
+    const Texture* texture = nullptr;  // multiplies the vertex colour; rectangle textures take texels
+    // Texture shader and combiners instead; the soup's extras bring the units' coordinates. Depth textures are images.
+    const FragmentPath* path = nullptr;
+};
+
+using PixelCode = std::array<std::uint8_t, 4>;  // r g b a
+
+class Surface {
+  public:
+    // Contents 0. Throws Refused for a format that the profile lacks.
+    Surface(const DeviceProfile& profile, const SurfaceLayout& layout);
+    ~Surface();
+    Surface(Surface&&) noexcept;
+    Surface& operator=(Surface&&) noexcept;
+
+    void clear_color(const PixelCode& value);
+    void clear_depth(std::uint32_t code);  // as stored
+    void clear_stencil(std::uint8_t value);
+    // Writes every pixel as the CPU would: no stage, but what the format keeps.
+    void fill(const std::function<PixelCode(int x, int y)>& value);
+
+    // Triangles of `soup` in listed order, materials ignored. Answers how many fragments passed all tests: what an
+    // occlusion query reports.
+    std::uint64_t draw(const DrawState& state, rasterizer::TriangleSoup soup);
+
+    [[nodiscard]] Image color() const;  // as rgba8: what the blender would read
+    [[nodiscard]] Image depth() const;
+    [[nodiscard]] Image stencil() const;  // zero without a stencil buffer
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace strata::pipeline

@@ -1,0 +1,71 @@
+#include "pipeline/region/target_storage.h"
+
+#include <algorithm>
+
+namespace strata::pipeline {
+
+namespace {
+
+int bits_per_channel(ChannelType type) noexcept {
+    switch (type) {
+        case ChannelType::unorm8:
+        case ChannelType::stencil: return 8;
+        case ChannelType::half: return 16;
+        case ChannelType::single:
+        case ChannelType::depth: break;
+    }
+    return 32;
+}
+
+Texels layout(Format format) noexcept { return {{}, info(format).channels, bits_per_channel(info(format).type)}; }
+
+}  // namespace
+
+TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels)
+    : format_{format},
+      samples_{samples},
+      pixels_{pixels},
+      layout_{layout(format)},
+      words_(static_cast<std::size_t>(samples) * words_per_sample()) {}
+
+void TargetStorage::write_zeros() const noexcept {
+    std::ranges::fill(words_, 0u);
+    has_words_ = true;
+}
+
+void TargetStorage::gather(const Lanes<std::uint32_t>& pixel, int count, int sample, ColorCodes& codes) const {
+    gather_codes(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, codes.data());
+}
+
+void TargetStorage::scatter(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
+                            unsigned mask, const ColorCodes& codes) {
+    scatter_codes(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, alive.data(), mask, codes.data());
+}
+
+std::uint32_t TargetStorage::code(std::size_t pixel, int channel, int sample) const {
+    const Field f = layout_.field(channel);
+    return texels(sample).plane(f.word).words[pixel] >> f.shift & f.bits;
+}
+
+void TargetStorage::fill(const std::array<std::uint32_t, 4>& codes, unsigned sample_mask) {
+    const unsigned all_samples = (1u << samples_) - 1;
+    if (stencil_word() == 0 && (sample_mask & all_samples) == all_samples) has_words_ = true;  // none is left out below
+    std::array<std::uint32_t, 4> words{};
+    for (int c = 0; c < layout_.channels; ++c) {
+        const Field f = layout_.field(c);
+        words[f.word] |= (codes[static_cast<std::size_t>(c)] & f.bits) << f.shift;
+    }
+    for (std::size_t word = 0; word < layout_.words(); ++word) fill_word(words[word], word, sample_mask);
+}
+
+void TargetStorage::fill_stencil(std::uint8_t value, unsigned sample_mask) {
+    fill_word(value, stencil_word(), sample_mask);
+}
+
+void TargetStorage::fill_word(std::uint32_t value, std::size_t word, unsigned sample_mask) {
+    for (int sample = 0; sample < samples_; ++sample)
+        if ((sample_mask >> sample & 1u) != 0)
+            std::fill_n(texels(sample).plane(word).words, pixels_ + spare_words, value);
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,76 @@
+// pipeline/region/target_storage.h - the storage of a render target over one region's rectangle.
+#pragma once
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <optional>
+
+#include "pipeline/formats/format.h"
+#include "pipeline/formats/image.h"
+#include "pipeline/stages/lane_words.h"
+#include "pipeline/stages/target.h"
+#include "rasterizer/base/uninitialized.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+// Planes of 32-bit words, row-major: so that any pixels of a batch are fetched and put back by vector, whatever the
+// format. A colour pixel has one word of rgba8, two of rgba16f (r g, b a) and rg32f, four of rgba32f, one of r16f and
+// r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes. All codes are 0 at first.
+class TargetStorage {
+  public:
+    TargetStorage(Format format, int samples, std::size_t pixels);
+
+    [[nodiscard]] Format format() const noexcept { return format_; }
+    [[nodiscard]] int samples() const noexcept { return samples_; }
+    [[nodiscard]] std::size_t pixels() const noexcept { return pixels_; }
+
+    // Lanes i < count of the listed pixels, and scratch beyond; scatter touches lanes with alive[i] != 0 and channels in
+    // `mask` only.
+    void gather(const Lanes<std::uint32_t>& pixel, int count, int sample, ColorCodes& codes) const;
+    void scatter(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
+                 unsigned mask, const ColorCodes& codes);
+
+    // As add_halves of lane_words.h; of an fp16 target.
+    [[nodiscard]] bool add(const Lanes<std::uint32_t>& pixel, const Lanes<std::uint32_t>& alive, int count, int sample,
+                           const ColorLanes& source, bool flushes) {
+        return add_halves(texels(sample), {pixel.data(), static_cast<std::size_t>(count)}, alive.data(), source.data(),
+                          flushes);
+    }
+
+    [[nodiscard]] Texels texels(int sample) const noexcept {
+        if (!has_words_) write_zeros();
+        Texels result = layout_;
+        result.first = {
+            const_cast<std::uint32_t*>(words_.data()) + static_cast<std::size_t>(sample) * words_per_sample(), pixels_};
+        return result;
+    }
+    [[nodiscard]] Plane depth_plane(int sample) noexcept { return texels(sample).plane(0); }
+    [[nodiscard]] Plane stencil_plane(int sample) noexcept { return texels(sample).plane(stencil_word()); }
+    [[nodiscard]] const std::uint32_t* depth(int sample) const noexcept { return texels(sample).plane(0).words; }
+    [[nodiscard]] const std::uint32_t* stencil(int sample) const noexcept {
+        return texels(sample).plane(stencil_word()).words;
+    }
+
+    // The code of one channel of one sample, as Image holds it. A d24s8 target answers with its depth.
+    [[nodiscard]] std::uint32_t code(std::size_t pixel, int channel, int sample) const;
+    void fill(const std::array<std::uint32_t, 4>& codes, unsigned sample_mask);  // colour or depth
+    void fill_stencil(std::uint8_t value, unsigned sample_mask);
+
+  private:
+    [[nodiscard]] std::size_t stencil_word() const noexcept { return format_ == Format::d24s8 ? 1 : 0; }
+    [[nodiscard]] std::size_t words_per_sample() const noexcept {
+        return (layout_.words() + stencil_word()) * (pixels_ + spare_words);
+    }
+    void write_zeros() const noexcept;
+    void fill_word(std::uint32_t value, std::size_t word, unsigned sample_mask);
+
+    Format format_;
+    int samples_;
+    std::size_t pixels_;
+    Texels layout_;  // without a place
+    mutable UninitializedVector<std::uint32_t> words_;
+    mutable bool has_words_ = false;  // else zeros that nobody has asked for yet: most targets are cleared first
+};
+
+}  // namespace strata::pipeline

@@ -1,0 +1,30 @@
+// pipeline/stages/blend.h - what a fragment's colour becomes in its render target.
+//
+// Rule     R = s F + d G, s F - d G, d G - s F, min(s, d) or max(s, d); MIN and MAX ignore the factors. RGB and
+//          alpha have terms of their own. No alpha channel: destination alpha is 1. Blending off: the source
+//          replaces, converted once. The arithmetic of 8-bit targets stands in blend_unorm8.h, that of fp16 and
+//          binary32 targets in blend_float.h.
+// Source   hardware.md 8 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
+// Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once an instruction
+//          set; the others fill two arrays of factors first.
+// Tests    tests/pipeline/stages/blend_unorm8_test.cpp, tests/pipeline/stages/blend_float_test.cpp,
+//          tests/pipeline/stages/simd_stages_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "pipeline/device/profile.h"
+#include "pipeline/device/state.h"
+#include "pipeline/formats/format.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+// Updates codes[c] for c < channels where the write mask has bit c, in all lanes i < count (and up to the next multiple
+// of 16, as scratch); the caller stores those that live. All four channels of `src` count, whatever
+// the target keeps: a two-channel target may blend by source alpha.
+void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
+           const std::array<rasterizer::Lanes<float>, 4>& src, std::array<rasterizer::Lanes<std::uint32_t>, 4>& codes,
+           int count) noexcept;
+
+}  // namespace strata::pipeline

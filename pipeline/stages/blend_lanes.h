@@ -1,0 +1,144 @@
+// pipeline/stages/blend_lanes.h - the loops of blend.h, compiled once an instruction set. Included by blend_simd.cpp alone.
+#pragma once
+#include <bit>
+
+#include "pipeline/formats/convert.h"
+#include "pipeline/stages/blend.h"
+#include "pipeline/stages/blend_float.h"
+#include "pipeline/stages/blend_kernels.h"
+#include "pipeline/stages/blend_unorm8.h"
+
+namespace strata::pipeline {
+inline namespace strict {
+namespace scalar {
+
+using rasterizer::Lanes;
+using ColorLanes = std::array<Lanes<float>, 4>;
+using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;
+
+// One batch on its way through a blend; counts and masks as in `blend`.
+struct Job {
+    const Blend& state;
+    int channels;
+    const ColorLanes& src;
+    ColorCodes& codes;
+    std::size_t count;
+
+    [[nodiscard]] bool writes(int channel) const noexcept {
+        return channel < channels && ((state.write_mask >> channel) & 1u) != 0;
+    }
+};
+
+// How halves become binary32 and are rounded to nearest even. A kernel may bring the machine's own instructions, even if
+// they make a signalling NaN quiet: no NaN leaves a blend but the canonical one.
+struct PlainHalves {
+    static void decode(const std::uint32_t* codes, float* values, std::size_t count) noexcept {
+        scalar::decode(ChannelType::half, codes, values, count);
+    }
+    static void encode_nearest(const float* values, std::uint32_t* codes, std::size_t count) noexcept {
+        encode_half<HalfRounding::nearest_even>(values, codes, count);
+    }
+};
+
+template <class Halves>
+void store(ChannelType type, HalfRounding rounding, const float* values, std::uint32_t* codes,
+           std::size_t count) noexcept {
+    if (type == ChannelType::half && rounding == HalfRounding::nearest_even)
+        return Halves::encode_nearest(values, codes, count);
+    encode(type, rounding, values, codes, count);
+}
+
+template <class T>
+void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto convert) noexcept {
+    for (std::size_t i = 0; i < count; ++i) operand[i] = convert(source[i]);
+}
+
+// Blends the loaded operands, alpha last because the colours read the stored alpha; store(channel, lanes) takes them.
+template <class Arithmetic>
+void blend_channels(const Job& job, const std::array<float, 4>& constant, const ColorLanes& s, const ColorLanes& d,
+                    auto store) noexcept {
+    alignas(64) Lanes<float> out;
+    for (int channel = 0; channel < 4; ++channel) {
+        if (!job.writes(channel)) continue;
+        const auto c = static_cast<std::size_t>(channel);
+        const bool is_alpha = channel == 3;
+        const BlendOperands operands{s[c], d[c], s[3], d[3], constant[c], constant[3], is_alpha};
+        blend_channel<Arithmetic>(is_alpha ? job.state.alpha : job.state.color, operands, out, job.count);
+        store(c, out);
+    }
+}
+
+template <BlendRounding rounding>
+void blend_unorm8(const Job& job) noexcept {
+    alignas(64) ColorLanes s, d;
+    std::array<float, 4> constant{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        constant[c] = static_cast<float>(to_unorm8(job.state.constant[c]));
+        if (job.writes(channel) || channel == 3)
+            load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8(x)}); });
+        if (channel < job.channels)  // the mask is for lanes beyond the batch, which fill up a vector and hold anything
+            load(job.codes[c], d[c], job.count,
+                 [](std::uint32_t code) { return static_cast<float>(static_cast<int>(code & 0xff)); });
+    }
+    if (job.channels < 4) d[3].fill(255.0f);
+    blend_channels<Unorm8Arithmetic<rounding>>(job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
+        for (std::size_t i = 0; i < job.count; ++i)
+            job.codes[c][i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(out[i]));
+    });
+}
+
+template <class Halves, DenormalRule denormals, MinMaxNan nan_rule>
+void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexcept {
+    const auto flush = [](float x) { return flushed<denormals>(x); };
+    alignas(64) ColorLanes s, d;
+    std::array<float, 4> constant{};
+    for (int channel = 0; channel < 4; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        constant[c] = flush(job.state.constant[c]);
+        if (job.writes(channel) || channel == 3) load(job.src[c], s[c], job.count, flush);
+        if (channel >= job.channels) continue;
+        if (type == ChannelType::single) {
+            load(job.codes[c], d[c], job.count, [&](std::uint32_t code) { return flush(std::bit_cast<float>(code)); });
+        } else {
+            Halves::decode(job.codes[c].data(), d[c].data(), job.count);  // widened halves are never denormal
+        }
+    }
+    if (job.channels < 4) d[3].fill(1.0f);
+    blend_channels<FloatArithmetic<denormals, nan_rule>>(
+        job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
+            store<Halves>(type, rounding, out.data(), job.codes[c].data(), job.count);
+        });
+}
+
+template <class Halves>
+void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile) noexcept {
+    using enum DenormalRule;
+    using enum MinMaxNan;
+    const bool flushes = profile.denormals == flush, propagates = profile.min_max_nan == propagate;
+    if (flushes && !propagates) return blend_float<Halves, flush, other_operand>(job, type, profile.half_rounding);
+    if (flushes) return blend_float<Halves, flush, propagate>(job, type, profile.half_rounding);
+    if (!propagates) return blend_float<Halves, keep, other_operand>(job, type, profile.half_rounding);
+    return blend_float<Halves, keep, propagate>(job, type, profile.half_rounding);
+}
+
+template <class Halves = PlainHalves>
+void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
+           ColorCodes& codes, std::size_t count) noexcept {
+    const Job job{state, channels, src, codes, count};
+    if (!state.enabled) {
+        for (std::size_t c = 0; c < 4; ++c)
+            if (job.writes(static_cast<int>(c)))
+                store<Halves>(type, profile.half_rounding, src[c].data(), codes[c].data(), count);
+    } else if (type != ChannelType::unorm8) {
+        blend_float<Halves>(job, type, profile);
+    } else if (profile.blend_rounding == BlendRounding::nearest) {
+        blend_unorm8<BlendRounding::nearest>(job);
+    } else {
+        blend_unorm8<BlendRounding::truncate>(job);
+    }
+}
+
+}  // namespace scalar
+}  // namespace strict
+}  // namespace strata::pipeline

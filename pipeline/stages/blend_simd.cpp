@@ -1,0 +1,66 @@
+// pipeline/stages/blend_simd.cpp - blending, one source for every instruction set: the loops of blend_lanes.h inlined (flatten)
+// and compiled for the set, over whole vectors, since the arrays of a batch have room for them.
+// Tests: tests/pipeline/stages/simd_stages_test.cpp
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/stages/blend_simd.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "pipeline/stages/blend_lanes.h"
+#include "rasterizer/base/simd.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::pipeline::HWY_NAMESPACE {
+namespace {
+
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
+namespace hn = hwy::HWY_NAMESPACE;
+
+// VCVTPH2PS and VCVTPS2PH round as half.h says, NaN included; the former makes a signalling NaN quiet.
+struct Halves {
+    using Float = hn::ScalableTag<float>;
+    using Half = hn::Rebind<hwy::float16_t, Float>;
+    using Code16 = hn::Rebind<std::uint16_t, Float>;
+    using Code32 = hn::Rebind<std::uint32_t, Float>;
+
+    static void decode(const std::uint32_t* codes, float* HWY_RESTRICT values, std::size_t count) {
+        const hn::RebindToSigned<Code32> words;
+        for (std::size_t i = 0; i < count; i += hn::Lanes(Float{})) {
+            const auto half = hn::DemoteTo(Code16{}, hn::BitCast(words, hn::LoadU(Code32{}, codes + i)));
+            hn::StoreU(hn::PromoteTo(Float{}, hn::BitCast(Half{}, half)), Float{}, values + i);
+        }
+    }
+    static void encode_nearest(const float* values, std::uint32_t* HWY_RESTRICT codes, std::size_t count) {
+        for (std::size_t i = 0; i < count; i += hn::Lanes(Float{})) {
+            const auto half = hn::DemoteTo(Half{}, hn::LoadU(Float{}, values + i));
+            hn::StoreU(hn::PromoteTo(Code32{}, hn::BitCast(Code16{}, half)), Code32{}, codes + i);
+        }
+    }
+};
+#else
+using Halves = scalar::PlainHalves;
+#endif
+
+[[gnu::flatten]] void blend_lanes(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
+                                  const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) {
+    const std::size_t whole_vectors = (static_cast<std::size_t>(count) + 15) & ~std::size_t{15};
+    scalar::blend<Halves>(state, type, profile, channels, src, codes, whole_vectors);
+}
+
+}  // namespace
+}  // namespace strata::pipeline::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace strata::pipeline {
+
+HWY_EXPORT(blend_lanes);
+
+void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
+           const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) noexcept {
+    if (simd_is_scalar())
+        return scalar::blend(state, type, profile, channels, src, codes, static_cast<std::size_t>(count));
+    HWY_DYNAMIC_DISPATCH(blend_lanes)(state, type, profile, channels, src, codes, count);
+}
+
+}  // namespace strata::pipeline
+#endif

@@ -1,0 +1,64 @@
+// pipeline/stages/blend_unorm8.h - blending on 8-bit normalised targets: integers, one rounding.
+//
+// Rule     The source becomes 8 bits first. With s, d and the factors F, G as codes (1 - x is 255 - x):
+//          t = clamp(s F + d G, 0, 65025), then t / 255 rounded half up, or cut, by the profile. Signed equations:
+//          clamp(d +- s', 0, 255), s' the source code as two's complement.
+// Source   hardware.md 8; measured on NV2A: 1,673 of 1,673 pictures (nv2a-fragment.md R1 to R4).
+// Numbers  Products <= 65025, sums within +-130050. The kernels hold these integers as binary32 values, where all of
+//          them and every operation on them are exact: vector units multiply four floats at once, but not four
+//          32-bit integers.
+// Tests    tests/pipeline/stages/blend_unorm8_test.cpp; tests/tools/hardware_check/suites_test.cpp: 43 pictures of silicon
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/device/profile.h"
+#include "pipeline/device/state.h"
+#include "rasterizer/base/numerics.h"
+
+namespace strata::pipeline {
+inline namespace strict {
+
+// t / 255 for t in [0, 65025]; checked for every t. A half cannot occur, since 255 is odd.
+template <BlendRounding rounding>
+[[nodiscard]] constexpr std::int32_t over_255(std::int32_t t) noexcept {
+    const std::int32_t biased = t + (rounding == BlendRounding::nearest ? 128 : 1);
+    return (biased + (biased >> 8)) >> 8;
+}
+
+template <BlendRounding rounding>
+struct Unorm8Arithmetic {
+    static constexpr float zero = 0.0f, one = 255.0f;
+
+    [[nodiscard]] static constexpr float one_minus(float x) noexcept { return 255.0f - x; }
+    // Codes are not negative: their float bits order like they do.
+    [[nodiscard]] static constexpr float lesser(float a, float b) noexcept {
+        return std::bit_cast<float>(std::min(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
+    }
+    [[nodiscard]] static constexpr float greater(float a, float b) noexcept {
+        return std::bit_cast<float>(std::max(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
+    }
+
+    [[nodiscard]] static constexpr float signed_value(float code) noexcept {
+        return code < 128.0f ? code : code - 256.0f;
+    }
+    [[nodiscard]] static constexpr float clamped(float v) noexcept { return v < 0.0f ? 0.0f : v > 255.0f ? 255.0f : v; }
+
+    template <BlendEquation equation, bool keeps_s = false,
+              bool keeps_d = false>  // as in blend_float.h; a product here
+    [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
+        if constexpr (equation == BlendEquation::min) return lesser(s, d);
+        if constexpr (equation == BlendEquation::max) return greater(s, d);
+        if constexpr (equation == BlendEquation::signed_add) return clamped(d + signed_value(s));
+        if constexpr (equation == BlendEquation::signed_reverse_subtract) return clamped(d - signed_value(s));
+        float sum = 0;  // in units of 1/255^2
+        if constexpr (equation == BlendEquation::add) sum = s * F + d * G;
+        if constexpr (equation == BlendEquation::subtract) sum = s * F - d * G;
+        if constexpr (equation == BlendEquation::reverse_subtract) sum = d * G - s * F;
+        return static_cast<float>(over_255<rounding>(std::min(std::max(static_cast<std::int32_t>(sum), 0), 65025)));
+    }
+};
+
+}  // namespace strict
+}  // namespace strata::pipeline

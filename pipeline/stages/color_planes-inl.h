@@ -1,0 +1,123 @@
+// pipeline/stages/color_planes-inl.h - the colours of a triangle, eight pixels at a time, for passes without batches. For
+// *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
+//
+// Rule     The colours of FragmentValues::fill with ColorInterpolation::exact_plane.
+// Tests    tests/peeling/execution_test.cpp: against literal execution
+#include "hwy/highway.h"
+#include "rasterizer/walk/row_walk-inl.h"
+
+#if defined(STRATA_PIPELINE_COLOR_PLANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRATA_PIPELINE_COLOR_PLANES_INL_H
+#undef STRATA_PIPELINE_COLOR_PLANES_INL_H
+#else
+#define STRATA_PIPELINE_COLOR_PLANES_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::pipeline::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+namespace raster = rasterizer::HWY_NAMESPACE;
+using raster::F32;
+using raster::F64;
+using raster::U32;
+using raster::V32;
+using rasterizer::DrawnTriangle;
+using rasterizer::FilterPlane;
+using rasterizer::RationalPlane;
+
+// The colour of a triangle: planes before the division by the one of 1 / w, that of a grey once, and constants. Loops over four
+// channels without branches, so that they become vectors: most triangles have few rows to share what is found here.
+class ColorPlanes {
+  public:
+    HWY_INLINE explicit ColorPlanes(const DrawnTriangle& triangle)
+        : geometry_{triangle.geometry}, index_{triangle.index} {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const rasterizer::ClipVertex& v = geometry_.vertices[triangle.record.vertex[i]];
+            value_[i] = triangle.record.front_facing ? v.front : v.back;
+            w_[i] = geometry_.corners[triangle.record.vertex[i]].inverse_w;
+        }
+        std::uint32_t varying = 0, colorful = 0;
+        for (std::size_t c = 0; c < 4; ++c) {
+            varies_[c] = (bits(0, c) ^ bits(1, c)) | (bits(0, c) ^ bits(2, c));
+            varying |= varies_[c];
+        }
+        for (const Channels& v : value_) colorful |= (bits_of(v[0]) ^ bits_of(v[1])) | (bits_of(v[0]) ^ bits_of(v[2]));
+        is_flat_ = varying == 0;
+        is_grey_ = colorful == 0;
+        has_w_ = !is_flat_ && !(w_[0] == 1.0f && w_[1] == 1.0f && w_[2] == 1.0f);
+        find_planes(triangle.weights.is_exact());
+    }
+
+    // The whole triangle has one colour, flat(c).
+    [[nodiscard]] HWY_INLINE bool is_flat() const { return is_flat_; }
+    [[nodiscard]] HWY_INLINE float flat(std::size_t c) const { return value_[0][c]; }
+
+    // r g b a, divided, of a row or of pixels.
+    template <bool unsnapped, class Where>
+    HWY_INLINE void at(const Where& where, const raster::Weights& b, V32 (&color)[4]) const {
+        const V32 inverse_w = has_w_ ? rounded<unsnapped>(where, b, inverse_w_, w_) : hn::Set(F32{}, 1.0f);
+        color[0] = channel<unsnapped>(0, where, b, inverse_w);
+        color[1] = is_grey_ ? color[0] : channel<unsnapped>(1, where, b, inverse_w);
+        color[2] = is_grey_ ? color[0] : channel<unsnapped>(2, where, b, inverse_w);
+        color[3] = channel<unsnapped>(3, where, b, inverse_w);
+    }
+
+  private:
+    using Corners = std::array<float, 3>;
+    using Channels = std::array<float, 4>;
+
+    HWY_INLINE static std::uint32_t bits_of(float v) { return std::bit_cast<std::uint32_t>(v); }
+    HWY_INLINE std::uint32_t bits(std::size_t i, std::size_t c) const { return bits_of(value_[i][c]); }
+
+    // FilterPlane of each channel.
+    HWY_INLINE void find_planes(bool is_exact) {
+        inverse_w_ = FilterPlane{plane_of(w_), is_exact};
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t c = 0; c < 4; ++c) product_[i][c] = value_[i][c] * w_[i];
+        for (std::size_t c = 0; c < 4; ++c) {
+            const double w0 = product_[0][c], w1 = product_[1][c], w2 = product_[2][c];
+            w0_[c] = w0;
+            d1_[c] = w1 - w0;
+            d2_[c] = w2 - w0;
+            error_[c] = 0.0;
+        }
+        for (std::size_t c = 0; is_exact && c < 4; ++c) error_[c] = FilterPlane{plane_of(corners(c)), true}.error;
+    }
+
+    HWY_INLINE static RationalPlane plane_of(const Corners& v) { return {{v[0], v[1], v[2]}}; }
+    HWY_INLINE Corners corners(std::size_t c) const { return {product_[0][c], product_[1][c], product_[2][c]}; }
+
+    template <bool unsnapped, class Where>
+    HWY_INLINE V32 channel(std::size_t c, const Where& where, const raster::Weights& b, V32 inverse_w) const {
+        if (varies_[c] == 0) return hn::Set(F32{}, value_[0][c]);
+        FilterPlane plane;
+        plane.w0 = w0_[c];
+        plane.d1 = d1_[c];
+        plane.d2 = d2_[c];
+        plane.error = error_[c];
+        const V32 u = rounded<unsnapped>(where, b, plane, corners(c));
+        return has_w_ ? hn::Div(u, inverse_w) : u;
+    }
+    template <bool unsnapped, class Where>
+    HWY_INLINE V32 rounded(const Where& where, const raster::Weights& b, const FilterPlane& plane,
+                           const Corners& corners) const {
+        const auto v = raster::plane_at(plane, b);
+        if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
+        auto unsure = hn::Zero(U32{});
+        const V32 low = raster::rounded(v, hn::Set(F64{}, plane.error), unsure);
+        return raster::decided(low, unsure, plane_of(corners), geometry_, index_, where);
+    }
+
+    const rasterizer::Geometry& geometry_;
+    const std::uint32_t index_;
+    Corners w_;
+    std::array<Channels, 3> value_, product_;  // by corner
+    std::array<std::uint32_t, 4> varies_;      // 0: the same bits at all corners
+    std::array<double, 4> w0_, d1_, d2_, error_;
+    FilterPlane inverse_w_;
+    bool has_w_, is_flat_, is_grey_;
+};
+
+}  // namespace strata::pipeline::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

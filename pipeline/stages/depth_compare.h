@@ -1,0 +1,68 @@
+// pipeline/stages/depth_compare.h - when a fragment lies behind a depth that an earlier pass stored: what peels in a program ask.
+//
+// Rule     The fragment's reference depth, quantised like a depth write unless `quantizes` is false, is behind if it is greater
+//          than the stored code raised by `ulps` codes plus `absolute`. Without an epsilon and with a quantised reference that
+//          is a comparison of codes. An unquantised reference is clamped to [0,1] first.
+// Source   hardware.md 4; decisions.md 3.
+// Tests    tests/pipeline/stages/depth_compare_test.cpp
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "rasterizer/base/numerics.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+// What a program adds to the stored depth before it compares: a part of the depth range, and codes of the buffer.
+struct CompareEpsilon {
+    double absolute = 0.0;  // in depth, 0 to 1
+    int ulps = 0;           // at least 0
+    friend bool operator==(const CompareEpsilon&, const CompareEpsilon&) = default;
+};
+
+inline namespace strict {
+
+struct DepthCompare {
+    rasterizer::DepthFormat format = rasterizer::DepthFormat::d32f;
+    CompareEpsilon epsilon{};
+    bool has_reference = false;  // another path's depth is compared than is stored
+    bool quantizes = true;
+
+    // Only the fragment's own code is asked for: no reference array is needed.
+    [[nodiscard]] bool is_plain() const noexcept { return !has_reference && quantizes && epsilon == CompareEpsilon{}; }
+
+    // The stored code raised by `ulps`.
+    [[nodiscard]] std::uint32_t raised(std::uint32_t stored) const noexcept {
+        const std::uint64_t sum = std::uint64_t{stored} + static_cast<std::uint64_t>(epsilon.ulps);
+        return static_cast<std::uint32_t>(std::min<std::uint64_t>(sum, rasterizer::max_code(format)));
+    }
+    // In codes of a fixed format, in [0,1] of D32F; exact.
+    [[nodiscard]] double value(std::uint32_t code) const noexcept {
+        return is_float() ? double{std::bit_cast<float>(code)} : static_cast<double>(code);
+    }
+    [[nodiscard]] bool is_behind(std::uint32_t code, double z, std::uint32_t stored) const noexcept {
+        if (quantizes && epsilon.absolute == 0.0) return code > raised(stored);
+        const double one = is_float() ? 1.0 : rasterizer::max_code(format);
+        const double own = quantizes ? value(code) : std::min(z > 0.0 ? z : 0.0, one);
+        return own > value(raised(stored)) + epsilon.absolute * one;
+    }
+    // a > b of binary32 depths, b raised by the epsilon: `ulps` steps of its binary32 value, and `absolute`.
+    [[nodiscard]] bool exceeds(double a, double b) const noexcept {
+        const auto from = static_cast<float>(b);
+        const auto steps = static_cast<std::uint32_t>(from > 0.0f ? epsilon.ulps : 0);
+        const float to = std::bit_cast<float>(std::bit_cast<std::uint32_t>(from) + steps);
+        return a > b + (double{to} - double{from}) + epsilon.absolute;
+    }
+    [[nodiscard]] bool is_behind(const rasterizer::FragmentBatch& in, std::size_t i,
+                                 std::uint32_t stored) const noexcept {
+        return is_behind(in.reference_code[i], in.reference_z[i], stored);
+    }
+
+  private:
+    [[nodiscard]] bool is_float() const noexcept { return format == rasterizer::DepthFormat::d32f; }
+};
+
+}  // namespace strict
+}  // namespace strata::pipeline

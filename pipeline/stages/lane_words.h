@@ -1,0 +1,121 @@
+// pipeline/stages/lane_words.h - what a target stores, at the pixels of a batch: fetched, put back, tested, counted.
+//
+// Rule     A sample is stored in planes of 32-bit words, one word or more a pixel, a channel in each 8, 16 or 32 bits
+//          from the lowest on. gather: codes[c][i] = channel c at pixel[i]. scatter: where a lane lives, the channels in
+//          `mask` are replaced. test_depth: depth_test.h on the stored codes; dead lanes change nothing.
+// Numbers  A plane has spare_words words behind its last pixel that belong to none: kernels load and store whole vectors
+//          there for lanes beyond `count` and for dead ones. Lanes beyond `count` in a batch's own arrays are scratch.
+//          No pixel occurs twice in a batch, so that the order of the lanes does not matter.
+// Tests    tests/pipeline/stages/simd_stages_test.cpp
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "pipeline/formats/lane_mask.h"
+#include "pipeline/stages/depth_test.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+using Word = std::uint32_t;
+using CodeLanes = rasterizer::Lanes<Word>;  // one channel of a batch; masks too: 0 or ~0
+
+inline constexpr std::size_t spare_words = 16;  // a vector of AVX-512
+
+struct Plane {
+    Word* words = nullptr;
+    std::size_t pixels = 0;  // words[pixels] is the first spare one
+};
+
+// Where a channel lies in its pixel's words; `bits` is the mask of one code, not shifted.
+struct Field {
+    std::size_t word;
+    int shift;
+    std::uint32_t bits;
+};
+
+// One sample of a target: plane after plane, the first of them at `words`.
+struct Texels {
+    Plane first;
+    int channels = 1, bits_per_channel = 32;
+
+    [[nodiscard]] constexpr Field field(int channel) const noexcept {
+        const int bit = channel * bits_per_channel;
+        return {static_cast<std::size_t>(bit / 32), bit % 32, ~0u >> (32 - bits_per_channel)};
+    }
+    [[nodiscard]] constexpr std::size_t words() const noexcept { return field(channels - 1).word + 1; }
+    [[nodiscard]] constexpr Plane plane(std::size_t word) const noexcept {
+        return {first.words + word * (first.pixels + spare_words), first.pixels};
+    }
+};
+
+// Lanes of a batch at pixels of their own.
+struct PixelLanes {
+    const Word* pixel = nullptr;
+    std::size_t count = 0;
+};
+
+struct DepthResult {
+    std::uint64_t arriving = 0, passed = 0;
+};
+
+// The kernels (stages_simd.cpp); their meaning follows. `codes` has an array a channel.
+[[nodiscard]] std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept;
+void gather_codes(const Texels& from, const PixelLanes& at, CodeLanes* codes) noexcept;
+void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, unsigned mask,
+                   const CodeLanes* codes) noexcept;
+// Clears `alive` where the test fails; writes what passes, if the state says so.
+DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* code,
+                       Word* alive) noexcept;
+
+// One walk for what weighted averages and sums do to every fragment: each of the texels' fp16 channels plus `source`, as
+// blend_float.h adds with both factors 1, rounded to nearest even, where a lane lives. False, and nothing done, on sets
+// without half conversion: then it is gathered, blended and scattered, which is the definition.
+[[nodiscard]] bool add_halves(const Texels& to, const PixelLanes& at, const Word* alive,
+                              const rasterizer::Lanes<float>* source, bool flushes) noexcept;
+
+inline namespace strict {
+namespace scalar {
+
+[[nodiscard]] inline std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept {
+    Word living = 0;
+    for (std::size_t i = 0; i < count; ++i) living += alive[i] & 1u;
+    return living;
+}
+
+inline void gather_codes(const Texels& from, const PixelLanes& at, CodeLanes* codes) noexcept {
+    for (int c = 0; c < from.channels; ++c) {
+        const Field f = from.field(c);
+        const Word* const words = from.plane(f.word).words;
+        for (std::size_t i = 0; i < at.count; ++i) codes[c][i] = words[at.pixel[i]] >> f.shift & f.bits;
+    }
+}
+
+inline void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, unsigned mask,
+                          const CodeLanes* codes) noexcept {
+    for (int c = 0; c < to.channels; ++c) {
+        if ((mask >> c & 1u) == 0) continue;
+        const Field f = to.field(c);
+        Word* const words = to.plane(f.word).words;
+        for (std::size_t i = 0; i < at.count; ++i) {
+            Word& word = words[at.pixel[i]];
+            word = select(alive[i] & f.bits << f.shift, codes[c][i] << f.shift, word);
+        }
+    }
+}
+
+inline DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at,
+                              const Word* code, Word* alive) noexcept {
+    rasterizer::Lanes<Word> stored, pass;
+    for (std::size_t i = 0; i < at.count; ++i) stored[i] = plane.words[at.pixel[i]];
+    depth_test(state, format, code, stored.data(), pass.data(), static_cast<int>(at.count));
+    const std::uint64_t arriving = count_lanes(alive, at.count);
+    for (std::size_t i = 0; i < at.count; ++i) alive[i] &= pass[i];
+    if (writes_depth(state))
+        for (std::size_t i = 0; i < at.count; ++i) plane.words[at.pixel[i]] = select(alive[i], code[i], stored[i]);
+    return {arriving, count_lanes(alive, at.count)};
+}
+
+}  // namespace scalar
+}  // namespace strict
+}  // namespace strata::pipeline

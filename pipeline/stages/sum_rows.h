@@ -1,0 +1,28 @@
+// pipeline/stages/sum_rows.h - weighted sums of fragments straight into halves, row by row: what an additive pass of (c a, a) and 1
+// does through batches, programs and blending.
+//
+// Rule     Each fragment of the triangles, in submission order, whose code is LESS than the opaque one adds (c a, a) to the sums
+//          and 1 to the count, as add_halves of lane_words.h adds. Colours are those of FragmentValues::fill.
+// Tests    tests/peeling/execution_test.cpp: against literal execution
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "rasterizer/walk/rows.h"
+
+namespace strata::pipeline {
+
+// A region's pixels row by row, a word each, with rasterizer::row_padding more behind the last; of two halves the low one is first.
+struct SumPlanes {
+    std::array<std::uint32_t*, 2> sums;     // of r a and g a; of b a and a
+    std::uint32_t* count;                   // its high half is 0; null: not wanted
+    const std::uint32_t* opaque = nullptr;  // codes; null: every fragment passes
+};
+
+// Only where rasterizer::row_walk_suits and colours are exact planes.
+rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
+                                    const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
+                                    const SumPlanes& planes, bool flushes) noexcept;
+
+}  // namespace strata::pipeline

@@ -1,0 +1,180 @@
+// pipeline/stages/sum_rows_simd.cpp - add_sum_rows of sum_rows.h for the sets that convert halves.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/stages/sum_rows_simd.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "pipeline/stages/color_planes-inl.h"
+#include "pipeline/stages/sum_rows.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::pipeline::HWY_NAMESPACE {
+namespace {
+
+struct SumState {
+    SumPlanes planes;
+    rasterizer::DepthConversion to_code;
+    double z_units;
+    rasterizer::DepthDrawn drawn{};
+};
+
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
+
+// A word holds two halves: of two channels, or of one and nothing. So do vectors of twice as many lanes.
+using Pair = hn::Twice<F32>;
+using VPair = hn::Vec<Pair>;
+using HalfPair = hn::Rebind<hwy::float16_t, Pair>;
+using Half16 = hn::Rebind<hwy::float16_t, F32>;
+using Code16 = hn::Rebind<std::uint16_t, F32>;
+
+constexpr std::int32_t lanes = hn::MaxLanes(F32{});
+alignas(64) constexpr std::int32_t zipped[16] = {0, lanes,     1, lanes + 1, 2, lanes + 2, 3, lanes + 3,
+                                                 4, lanes + 4, 5, lanes + 5, 6, lanes + 6, 7, lanes + 7};
+
+HWY_INLINE VPair paired(V32 low, V32 high) {
+    return hn::TableLookupLanes(hn::Combine(Pair{}, high, low), hn::SetTableIndices(Pair{}, zipped));
+}
+HWY_INLINE VPair loaded(const std::uint32_t* words) {
+    return hn::PromoteTo(Pair{}, hn::BitCast(HalfPair{}, hn::LoadU(U32{}, words)));
+}
+HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) {
+    hn::BlendedStore(hn::BitCast(U32{}, hn::DemoteTo(HalfPair{}, sum)), hn::RebindMask(U32{}, covered), U32{}, words);
+}
+
+// A denormal as the zero of its sign.
+HWY_INLINE V32 flushed(V32 v) {
+    const auto bits = hn::BitCast(U32{}, v);
+    const auto is_small = hn::Eq(hn::And(bits, hn::Set(U32{}, 0x7f800000u)), hn::Zero(U32{}));
+    return hn::BitCast(F32{}, hn::IfThenElse(is_small, hn::And(bits, hn::Set(U32{}, 0x80000000u)), bits));
+}
+
+// Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered lanes. Two
+// of its steps show only where a source is negative (a positive denormal and its zero become the same half, whatever they are
+// added to) or a sum is NaN: they are done for rows that have one.
+template <bool flushes>
+HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* red_green, std::uint32_t* blue_alpha) {
+    const F32 d;
+    if constexpr (flushes) {
+        const hn::RebindToSigned<U32> integers;
+        const auto signs = hn::Or(hn::Or(hn::BitCast(integers, source[0]), hn::BitCast(integers, source[1])),
+                                  hn::Or(hn::BitCast(integers, source[2]), hn::BitCast(integers, source[3])));
+        const auto negative = hn::RebindMask(d, hn::Lt(signs, hn::Zero(integers)));
+        if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(covered, negative))))
+            for (V32& v : source) v = flushed(v);
+    }
+    VPair low = hn::Add(paired(source[0], source[1]), loaded(red_green));
+    VPair high = hn::Add(paired(source[2], source[3]), loaded(blue_alpha));
+    const VPair both = hn::Add(low, high);  // NaN where a sum is one, or where infinities meet
+    if (HWY_UNLIKELY(!hn::AllTrue(Pair{}, hn::Eq(both, both)))) {
+        const VPair nan = hn::BitCast(Pair{}, hn::Set(hn::RebindToUnsigned<Pair>{}, 0x7fffffffu));
+        for (VPair* v : {&low, &high}) *v = hn::IfThenElse(hn::Eq(*v, *v), *v, nan);
+    }
+    store(low, covered, red_green);
+    store(high, covered, blue_alpha);
+}
+
+// Counts one more in the low halves of words. NaN comes out as it does above.
+HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
+    const F32 d;
+    const auto codes = hn::DemoteTo(Code16{}, hn::BitCast(raster::I32{}, hn::LoadU(U32{}, words)));
+    V32 sum = hn::Add(hn::PromoteTo(d, hn::BitCast(Half16{}, codes)), hn::Set(d, 1.0f));
+    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum))))
+        sum = hn::IfThenElse(hn::Eq(sum, sum), sum, hn::BitCast(d, hn::Set(U32{}, 0x7fffffffu)));
+    const auto stored = hn::PromoteTo(U32{}, hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, sum)));
+    hn::BlendedStore(stored, hn::RebindMask(U32{}, covered), U32{}, words);
+}
+
+template <bool is_tested, bool flushes>
+struct SumOf {
+    template <bool unsnapped>
+    class Shade {
+      public:
+        HWY_INLINE Shade(SumState& state, const DrawnTriangle& triangle)
+            : state_{state}, planes_{state.planes}, to_code_{state.to_code}, triangle_{triangle}, color_{triangle} {
+            if constexpr (!is_tested) return;
+            depth_ = RationalPlane{triangle.geometry.depths(triangle.index), 1.0, state.z_units};
+            filter_ = raster::filter_of(depth_, triangle);
+        }
+
+        HWY_INLINE void operator()(const raster::Row& row, const raster::Weights& b) {
+            raster::RowMask covered = row.covered;
+            if constexpr (is_tested) {
+                covered = hn::And(covered, nearer(row, b));
+                if (hn::AllFalse(F32{}, covered)) return;
+                passed_ += hn::CountTrue(F32{}, covered);
+            }
+            V32 color[4];
+            color_.template at<unsnapped>(row, b, color);
+            for (std::size_t c = 0; c < 3; ++c) color[c] = hn::Mul(color[c], color[3]);
+            add<flushes>(color, covered, planes_.sums[0] + row.pixel, planes_.sums[1] + row.pixel);
+            if (planes_.count != nullptr) count(covered, planes_.count + row.pixel);
+        }
+        HWY_INLINE void finish(std::uint64_t pixels) {
+            state_.drawn.fragments += pixels;
+            state_.drawn.passed += is_tested ? passed_ : pixels;
+        }
+
+      private:
+        HWY_INLINE raster::RowMask nearer(const raster::Row& row, const raster::Weights& b) const {
+            const auto v = raster::plane_at(filter_, b);
+            auto unsure = hn::Zero(U32{});
+            V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
+            if constexpr (!unsnapped) z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, row);
+            return raster::nearer(raster::codes(z, to_code_), hn::LoadU(U32{}, planes_.opaque + row.pixel),
+                                  to_code_.is_fixed);
+        }
+
+        SumState& state_;
+        const SumPlanes planes_;
+        const rasterizer::DepthConversion to_code_;
+        const DrawnTriangle& triangle_;
+        const ColorPlanes color_;
+        RationalPlane depth_;
+        FilterPlane filter_;
+        std::uint64_t passed_ = 0;
+    };
+};
+
+template <bool is_tested, bool flushes>
+void add_all(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
+             const rasterizer::Rect& region, SumState& state) {
+    raster::RowWalk<SumOf<is_tested, flushes>::template Shade, SumState>{state, geometry, region}.draw(triangles);
+}
+
+#else
+
+template <bool is_tested, bool flushes>
+void add_all(const rasterizer::Geometry&, std::span<const std::uint32_t>, const rasterizer::Rect&, SumState&) {}
+
+#endif
+
+rasterizer::DepthDrawn add_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
+                                const rasterizer::Rect& region, const rasterizer::DepthConversion& to_code,
+                                double units, const SumPlanes& planes, bool flushes) {
+    SumState state{planes, to_code, units};
+    if (planes.opaque == nullptr && flushes) add_all<false, true>(geometry, triangles, region, state);
+    if (planes.opaque == nullptr && !flushes) add_all<false, false>(geometry, triangles, region, state);
+    if (planes.opaque != nullptr && flushes) add_all<true, true>(geometry, triangles, region, state);
+    if (planes.opaque != nullptr && !flushes) add_all<true, false>(geometry, triangles, region, state);
+    return state.drawn;
+}
+
+}  // namespace
+}  // namespace strata::pipeline::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "rasterizer/set_up/window.h"
+
+namespace strata::pipeline {
+HWY_EXPORT(add_rows);
+
+rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
+                                    const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
+                                    const SumPlanes& planes, bool flushes) noexcept {
+    const rasterizer::FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
+    return HWY_DYNAMIC_DISPATCH(add_rows)(geometry, triangles, region, values.to_code(),
+                                          z_units(geometry.state, geometry.rules), planes, flushes);
+}
+
+}  // namespace strata::pipeline
+#endif

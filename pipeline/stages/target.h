@@ -1,0 +1,31 @@
+// pipeline/stages/target.h - a render target as state names it, and what is read from or written to it by a batch.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+using rasterizer::batch_capacity;
+using rasterizer::FragmentBatch;
+using rasterizer::Lanes;
+
+// A handle into its region's storage: copy it, swap it, compare it. The same number in every region.
+struct Target {
+    int id = -1;
+    [[nodiscard]] constexpr bool exists() const noexcept { return id >= 0; }
+    friend constexpr bool operator==(Target, Target) = default;
+};
+
+struct ClearValue {
+    std::array<float, 4> color{0, 0, 0, 0};
+    float depth = 1.0f;
+    std::uint8_t stencil = 0;
+};
+
+using ColorCodes =
+    std::array<Lanes<std::uint32_t>, 4>;  // per channel: u8 codes, half bits or binary32 bits, zero-extended
+using ColorLanes = std::array<Lanes<float>, 4>;
+
+}  // namespace strata::pipeline

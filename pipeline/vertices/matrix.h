@@ -1,0 +1,19 @@
+// pipeline/vertices/matrix.h - the one product of matrices: binary64, columns of b through a, summed in this order. decisions.md 1.
+#pragma once
+#include "pipeline/vertices/draw_list.h"
+#include "rasterizer/base/numerics.h"
+
+namespace strata::pipeline {
+inline namespace strict {
+
+[[nodiscard]] inline Matrix product(const Matrix& a, const Matrix& b) noexcept {
+    Matrix m{};
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t r = 0; r < 4; ++r)
+            m[4 * c + r] =
+                ((a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1]) + a[8 + r] * b[4 * c + 2]) + a[12 + r] * b[4 * c + 3];
+    return m;
+}
+
+}  // namespace strict
+}  // namespace strata::pipeline

@@ -1,0 +1,100 @@
+#include "pipeline/vertices/other_splits.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "rasterizer/base/numerics.h"
+
+namespace strata::pipeline {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+[[nodiscard]] Vector between(const Vec3& from, const Vec3& to) {
+    return {double{to[0]} - from[0], double{to[1]} - from[1], double{to[2]} - from[2]};
+}
+[[nodiscard]] Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+[[nodiscard]] double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// Corners a, b, c, d in walking order, the triangles being (a, b, c) and (c, d, a).
+using Quad = std::array<std::uint32_t, 4>;
+
+// The quad of two triangles, if the second walks a side of the first backwards.
+[[nodiscard]] std::optional<Quad> quad_of(const std::uint32_t* first, const std::uint32_t* second) {
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = first[i], to = first[(i + 1) % 3];
+            if (second[k] == to && second[(k + 1) % 3] == from)
+                return Quad{to, first[(i + 2) % 3], from, second[(k + 2) % 3]};
+        }
+    return std::nullopt;
+}
+
+// Both pairs of triangles face alike, and d lies in the plane of a, b, c.
+[[nodiscard]] bool is_flat_and_convex(const Quad& quad, const Mesh& mesh) {
+    const auto side = [&](std::size_t i, std::size_t k) {
+        return between(mesh.positions[quad[i]], mesh.positions[quad[k]]);
+    };
+    const Vector normal = cross(side(0, 1), side(0, 2));
+    double longest = 0.0;  // squared
+    for (std::size_t i = 0; i < 4; ++i) longest = std::max(longest, dot(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
+    const double off = dot(normal, side(0, 3));  // times |normal|
+    if (off * off > 0x1p-40 * longest * dot(normal, normal)) return false;
+    for (std::size_t i = 0; i < 4; ++i)
+        if (!(dot(normal, cross(side(i, (i + 1) % 4), side((i + 1) % 4, (i + 2) % 4))) > 0.0)) return false;
+    return true;
+}
+
+[[nodiscard]] std::uint64_t flip(Mesh& mesh) {
+    std::uint64_t flipped = 0;
+    for (std::size_t at = 0; at + 6 <= mesh.indices.size();) {
+        std::uint32_t* const index = &mesh.indices[at];
+        const auto quad = quad_of(index, index + 3);
+        if (!quad || !is_flat_and_convex(*quad, mesh)) {
+            at += 3;
+            continue;
+        }
+        const auto& [a, b, c, d] = *quad;
+        const std::array other{b, c, d, d, a, b};
+        std::copy(other.begin(), other.end(), index);
+        ++flipped;
+        at += 6;
+    }
+    return flipped;
+}
+
+void move(rasterizer::Rect& rect, int x, int y) { rect = {rect.x0 + x, rect.y0 + y, rect.x1 + x, rect.y1 + y}; }
+
+}  // namespace
+
+DrawList rotate_vertices(DrawList list, int k) {
+    for (Mesh& mesh : list.meshes)
+        for (std::size_t at = 0; at + 3 <= mesh.indices.size(); at += 3) {
+            const auto first = mesh.indices.begin() + static_cast<std::ptrdiff_t>(at);
+            std::rotate(first, first + ((k % 3) + 3) % 3, first + 3);
+        }
+    return list;
+}
+
+Flipped flip_diagonals(DrawList list) {
+    Flipped result{std::move(list), 0};
+    for (Mesh& mesh : result.list.meshes) result.quads += flip(mesh);
+    return result;
+}
+
+void move_window(rasterizer::Geometry& geometry, int x_px, int y_px) {
+    move(geometry.state.viewport, x_px, y_px);
+    if (geometry.state.scissor) move(*geometry.state.scissor, x_px, y_px);
+    const int unit = 1 << geometry.rules.subpixel_bits;
+    for (rasterizer::WindowCorner& corner : geometry.corners) {
+        corner.p.x += x_px * unit;
+        corner.p.y += y_px * unit;
+        corner.unsnapped[0] += static_cast<float>(x_px);
+        corner.unsnapped[1] += static_cast<float>(y_px);
+    }
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,159 @@
+#include "pipeline/vertices/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/vertices/matrix.h"
+#include "pipeline/vertices/quotient_rows.h"
+#include "pipeline/vertices/vertex_stage.h"
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/numerics.h"
+#include "rasterizer/base/parallel.h"
+#include "rasterizer/set_up/depth_bound.h"
+#include "rasterizer/set_up/window.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+double determinant(const Matrix& m) {
+    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+    return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
+           a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
+}
+
+bool is_selected(const Material& material, Selection selection) {
+    if (selection == Selection::all) return true;
+    return (material.alpha_mode == AlphaMode::blend) == (selection == Selection::transparent);
+}
+
+void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
+            rasterizer::TriangleSoup& soup) {
+    const Mesh& mesh = list.meshes[instance.mesh];
+    const Material& material = list.materials[instance.material];
+    const VertexStage stage{mesh, material, view, instance.model,
+                            material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
+    const std::size_t base = soup.vertices.size(), first_index = soup.indices.size();
+    soup.vertices.resize(base + mesh.positions.size());
+    soup.indices.resize(first_index + mesh.indices.size());
+    constexpr std::size_t chunk = 1024;
+    const std::size_t vertex_chunks = (mesh.positions.size() + chunk - 1) / chunk;
+    const std::size_t index_chunks = (mesh.indices.size() + chunk - 1) / chunk;
+    parallel_for(vertex_chunks + index_chunks, options.threads, [&](std::size_t c) {
+        if (c < vertex_chunks) {
+            const std::size_t count = std::min(chunk, mesh.positions.size() - c * chunk);
+            stage.run(c * chunk, std::span{soup.vertices}.subspan(base + c * chunk, count));
+            return;
+        }
+        const std::size_t begin = (c - vertex_chunks) * chunk, end = std::min(mesh.indices.size(), begin + chunk);
+        for (std::size_t i = begin; i < end; ++i)
+            soup.indices[first_index + i] = static_cast<std::uint32_t>(base) + mesh.indices[i];
+    });
+    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(first_index),
+                         .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
+                         .material = instance.material,
+                         .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
+                         .double_sided = material.double_sided,
+                         .mirrored = determinant(instance.model) < 0});
+}
+
+// What the options ask for beside the soup's vertices, in their order: r and q, texture units.
+rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                                       const rasterizer::RasterRules& rules, const PrepareOptions& options) {
+    rasterizer::VertexExtras extras;
+    extras.has_rq = options.depth_quotient;
+    extras.has_units = std::ranges::any_of(options.units, &CoordinateUnit::enabled);
+    extras.stride = (extras.has_rq ? 2u : 0u) + (extras.has_units ? 4 * rasterizer::texture_units : 0u);
+    for (const Instance& instance : list.instances) {
+        if (extras.stride == 0 || !is_selected(list.materials[instance.material], options.selection)) continue;
+        const Mesh& mesh = list.meshes[instance.mesh];
+        const VertexTransform rows = quotient_rows(view, instance.model, state, rules);
+        const VertexCoordinates coordinates{options.units, view, instance.model};
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const std::array<float, 4> rq = rows(mesh.positions[i]);
+            if (extras.has_rq) extras.values.insert(extras.values.end(), {rq[2], rq[3]});
+            if (!extras.has_units) continue;
+            for (const auto& unit :
+                 coordinates.at(mesh.positions[i], mesh.texcoords.empty() ? Vec2{} : mesh.texcoords[i]))
+                extras.values.insert(extras.values.end(), unit.begin(), unit.end());
+        }
+    }
+    return extras;
+}
+
+DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& primitives) {
+    DrawPart part{primitives, 1, 0};
+    if (geometry.state.depth_clamp) return {primitives, 0, 1};
+    const double units = z_units(geometry.state, geometry.rules);
+    const auto before = [](const rasterizer::TriangleRecord& t, std::uint32_t primitive) {
+        return t.primitive < primitive;
+    };
+    const auto begin = geometry.triangles.begin(), end = geometry.triangles.end();
+    const auto first = std::lower_bound(begin, end, primitives.first, before);
+    const auto last = std::lower_bound(first, end, primitives.last, before);
+    for (auto t = first; t != last; ++t) {
+        const auto i = static_cast<std::size_t>(t - begin);
+        const auto z = geometry.depths(i);
+        const auto [least, most] = std::minmax({z[0] / units, z[1] / units, z[2] / units});
+        const double bound = depth_bound(geometry, std::span{geometry.all_triangles}.subspan(i, 1));
+        part.near = std::min(part.near, least - (bound - most));  // a fragment strays as far on either side
+        part.far = std::max(part.far, bound);
+    }
+    return part;
+}
+
+MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
+    MaterialStage stage;
+    if (material.texture >= 0) stage.texture = &list.textures[static_cast<std::size_t>(material.texture)];
+    if (material.alpha_mode != AlphaMode::mask) return stage;
+    stage.mask = {.enabled = true, .func = CompareFunc::gequal, .ref = material.alpha_cutoff};
+    stage.alpha_scale = alpha_scale;
+    return stage;
+}
+
+}  // namespace
+
+rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options) {
+    rasterizer::TriangleSoup soup;
+    for (const Instance& instance : list.instances)
+        if (is_selected(list.materials[instance.material], options.selection))
+            append(list, instance, view, options, soup);
+    return soup;
+}
+
+PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                     const DeviceProfile& profile, const PrepareOptions& options) {
+    const FloatEnvironment ours;
+    rasterizer::TriangleSoup soup = transform(list, view, options);
+    SubmissionOrder order;
+    if (options.order) order = options.order(soup);
+    soup.order = std::move(order.triangles);
+    rasterizer::RasterRules rules = profile.raster;
+    if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
+    soup.extras = vertex_extras(list, view, state, rules, options);
+    PreparedDraw prepared;
+    prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
+    if (options.tile_size > 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
+    if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
+    for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));
+    for (const Material& material : list.materials) {
+        prepared.materials.push_back(material_stage(list, material, options.alpha_scale));
+        if (!is_selected(material, options.selection)) continue;
+        prepared.needs.texcoord |= material.texture >= 0;
+        prepared.needs.color |= material.alpha_mode == AlphaMode::mask;
+    }
+    return prepared;
+}
+
+MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles) {
+    MaterialNeeds needs{.shadow = list.needs.shadow};
+    for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {
+        const MaterialStage& material = list.materials[list.geometry.triangles[triangles[i]].material];
+        needs.texcoord |= material.texture != nullptr;
+        needs.color |= material.mask.enabled;
+    }
+    return needs;
+}
+
+}  // namespace strata::pipeline

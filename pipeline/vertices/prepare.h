@@ -1,0 +1,84 @@
+// pipeline/vertices/prepare.h - the vertex stage and everything else that is done once a frame: transform, light, clip, set up, bin.
+//
+// Rule     Matrices are multiplied in binary64 (projection * view * model) and rounded once to binary32;
+//          positions go through it by the view's vertex path (vertex_transform.h); nv20 divides by w in its own way, too.
+//          Lighting is two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye,
+//          per vertex in binary32, on the frame's colour values.
+// Source   decisions.md 1.
+// Tests    tests/pipeline/vertices/prepare_test.cpp
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipeline/device/profile.h"
+#include "pipeline/device/state.h"
+#include "pipeline/vertices/draw_list.h"
+#include "pipeline/vertices/primitive_range.h"
+#include "pipeline/vertices/texgen.h"
+#include "rasterizer/set_up/geometry.h"
+
+namespace strata::pipeline {
+
+// What a fragment of one material needs besides its interpolants; empty optionals are effects that nobody asked for.
+struct MaterialStage {
+    const Texture* texture = nullptr;  // into the draw list, which must outlive this
+    AlphaTest mask;                    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha
+    float alpha_scale = 1.0f;  // of what MASK keeps: after the test, so that it cuts at the material's own alpha
+};
+
+// What some materials call for in every pass.
+struct MaterialNeeds {
+    bool texcoord = false;            // one of them has a texture
+    bool color = false;               // one of them tests its alpha, so that even a depth-only pass must shade
+    rasterizer::UnitMask shadow = 0;  // what a shadow lookup of every fragment's colour looks at
+    friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
+};
+
+// Triangles that an algorithm draws together, and depths between which all their fragments lie, in units of shader_z.
+struct DrawPart {
+    PrimitiveRange primitives;
+    double near = 0, far = 0;
+    friend bool operator==(const DrawPart&, const DrawPart&) = default;
+};
+
+struct PreparedDraw {
+    rasterizer::Geometry geometry;
+    std::vector<DrawPart> parts;  // in submission order, without gaps; empty unless the order made some
+    std::vector<MaterialStage> materials;
+    MaterialNeeds needs;  // of all of them
+};
+
+// What the materials of some of a list's triangles call for: of a tile, it may be less than the list's.
+[[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
+
+enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK
+
+// The order in which a soup's triangles are submitted; `parts` as in PreparedDraw.
+struct SubmissionOrder {
+    std::vector<std::uint32_t> triangles;  // numbers in the soup; empty: as listed
+    std::vector<PrimitiveRange> parts;
+};
+using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>;
+
+struct PrepareOptions {
+    Selection selection = Selection::all;
+    float alpha_scale = 1.0f;  // --alpha: every alpha times this, at the vertex; a MASK material's after its test
+    bool depth_quotient =
+        false;           // also r and q of every vertex, for perspective_rq and depth_replace (quotient_rows.h)
+    Ordering order{};    // none: as listed
+    int tile_size = 32;  // 0: not binned yet
+    int threads = 0;
+    CoordinateUnits units{};       // texture units that somebody looks at
+    bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h
+};
+
+// Inverts nothing it need not: mirrored instances keep their winding and flip their facing.
+[[nodiscard]] PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
+                                   const DeviceProfile& profile, const PrepareOptions& options);
+
+// The clip-space soup that `prepare` sets up; for tests and for whoever wants the vertices.
+[[nodiscard]] rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options);
+
+}  // namespace strata::pipeline

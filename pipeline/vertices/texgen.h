@@ -1,0 +1,78 @@
+// pipeline/vertices/texgen.h - texture coordinates of a vertex: generated, given, and taken through a texture matrix.
+//
+// Rule     A generated coordinate is plane . position, in object or eye space; an eye plane is multiplied by the inverse
+//          of the modelview in force when it is specified. What is not generated is the vertex's own: s and t of its
+//          mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix. Planes, texture matrix and modelview are
+//          multiplied in binary64 and rounded once to binary32 [A: a driver may]; positions go through them by the view's
+//          vertex path, as they do on their way to clip space (vertex_transform.h).
+// Source   GL 1.2.1 2.10.2 and 2.10.4; hardware.md 3; decisions.md 1.
+// Tests    tests/pipeline/vertices/texgen_test.cpp, tests/pipeline/listing2_test.cpp
+#pragma once
+#include <array>
+#include <vector>
+
+#include "pipeline/vertices/draw_list.h"
+#include "pipeline/vertices/vertex_transform.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+
+// The texture unit whose coordinates look into a light's map, and the mask that names them.
+inline constexpr std::size_t shadow_unit = 3;
+inline constexpr rasterizer::UnitMask shadow_coordinates = 0xf << (4 * shadow_unit);
+
+enum class TexGenMode : std::uint8_t { off, object_linear, eye_linear };
+
+using Plane4 = std::array<double, 4>;
+inline constexpr std::array<Plane4, 4> identity_planes{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+
+struct TexGen {
+    TexGenMode mode = TexGenMode::off;
+    Plane4 plane{};  // an eye plane as `eye_plane` leaves it
+    friend bool operator==(const TexGen&, const TexGen&) = default;
+};
+
+// What a unit does to its coordinates s, t, r, q.
+struct CoordinateUnit {
+    bool enabled = false;  // somebody looks at this unit
+    std::array<TexGen, 4> gen{};
+    Matrix matrix = identity;
+    // Factors of s, t and r behind the texture matrix: 2^n - 1 where a quotient by q, or by another unit, is to be in the
+    // units of a depth buffer. OpenGL has none of it: its driver scales the rows of a GeForce3, and so do we.
+    std::array<double, 3> depth_units{1, 1, 1};
+    friend bool operator==(const CoordinateUnit&, const CoordinateUnit&) = default;
+};
+using CoordinateUnits = std::array<CoordinateUnit, rasterizer::texture_units>;
+using UnitCoordinates = std::array<std::array<float, 4>, rasterizer::texture_units>;  // s t r q of each
+
+// glTexGendv(EYE_PLANE) under `modelview`: plane times its inverse. Throws std::logic_error for a singular matrix.
+[[nodiscard]] Plane4 eye_plane(const Plane4& plane, const Matrix& modelview);
+
+// All four coordinates EYE_LINEAR with identity planes, specified under the identity: s t r q are the eye position.
+[[nodiscard]] std::array<TexGen, 4> eye_position();
+
+// glTranslate, glScale as matrices, for texture matrices entered step by step.
+[[nodiscard]] constexpr Matrix translation(double x, double y, double z) noexcept {
+    return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1};
+}
+[[nodiscard]] constexpr Matrix scaling(double x, double y, double z) noexcept {
+    return {x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1};
+}
+
+// The coordinates of one mesh's vertices.
+class VertexCoordinates {
+  public:
+    VertexCoordinates(const CoordinateUnits& units, const View& view, const Matrix& model);
+    [[nodiscard]] UnitCoordinates at(const Vec3& position, const Vec2& texcoord) const;
+
+  private:
+    struct Unit {
+        bool enabled = false, all_generated = false;
+        std::array<bool, 4> generated{};
+        VertexTransform of_position;             // all generated: matrix . planes . modelview; else planes . modelview
+        std::array<float, 16> of_coordinates{};  // the texture matrix, where some coordinate is given
+    };
+    std::vector<Unit> units_;
+};
+
+}  // namespace strata::pipeline

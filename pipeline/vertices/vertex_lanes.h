@@ -1,0 +1,27 @@
+// pipeline/vertices/vertex_lanes.h - positions and light of vertices, sixteen at a time; the meaning is vertex_stage.h's.
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "pipeline/vertices/draw_list.h"
+
+namespace strata::pipeline {
+
+inline constexpr std::size_t vertex_lane_count = 16;
+
+struct VertexLanes {
+    alignas(64) std::array<std::array<float, vertex_lane_count>, 4> position;  // x, y, z, w in clip space
+    alignas(64) std::array<float, vertex_lane_count> light;                    // the factor
+};
+
+struct VertexKernels {
+    // By VertexPath::separate; `m` column-major.
+    void (*transform)(const std::array<float, 16>& m, const Vec3* positions, VertexLanes& out) noexcept;
+    void (*light)(const std::array<float, 9>& m, const Vec3& toward_eye, const Vec3* normals,
+                  VertexLanes& out) noexcept;
+};
+
+// Those of the chosen set; null for scalar.
+[[nodiscard]] const VertexKernels* vertex_kernels() noexcept;
+
+}  // namespace strata::pipeline

@@ -1,0 +1,90 @@
+#include "pipeline/vertices/vertex_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipeline/vertices/matrix.h"
+#include "pipeline/vertices/vertex_lanes.h"
+
+namespace strata::pipeline {
+namespace {
+
+// Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for mirrored
+// models, a sign that |N.L| does not see.
+std::array<float, 9> normal_matrix(const Matrix& m) {
+    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+    std::array<float, 9> n{};
+    for (std::size_t column = 0; column < 3; ++column)
+        for (std::size_t row = 0; row < 3; ++row) {
+            const std::size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+            n[3 * column + row] = static_cast<float>(a(r1, c1) * a(r2, c2) - a(r1, c2) * a(r2, c1));
+        }
+    return n;
+}
+
+// The unit vector from the view's centre to the eye: the view's third row.
+Vec3 light_direction(const Matrix& view) {
+    const double x = view[2], y = view[6], z = view[10];
+    const double length = std::sqrt((x * x + y * y) + z * z);
+    if (!(length > 0)) return {0, 0, 1};
+    return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
+}
+
+}  // namespace
+
+VertexStage::VertexStage(const Mesh& mesh, const Material& material, const View& view, const Matrix& model,
+                         float alpha_scale)
+    : mesh_{mesh},
+      material_{material},
+      clip_{view.vertex_path, product(product(view.projection, view.view), model), view.projection,
+            product(view.view, model)},
+      normal_{normal_matrix(model)},
+      light_{light_direction(view.view)},
+      alpha_scale_{alpha_scale},
+      is_lit_{!material.unlit && !mesh.normals.empty()} {}
+
+float VertexStage::light_of(const Vec3& n) const {
+    Vec3 world{};
+    for (std::size_t r = 0; r < 3; ++r) world[r] = (normal_[r] * n[0] + normal_[3 + r] * n[1]) + normal_[6 + r] * n[2];
+    const float squared = (world[0] * world[0] + world[1] * world[1]) + world[2] * world[2];
+    const float length = std::sqrt(squared);
+    if (!(length > 0.0f)) return 0.25f;
+    const float dot = (world[0] * light_[0] + world[1] * light_[1]) + world[2] * light_[2];
+    return 0.25f + 0.75f * std::fabs(dot / length);
+}
+
+rasterizer::ClipVertex VertexStage::vertex(std::size_t i, const std::array<float, 4>& p, float light) const {
+    rasterizer::ClipVertex v{.x = p[0], .y = p[1], .z = p[2], .w = p[3]};
+    const Rgba color = mesh_.colors.empty() ? Rgba{1, 1, 1, 1} : mesh_.colors[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+        v.front[c] = (material_.front[c] * color[c]) * light;
+        v.back[c] = (material_.back[c] * color[c]) * light;
+    }
+    v.front[3] = (material_.front[3] * color[3]) * alpha_scale_;
+    v.back[3] = (material_.back[3] * color[3]) * alpha_scale_;
+    if (!mesh_.texcoords.empty()) v.texcoord = mesh_.texcoords[i];
+    return v;
+}
+
+void VertexStage::run(std::size_t begin, std::span<rasterizer::ClipVertex> out) const {
+    const VertexKernels* const kernels = clip_.separate_matrix() != nullptr ? vertex_kernels() : nullptr;
+    std::size_t done = 0;
+    for (; kernels != nullptr && done + vertex_lane_count <= out.size(); done += vertex_lane_count) {
+        VertexLanes block;
+        const std::size_t first = begin + done;
+        kernels->transform(*clip_.separate_matrix(), &mesh_.positions[first], block);
+        if (is_lit_)
+            kernels->light(normal_, light_, &mesh_.normals[first], block);
+        else
+            block.light.fill(1.0f);
+        const auto& [x, y, z, w] = block.position;
+        for (std::size_t k = 0; k < vertex_lane_count; ++k)
+            out[done + k] = vertex(first + k, {x[k], y[k], z[k], w[k]}, block.light[k]);
+    }
+    for (; done < out.size(); ++done) {
+        const std::size_t i = begin + done;
+        out[done] = vertex(i, clip_(mesh_.positions[i]), is_lit_ ? light_of(mesh_.normals[i]) : 1.0f);
+    }
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,47 @@
+// pipeline/vertices/vertex_transform.h - a matrix times a position, by one of the vertex paths.
+//
+// Rule     Matrices are multiplied in binary64 and rounded once to binary32, m the whole. With x, y, z in binary32, row r is
+//          separate      ((m0 x + m1 y) + m2 z) + m3, every operation rounded
+//          fused         fma(m2, z, fma(m1, y, m0 x)) + m3
+//          reassociated  e = inner * p, then outer * e; rows (m0 x + m1 y) + (m2 z + m3), last factor e.w in the second
+//          double        as separate in binary64 with matrices never rounded; the result rounded once
+//          toward_zero   as separate, every product and sum cut toward zero
+//          nv20          one sum of three products and m3 by rasterizer/base/nv20_arithmetic.h
+// Source   decisions.md 1 (separate); hardware.md 1 (nv20); the others are ours: what compilers and drivers do [A].
+// Tests    tests/pipeline/vertices/vertex_transform_test.cpp
+#pragma once
+#include <array>
+
+#include "pipeline/vertices/draw_list.h"
+#include "rasterizer/base/numerics.h"
+
+namespace strata::pipeline {
+
+class VertexTransform {
+  public:
+    // `whole` is outer * inner, in whichever order of products its caller has settled.
+    VertexTransform(VertexPath path, const Matrix& whole, const Matrix& outer, const Matrix& inner);
+
+    [[nodiscard]] std::array<float, 4> operator()(const Vec3& p) const {
+        if (path_ != VertexPath::separate) return by_path(p);
+        const auto& m = whole_;
+        const auto row = [&](std::size_t r) { return ((m[r] * p[0] + m[4 + r] * p[1]) + m[8 + r] * p[2]) + m[12 + r]; };
+        return {row(0), row(1), row(2), row(3)};
+    }
+
+    // The matrix, column-major, if that is all: VertexPath::separate.
+    [[nodiscard]] const std::array<float, 16>* separate_matrix() const noexcept {
+        return path_ == VertexPath::separate ? &whole_ : nullptr;
+    }
+
+  private:
+    [[nodiscard]] std::array<float, 4> by_path(const Vec3& p) const;
+
+    VertexPath path_;
+    std::array<float, 16> whole_, outer_, inner_;
+    Matrix exact_;
+};
+
+[[nodiscard]] std::array<float, 16> to_binary32(const Matrix& m);
+
+}  // namespace strata::pipeline

@@ -1,0 +1,36 @@
+#include "rasterizer/base/float_environment.h"
+
+#include <cfenv>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace strata {
+
+#if defined(__SSE2__)
+
+// MXCSR: all exceptions masked, nearest even, neither flush-to-zero nor denormals-are-zero (Intel SDM volume
+// 1, 10.2.3).
+FloatEnvironment::FloatEnvironment() noexcept : saved_{_mm_getcsr()} { _mm_setcsr(0x1f80); }
+FloatEnvironment::~FloatEnvironment() { _mm_setcsr(static_cast<unsigned>(saved_)); }
+
+#elif defined(__aarch64__)
+
+// FPCR = 0: nearest even, no flush-to-zero, no default NaN, no traps (Arm ARM, C5.2.8).
+FloatEnvironment::FloatEnvironment() noexcept : saved_{0} {
+    asm volatile("mrs %0, fpcr" : "=r"(saved_));
+    asm volatile("msr fpcr, %0" : : "r"(std::uint64_t{0}));
+}
+FloatEnvironment::~FloatEnvironment() { asm volatile("msr fpcr, %0" : : "r"(saved_)); }
+
+#else
+
+FloatEnvironment::FloatEnvironment() noexcept : saved_{static_cast<std::uint64_t>(std::fegetround())} {
+    std::fesetround(FE_TONEAREST);
+}
+FloatEnvironment::~FloatEnvironment() { std::fesetround(static_cast<int>(saved_)); }
+
+#endif
+
+}  // namespace strata

@@ -1,0 +1,23 @@
+// rasterizer/base/float_environment.h - our own floating-point environment for the length of a scope.
+//
+// Rule     Every public entry and every worker of ours computes with round to nearest even, denormals kept, exceptions
+//          masked, whatever the host program has set, and gives the caller's environment back.
+// Source   decisions.md 1; a library built with fast-math sets flush-to-zero when it is loaded.
+// Tests    tests/rasterizer/base/float_environment_test.cpp
+#pragma once
+#include <cstdint>
+
+namespace strata {
+
+class FloatEnvironment {
+  public:
+    FloatEnvironment() noexcept;
+    ~FloatEnvironment();
+    FloatEnvironment(const FloatEnvironment&) = delete;
+    FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+  private:
+    std::uint64_t saved_;
+};
+
+}  // namespace strata

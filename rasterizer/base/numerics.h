@@ -1,0 +1,26 @@
+// rasterizer/base/numerics.h - the floating-point rules that every result bit stands on. Every header with arithmetic
+// includes this one.
+//
+// Rule     IEEE 754 binary32 and binary64, round to nearest even, each operation rounded once: no contraction into
+//          fused multiply-add, no excess precision, no reassociation. Headers with inline arithmetic live in the inline
+//          namespace `strict`, so that a program compiled with other rules cannot silently share their code at link
+//          time.
+// Source   decisions.md 1 and 6; ISO C++ <cfenv>; the build carries the flags as strata::numerics.
+// Tests    tests/rasterizer/base/numerics_test.cpp
+#pragma once
+#include <cfloat>
+#include <limits>
+
+#ifdef __FAST_MATH__
+#error "Strata's arithmetic must not be compiled with -ffast-math: link the target strata::numerics"
+#endif
+#if FLT_EVAL_METHOD != 0
+#error "Strata's arithmetic needs FLT_EVAL_METHOD == 0: binary32 and binary64 operations without excess precision"
+#endif
+
+namespace strata {
+
+static_assert(std::numeric_limits<float>::is_iec559 && std::numeric_limits<float>::digits == 24);
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53);
+
+}  // namespace strata

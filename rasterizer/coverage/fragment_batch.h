@@ -1,0 +1,69 @@
+// rasterizer/coverage/fragment_batch.h - fragments on their way through the stages, as arrays.
+// A batch holds fragments of one material in submission order, and no pixel twice: a stage may read, change and write
+// back the stored values of all its fragments in one loop without looking at the order between them.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "rasterizer/rules/depth_code.h"
+#include "rasterizer/rules/rules.h"
+
+namespace strata::rasterizer {
+
+inline constexpr int batch_capacity = 256;
+
+template <class T>
+using Lanes = std::array<T, batch_capacity>;
+
+inline constexpr std::size_t texture_units = 4;
+// Which coordinates of which units: bit 4 u + c is component c (s t r q) of unit u.
+using UnitMask = std::uint16_t;
+[[nodiscard]] constexpr bool names(UnitMask mask, std::size_t unit, std::size_t component) noexcept {
+    return (mask >> (4 * unit + component) & 1) != 0;
+}
+
+struct alignas(64) FragmentBatch {
+    Lanes<std::uint32_t> pixel;         // index into the region, row-major
+    Lanes<std::uint16_t> x, y;          // window position of the pixel, y down
+    Lanes<std::uint32_t> primitive;     // submission index of the source triangle
+    Lanes<float> shader_z;              // what a fragment program sees as depth: binary32, not clamped, not quantised
+    Lanes<std::uint32_t> code;          // the depth as this pass's buffer would store it
+    Lanes<std::uint32_t> exact_code;    // the same by DepthPath::exact, when asked for
+    std::array<Lanes<float>, 4> color;  // r g b a, interpolated
+    std::array<Lanes<float>, 2> texcoord;  // s t
+    Lanes<std::uint8_t> front_facing;
+    int count = 0;
+    std::uint32_t material = 0;
+    // The depth that a program compares with stored ones: DepthRequest::reference's, or the stored path's own.
+    Lanes<std::uint32_t> reference_code;  // quantised like a depth write
+    Lanes<double> reference_z;            // before that, not clamped: in codes of a fixed format, in [0,1] of D32F
+    std::array<std::array<Lanes<float>, 4>, texture_units> unit;  // s t r q of each texture unit, not divided by q
+};
+
+// Which of a batch's arrays a pass looks at; the others keep whatever they held. pixel, x, y and primitive are always
+// there.
+struct FragmentNeeds {
+    bool shader_z = true, code = true, exact_code = false, color = true, texcoord = false, facing = false;
+    bool reference = false;  // reference_code and reference_z; code comes with them
+    UnitMask units = 0;
+    friend bool operator==(const FragmentNeeds&, const FragmentNeeds&) = default;
+    [[nodiscard]] friend constexpr FragmentNeeds operator|(FragmentNeeds a, FragmentNeeds b) noexcept {
+        return {a.shader_z || b.shader_z,     a.code || b.code,
+                a.exact_code || b.exact_code, a.color || b.color,
+                a.texcoord || b.texcoord,     a.facing || b.facing,
+                a.reference || b.reference,   static_cast<UnitMask>(a.units | b.units)};
+    }
+};
+
+// The depth that `code` holds: which path computes it, in which format it is stored, and which path computes the depth
+// that is compared with it; empty: the same one.
+struct DepthRequest {
+    DepthPath path = DepthPath::float32;
+    DepthFormat format = DepthFormat::d32f;
+    std::optional<DepthPath> reference{};
+    friend bool operator==(const DepthRequest&, const DepthRequest&) = default;
+};
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,126 @@
+// rasterizer/coverage/small_coverage-inl.h - what of a small triangle is covered, as bits: four rows of 4 pixels, two of 8 or one of
+// 16 side by side. For *_simd.cpp alone, as weights-inl.h. Its meaning is scalar::emit_small of small_triangles.h.
+// Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
+#include <bit>
+
+#include "hwy/highway.h"
+#include "rasterizer/coverage/small_triangles.h"
+
+#if defined(STRATA_RASTERIZER_SMALL_COVERAGE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRATA_RASTERIZER_SMALL_COVERAGE_INL_H
+#undef STRATA_RASTERIZER_SMALL_COVERAGE_INL_H
+#else
+#define STRATA_RASTERIZER_SMALL_COVERAGE_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::rasterizer::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Block32 = hn::CappedTag<std::uint32_t, 16>;
+constexpr std::size_t block_part = hn::MaxLanes(Block32{}), block_parts = 16 / block_part;
+
+// A block is 16 pixels: four rows of 4, two of 8 or one of 16, by the width of the box.
+struct BlockShape {
+    alignas(64) std::uint32_t column[16], row[16];
+    std::uint32_t first_column;  // its bits
+};
+constexpr BlockShape shape_of(std::uint32_t width) {
+    BlockShape shape{};
+    for (std::uint32_t i = 0; i < 16; ++i) {
+        shape.column[i] = i % width;
+        shape.row[i] = i / width;
+        shape.first_column |= i % width == 0 ? 1u << i : 0;
+    }
+    return shape;
+}
+constexpr BlockShape shapes[3] = {shape_of(4), shape_of(8), shape_of(16)};
+
+// What of a small triangle is covered, a bit a pixel, block after block. `within_8` knows that the box lies in 8 x 8
+// pixels: four blocks, whose loops end where the compiler can see it.
+template <bool within_8>
+class SmallCoverage {
+  public:
+    HWY_INLINE SmallCoverage(const TriangleGroup& g, std::size_t k)
+        : log_width_{within_8 || (g.width[k] > 4 && g.width[k] <= 8) ? 3u : (g.width[k] <= 4 ? 2u : 4u)},
+          count_{within_8 ? 4u : ((g.height[k] << log_width_) + 15) / 16},
+          shape_{shapes[log_width_ - 2]} {
+        const Block32 d;
+        hn::Vec<Block32> edge[3][block_parts], down[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto value = hn::Set(d, g.value[i][k]), step = hn::Set(d, g.step[i][k]);
+            const auto down_step = hn::Set(d, g.down[i][k]);
+            for (std::size_t part = 0; part < block_parts; ++part)
+                edge[i][part] = hn::Add(hn::Add(value, hn::Mul(hn::Load(d, shape_.column + part * block_part), step)),
+                                        hn::Mul(hn::Load(d, shape_.row + part * block_part), down_step));
+            down[i] = hn::Set(d, g.down[i][k] << (4 - log_width_));
+        }
+        const std::uint32_t in_box = ((1u << g.width[k]) - 1) * shape_.first_column;
+        for (std::uint32_t b = 0; b < count(); ++b) {
+            std::uint32_t covered = 0;
+            for (std::size_t part = 0; part < block_parts; ++part) {
+                covered |= not_negative(hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part]))
+                           << part * block_part;
+                for (std::size_t i = 0; i < 3; ++i) edge[i][part] = hn::Add(edge[i][part], down[i]);
+            }
+            bits_[b / 4] |= std::uint64_t{covered & in_box} << b % 4 * 16;
+        }
+        const std::uint32_t end = g.height[k] << log_width_;  // no rows below the box
+        bits_[(end - 1) / 64] &= ~std::uint64_t{0} >> (64 - end) % 64;
+        for (std::uint32_t word = 0; word < (count() + 3) / 4; ++word) pixels_ += std::popcount(bits_[word]);
+    }
+    HWY_INLINE int pixels() const { return pixels_; }
+    HWY_INLINE std::uint32_t row(std::uint32_t r) const {
+        const std::uint32_t bit = r << log_width_;
+        return static_cast<std::uint32_t>(bits_[bit / 64] >> bit % 64) & ((1u << (1u << log_width_)) - 1);
+    }
+    // Rows [first_row, end_row) hold what is covered; there is something.
+    HWY_INLINE std::uint32_t first_row() const {
+        return within_8 ? static_cast<std::uint32_t>(std::countr_zero(bits_[0])) / 8 : 0;
+    }
+    HWY_INLINE std::uint32_t end_row(std::uint32_t height) const {
+        return within_8 ? 8 - static_cast<std::uint32_t>(std::countl_zero(bits_[0])) / 8 : height;
+    }
+    // The numbers of the covered pixels, ascending: pixels() of them, and room for block_part more.
+    HWY_INLINE void list(std::uint32_t* numbers) const {
+        const Block32 d;
+        for (std::uint32_t first = 0; first < 16 * count(); first += block_part) {
+            const std::uint64_t own = bits_[first / 64] >> first % 64 & ((1u << block_part) - 1);
+            const auto covered = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&own));
+            const auto number = hn::Add(hn::Load(d, shapes[2].column), hn::Set(d, first));
+            hn::StoreU(hn::Compress(number, covered), d, numbers);
+            numbers += std::popcount(own);
+        }
+    }
+    // Of pixels by number, within the box.
+    template <class Vec>
+    HWY_INLINE Vec column(Vec number) const {
+        return hn::And(number, hn::Set(hn::DFromV<Vec>{}, (1u << log_width()) - 1));
+    }
+    template <class Vec>
+    HWY_INLINE Vec row(Vec number) const {
+        return hn::ShiftRightSame(number, static_cast<int>(log_width()));
+    }
+    // How many rows to claim: those below the box are empty.
+    HWY_INLINE std::uint32_t rows(std::uint32_t height) const { return within_8 ? 8 : height; }
+
+  private:
+    HWY_INLINE std::uint32_t log_width() const { return within_8 ? 3 : log_width_; }
+    HWY_INLINE std::uint32_t count() const { return within_8 ? 4 : count_; }
+    HWY_INLINE static std::uint32_t not_negative(hn::Vec<Block32> v) {
+        const hn::RebindToSigned<Block32> d;
+        std::uint64_t bits = 0;
+        const auto is = hn::Gt(hn::BitCast(d, v), hn::Set(d, -1));
+        hn::StoreMaskBits(d, is, reinterpret_cast<std::uint8_t*>(&bits));
+        return static_cast<std::uint32_t>(bits);
+    }
+
+    std::uint32_t log_width_, count_;
+    const BlockShape& shape_;
+    int pixels_ = 0;
+    std::uint64_t bits_[within_8 ? 1 : 4] = {};
+};
+
+}  // namespace strata::rasterizer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,29 @@
+// rasterizer/coverage/window_corner.h - a vertex in the window, and the box of pixels that a triangle can cover.
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "rasterizer/coverage/edge.h"
+#include "rasterizer/rules/raster_state.h"
+
+namespace strata::rasterizer {
+
+// A vertex in the window, shared by all triangles that it is a corner of.
+struct WindowCorner {
+    SubpixelPoint p;                   // snapped position, y down
+    std::array<float, 2> unsnapped{};  // position before snapping, for PlaneOrigin::unsnapped
+    float z = 0, inverse_w = 1;        // window z (rules.window_z units) before polygon offset; binary32 1 / w
+};
+
+// Pixels [x0, x1) x [y0, y1), counted from the viewport's corner.
+struct PixelBox {
+    std::uint16_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+// `box` lies in the viewport, which is at most 65535 pixels wide and high.
+[[nodiscard]] constexpr PixelBox in_viewport(const Rect& box, const Rect& viewport) noexcept {
+    const auto x = [&](int column) { return static_cast<std::uint16_t>(column - viewport.x0); };
+    const auto y = [&](int row) { return static_cast<std::uint16_t>(row - viewport.y0); };
+    return {x(box.x0), y(box.y0), x(box.x1), y(box.y1)};
+}
+
+}  // namespace strata::rasterizer

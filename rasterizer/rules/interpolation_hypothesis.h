@@ -1,0 +1,31 @@
+// rasterizer/rules/interpolation_hypothesis.h - what is not known for certain about colours and texture coordinates, as values
+// to vary.
+//
+// Rule     As depth_hypothesis.h: a default is what captures of silicon prove where they do ([M]), else our assumption
+//          ([A]). interpolation_hypotheses (hypotheses.h) names the others.
+// Source   nv2a-fragment.md 2, 3 and 8; nv2a-depth.md 3; nv2a-geometry.md 5.4.
+// Tests    tests/rasterizer/values/color_weights_test.cpp, cut_coordinates_test.cpp
+#pragma once
+#include <cstdint>
+
+namespace strata::rasterizer {
+
+// The weights b of colours where 1/w differs, p_i = e_i (1/w_i): products of the edge values, normalised in binary64, or
+// of the chip's weights, every step cut and normalised by a reciprocal cut like that of the area. [A] both: equal w
+// alone is measured.
+enum class PerspectiveColor : std::uint8_t { edge_products, weight_products };
+
+// Texture coordinates where w is equal at all corners: the exact plane rounded once, or the chip's sum by cut weights
+// (cut_coordinates.h) [M]. Where w differs: the exact plane [A].
+enum class CoordinateRule : std::uint8_t { exact_plane, cut_weights };
+
+struct InterpolationHypothesis {
+    // Leading bits of a vertex colour that reach its 8-bit code (9 to 24), the rest is cut. [M] 14: all of 3,944 greys of
+    // suite Depth_buffer, while 13 gives 25 wrong, 15 gives 14, all 24 give 29.
+    int vertex_color_bits = 24;
+    PerspectiveColor perspective_color = PerspectiveColor::edge_products;
+    CoordinateRule texture_coordinates = CoordinateRule::exact_plane;
+    friend bool operator==(const InterpolationHypothesis&, const InterpolationHypothesis&) = default;
+};
+
+}  // namespace strata::rasterizer

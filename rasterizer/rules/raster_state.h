@@ -1,0 +1,67 @@
+// rasterizer/rules/raster_state.h - the conventions and the state of rasterization. Conventions are state, not habit.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "rasterizer/rules/rules.h"
+
+namespace strata::rasterizer {
+
+// Pixels [x0, x1) x [y0, y1) of the surface, y down in memory order.
+struct Rect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    [[nodiscard]] constexpr int width() const noexcept { return x1 > x0 ? x1 - x0 : 0; }
+    [[nodiscard]] constexpr int height() const noexcept { return y1 > y0 ? y1 - y0 : 0; }
+    [[nodiscard]] constexpr std::size_t area() const noexcept {
+        return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+    }
+    friend constexpr bool operator==(const Rect&, const Rect&) = default;
+};
+
+[[nodiscard]] constexpr Rect intersection(const Rect& a, const Rect& b) noexcept {
+    return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1};
+}
+
+enum class ClipDepth : std::uint8_t {
+    minus_one_to_one,
+    zero_to_one
+};  // -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D)
+// Where clip-space +y points on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the
+// window.
+enum class YDirection : std::uint8_t { up, down };
+enum class CullFace : std::uint8_t { none, front, back, front_and_back };
+enum class FrontFace : std::uint8_t { counter_clockwise, clockwise };  // as seen in the window with y up, GL 2.1 2.14.1
+
+struct PolygonOffset {  // glPolygonOffset; GL 2.1 3.5.5: o = m * factor + r * units
+    bool enabled = false;
+    float factor = 0.0f, units = 0.0f;
+    friend bool operator==(const PolygonOffset&, const PolygonOffset&) = default;
+};
+
+// a x + b y + c z + d w >= 0 in clip space is kept (glClipPlane after the transform to clip space).
+struct ClipPlane {
+    float a = 0, b = 0, c = 0, d = 1;
+    friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
+};
+
+struct RasterState {
+    Rect viewport;                              // also the surface: fragments outside it do not exist
+    float depth_near = 0.0f, depth_far = 1.0f;  // glDepthRange; near > far is a reversed range
+    ClipDepth clip_depth = ClipDepth::minus_one_to_one;
+    YDirection y_direction = YDirection::up;
+    std::optional<Rect> scissor;
+    bool depth_clamp = false;        // ARB_depth_clamp: no clipping at near and far, depth clamped just before the test
+    CullFace cull = CullFace::back;  // for single-sided items; double-sided items are never culled
+    FrontFace front_face = FrontFace::counter_clockwise;
+    PolygonOffset polygon_offset;
+    std::array<ClipPlane, 6> clip_planes{};
+    int clip_plane_count = 0;
+    // Vertices carry window x, y (pixels) and z (rules.window_z units) beside their w, as a vertex program of NV2A leaves
+    // them: no clip volume, no division, no viewport.
+    bool window_positions = false;
+    DepthFormat depth_format = DepthFormat::d32f;  // vertex z in buffer units and the offset unit depend on it
+    friend bool operator==(const RasterState&, const RasterState&) = default;
+};
+
+}  // namespace strata::rasterizer

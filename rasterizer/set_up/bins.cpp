@@ -1,0 +1,143 @@
+// rasterizer/set_up/bins.cpp - which tiles a set-up triangle may touch: its box of pixel centres, less the tiles wholly
+// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists
+// have exactly the memory that they need.
+// Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <span>
+#include <stdexcept>
+
+#include "rasterizer/base/parallel.h"
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/coverage/small_triangles.h"
+#include "rasterizer/set_up/geometry.h"
+
+namespace strata::rasterizer {
+namespace {
+
+// The edge values at the pixel centre of `r` where they are largest decide: all three must reach a covered value.
+[[nodiscard]] bool may_cover(const TriangleEdges& edges, const Rect& r, int subpixel_bits) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Edge& edge = edges.edge(i);
+        const int x = edge.step_x() > 0 ? r.x1 - 1 : r.x0;
+        const int y = edge.step_y() > 0 ? r.y1 - 1 : r.y0;
+        if (edge.at(pixel_centre(x, y, subpixel_bits)) < edges.tie(i)) return false;
+    }
+    return true;
+}
+
+[[nodiscard]] Rect rect_of(int column, int row, const Geometry& geometry) noexcept {
+    const Rect& viewport = geometry.state.viewport;
+    const int x = viewport.x0 + column * geometry.tile_size, y = viewport.y0 + row * geometry.tile_size;
+    return intersection({x, y, x + geometry.tile_size, y + geometry.tile_size}, viewport);
+}
+
+// Visits the tiles of one size that a triangle may touch, in their order.
+class TileWalk {
+  public:
+    explicit TileWalk(const Geometry& geometry)
+        : geometry_{geometry}, shift_{std::countr_zero(static_cast<unsigned>(geometry.tile_size))} {}
+
+    template <class Visit>
+    void visit(const TriangleRecord& triangle, Visit&& visit) const {
+        const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
+        const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
+        if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly
+        if (is_small(triangle.box)) {
+            for (int y = y0; y <= y1; ++y)
+                for (int x = x0; x <= x1; ++x) visit(number(x, y));
+            return;
+        }
+        const int bits = geometry_.rules.subpixel_bits;
+        const TriangleEdges edges{geometry_.points(triangle), geometry_.rules.tie_rule};
+        for (int y = y0; y <= y1; ++y)
+            for (int x = x0; x <= x1; ++x)
+                if (may_cover(edges, rect_of(x, y, geometry_), bits)) visit(number(x, y));
+    }
+
+  private:
+    [[nodiscard]] static bool is_small(const PixelBox& box) noexcept {
+        return box.x1 - box.x0 <= TriangleGroup::max_width && box.y1 - box.y0 <= TriangleGroup::max_height;
+    }
+    [[nodiscard]] std::size_t number(int x, int y) const noexcept {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(geometry_.tiles_x) + static_cast<std::size_t>(x);
+    }
+
+    const Geometry& geometry_;
+    int shift_;
+};
+
+// The triangles in chunks and what each chunk has in each tile: first its count there, then where it writes next.
+class ChunkedBins {
+  public:
+    ChunkedBins(std::size_t triangles, std::size_t tiles)
+        : triangles_{triangles},
+          tiles_{tiles},
+          // Not so many that their counts outgrow the caches; no matter how many threads there are.
+          chunks_{std::clamp<std::size_t>(std::min(triangles / 4096, (std::size_t{1} << 19) / tiles), 1, 64)},
+          next_(chunks_ * tiles) {}
+
+    // Calls body(first triangle, end, row of the chunk) for every chunk.
+    template <class Body>
+    void for_chunks(int threads, const Body& body) {
+        parallel_for(chunks_, threads, [&](std::size_t c) {
+            body(triangles_ * c / chunks_, triangles_ * (c + 1) / chunks_, &next_[c * tiles_]);
+        });
+    }
+
+    // Counts become offsets, tile by tile and in a tile chunk by chunk, and `start` the offsets of the tiles.
+    void to_offsets(std::vector<std::uint32_t>& start) {
+        start.resize(tiles_ + 1);
+        std::uint64_t sum = 0;
+        for (std::size_t t = 0; t < tiles_; ++t) {
+            start[t] = static_cast<std::uint32_t>(sum);
+            for (std::size_t at = t; at < next_.size(); at += tiles_) {
+                const std::uint32_t count = next_[at];
+                next_[at] = static_cast<std::uint32_t>(sum);
+                sum += count;
+            }
+            if (sum > 0xffffffffu)
+                throw std::length_error("more than 2^32 triangles in the bins of a frame: take larger tiles");
+        }
+        start[tiles_] = static_cast<std::uint32_t>(sum);
+    }
+
+  private:
+    std::size_t triangles_, tiles_, chunks_;
+    std::vector<std::uint32_t> next_;
+};
+
+}  // namespace
+
+Rect tile_rect(const Geometry& geometry, std::size_t tile) {
+    const auto columns = static_cast<std::size_t>(geometry.tiles_x);
+    return rect_of(static_cast<int>(tile % columns), static_cast<int>(tile / columns), geometry);
+}
+
+void bin_triangles(Geometry& geometry, int tile_size, int threads) {
+    assert(tile_size > 0 && std::has_single_bit(static_cast<unsigned>(tile_size)) && "tiles are powers of two");
+    geometry.tile_size = tile_size;
+    geometry.tiles_x = (geometry.state.viewport.width() + tile_size - 1) / tile_size;
+    geometry.tiles_y = (geometry.state.viewport.height() + tile_size - 1) / tile_size;
+    const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
+    geometry.bin_triangles.clear();
+    geometry.bin_start.assign(tiles + 1, 0);
+    if (tiles == 0) return;
+
+    const TileWalk walk{geometry};
+    ChunkedBins bins{geometry.triangles.size(), tiles};
+    bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* count) {
+        for (std::size_t i = begin; i < end; ++i)
+            walk.visit(geometry.triangles[i], [&](std::size_t tile) { ++count[tile]; });
+    });
+    bins.to_offsets(geometry.bin_start);
+    geometry.bin_triangles.resize(geometry.bin_start[tiles]);
+    bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* next) {
+        for (std::size_t i = begin; i < end; ++i)
+            walk.visit(geometry.triangles[i],
+                       [&](std::size_t tile) { geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i); });
+    });
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,65 @@
+// rasterizer/set_up/clip.h - homogeneous clipping of a triangle to what can be projected and what the state keeps.
+//
+// Rule     Planes in this order: w >= 2^-64; near and far (not with depth clamp or per-fragment z clip); the guard band
+//          in x and y; the user's planes. A side that crosses a plane gets one new corner, computed from its inside end
+//          I to its outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64,
+//          each component rounded once to binary32. So two triangles that share a side share its new corners to the
+//          bit, and equal values stay equal.
+// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; hardware.md 1. The w bound is ours [A]: 1 / w and u / w stay
+//          finite. Tests    tests/rasterizer/set_up/clip_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "rasterizer/set_up/geometry.h"
+
+namespace strata::rasterizer {
+
+inline constexpr int max_clip_planes = 1 + 2 + 4 + 6;
+inline constexpr float least_w = 0x1p-64f;
+
+struct ClipPolygon {
+    std::array<ClipVertex, 3 + max_clip_planes> corner;
+    int count = 0;
+    std::size_t extra_count = 0;
+    std::array<std::array<float, max_extras>, 3 + max_clip_planes> extra{};  // the first extra_count of each corner
+};
+
+class Clipper {
+  public:
+    Clipper(const RasterState& state, const RasterRules& rules);
+
+    // Bit i: the vertex is outside plane i. Bit 0 is the w plane.
+    [[nodiscard]] std::uint32_t outside(const ClipVertex& v) const noexcept {
+        return within_viewport(v) ? 0u : outside_planes(v);
+    }
+    // To be in the view volume is to be inside all planes.
+    [[nodiscard]] bool holds_view_volume() const noexcept { return guard_holds_viewport_; }
+    // Cuts `polygon` by the planes of the set `planes`; corners stay in walking order from corner 0.
+    void clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept;
+
+  private:
+    enum class Kind : std::uint8_t { w, z_is_minus_w, z_is_zero, z_is_w, other };  // what holds exactly on the plane
+    struct Plane {
+        double x, y, z, w, constant;
+        Kind kind;
+    };
+    // Inside all planes, without looking at them: in the view volume, which the guard band holds, when no plane is the
+    // user's. The signs of the exact distances are those of these comparisons.
+    [[nodiscard]] bool within_viewport(const ClipVertex& v) const noexcept {
+        const float w = v.w, least_z = symmetric_ ? -w : 0.0f;
+        return guard_holds_viewport_ && w >= least_w && v.x >= -w && v.x <= w && v.y >= -w && v.y <= w &&
+               v.z >= least_z && v.z <= w;
+    }
+    [[nodiscard]] std::uint32_t outside_planes(const ClipVertex& v) const noexcept;
+    [[nodiscard]] static double distance(const Plane& plane, const ClipVertex& v) noexcept;
+    [[nodiscard]] static ClipVertex crossing(const Plane& plane, const ClipVertex& in, double d_in,
+                                             const ClipVertex& out, double d_out) noexcept;
+    void cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept;
+
+    std::array<Plane, max_clip_planes> plane_{};
+    int count_ = 0;
+    bool symmetric_, guard_holds_viewport_;
+};
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,151 @@
+#include "rasterizer/set_up/geometry.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+#include <utility>
+
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/parallel.h"
+#include "rasterizer/set_up/setup.h"
+
+namespace strata::rasterizer {
+namespace {
+
+constexpr std::size_t chunk_size = 1024;  // of vertices and of triangles
+
+// Calls body(chunk number, begin, end) for all of [0, count).
+template <class Body>
+void for_chunks(std::size_t count, int threads, const Body& body) {
+    parallel_for((count + chunk_size - 1) / chunk_size, threads,
+                 [&](std::size_t c) { body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size)); });
+}
+
+// The triangles of a soup by their numbers in its listing.
+class Listing {
+  public:
+    explicit Listing(const TriangleSoup& soup) : soup_{soup} {
+        for (const TriangleRun& run : soup.runs) start_.push_back(start_.back() + run.index_count / 3);
+    }
+    [[nodiscard]] std::size_t count() const noexcept {
+        return soup_.order.empty() ? start_.back() : soup_.order.size();
+    }
+
+    // `run` is where the last one was found: mostly, so is this one.
+    [[nodiscard]] SourceTriangle at(std::uint32_t primitive, std::size_t& run) const {
+        const std::uint32_t number = soup_.order.empty() ? primitive : soup_.order[primitive];
+        if (number < start_[run] || number >= start_[run + 1])
+            run = static_cast<std::size_t>(std::ranges::upper_bound(start_, number) - start_.begin()) - 1;
+        const std::uint32_t* index =
+            &soup_.indices[soup_.runs[run].first_index + std::size_t{3} * (number - start_[run])];
+        assert(std::max({index[0], index[1], index[2]}) < soup_.vertices.size() && "indices name vertices of the soup");
+        return {{index[0], index[1], index[2]}, number, primitive, &soup_.runs[run]};
+    }
+
+  private:
+    const TriangleSoup& soup_;
+    std::vector<std::uint32_t> start_{0};  // where each run's triangles begin; one entry more than there are runs
+};
+
+void add(SetupCounters& sum, const SetupCounters& part) {
+    if (sum.non_finite == 0) sum.first_non_finite = part.first_non_finite;
+    sum.triangles_in += part.triangles_in;
+    sum.culled += part.culled;
+    sum.clipped += part.clipped;
+    sum.outside += part.outside;
+    sum.degenerate += part.degenerate;
+    sum.non_finite += part.non_finite;
+}
+
+// Where each chunk's triangles and new vertices go.
+struct Place {
+    std::size_t triangle = 0, vertex = 0;
+};
+
+// Puts the chunks one behind the other, each freed as soon as it is copied; the vertices that each made are renumbered.
+void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometry) {
+    const std::size_t given = geometry.vertices.size();
+    std::vector<Place> place(chunks.size());
+    Place end{0, given};
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        place[c] = end;
+        end = {end.triangle + chunks[c].triangles.size(), end.vertex + chunks[c].vertices.size()};
+        add(geometry.counters, chunks[c].counters);
+    }
+    geometry.vertices.resize(end.vertex);
+    geometry.corners.resize(end.vertex);
+    geometry.extras.values.resize(end.vertex * geometry.extras.stride);
+    geometry.triangles.resize(end.triangle);
+    geometry.all_triangles.resize(end.triangle);
+    if (geometry.state.polygon_offset.enabled) geometry.offset_z.resize(end.triangle);
+    parallel_for(chunks.size(), threads, [&](std::size_t c) {
+        const SetupChunk chunk = std::move(chunks[c]);
+        const auto at = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
+        const auto moved = static_cast<std::uint32_t>(place[c].vertex - given);
+        const auto triangles = at(geometry.triangles, place[c].triangle);
+        std::ranges::copy(chunk.triangles, triangles);
+        for (auto t = triangles; !chunk.vertices.empty() && t != triangles + std::ssize(chunk.triangles); ++t)
+            for (std::uint32_t& v : t->vertex) v += v < given ? 0 : moved;
+        if (!chunk.offset_z.empty()) std::ranges::copy(chunk.offset_z, at(geometry.offset_z, place[c].triangle));
+        std::ranges::copy(chunk.vertices, at(geometry.vertices, place[c].vertex));
+        std::ranges::copy(chunk.corners, at(geometry.corners, place[c].vertex));
+        std::ranges::copy(chunk.extras, at(geometry.extras.values, place[c].vertex * geometry.extras.stride));
+        const auto first = at(geometry.all_triangles, place[c].triangle);
+        std::iota(first, first + std::ssize(chunk.triangles), static_cast<std::uint32_t>(place[c].triangle));
+    });
+}
+
+}  // namespace
+
+SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
+    const TriangleRecord& record = triangles[i];
+    SetupTriangle t;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const WindowCorner& corner = corners[record.vertex[k]];
+        const ClipVertex& v = vertices[record.vertex[k]];
+        const std::array<float, 4>& color = record.front_facing ? v.front : v.back;
+        t.p[k] = corner.p;
+        t.unsnapped[k] = corner.unsnapped;
+        t.inverse_w[k] = corner.inverse_w;
+        t.attribute[k] = {color[0], color[1], color[2], color[3], v.texcoord[0], v.texcoord[1]};
+    }
+    t.z = depths(i);
+    t.primitive = record.primitive;
+    t.material = record.material;
+    t.front_facing = record.front_facing;
+    return t;
+}
+
+Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads) {
+    const FloatEnvironment ours;
+    assert(soup.extras.values.size() == soup.extras.stride * soup.vertices.size() && soup.extras.stride <= max_extras &&
+           "extras are those of the soup's vertices");
+    assert(std::max(state.viewport.width(), state.viewport.height()) <= 0xffff && "a PixelBox holds the viewport");
+    TriangleSetup setup{state, rules, soup.vertices, soup.extras};
+    for_chunks(soup.vertices.size(), threads,
+               [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });
+    const Listing listing{soup};
+    std::vector<SetupChunk> chunks((listing.count() + chunk_size - 1) / chunk_size);
+    for_chunks(listing.count(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+        SetupChunk chunk;
+        chunk.triangles.reserve(end - begin);
+        std::size_t run = 0;
+        std::array<SourceTriangle, TriangleGroup::size> group;
+        for (std::size_t at = begin; at < end; at += group.size()) {
+            const std::size_t count = std::min(group.size(), end - at);
+            for (std::size_t k = 0; k < count; ++k) group[k] = listing.at(static_cast<std::uint32_t>(at + k), run);
+            setup.add(std::span{group}.first(count), chunk);
+        }
+        chunks[c] = std::move(chunk);
+    });
+    Geometry geometry;
+    geometry.state = state;
+    geometry.rules = rules;
+    geometry.vertices = std::move(soup.vertices);
+    geometry.corners = std::move(setup.corners());
+    geometry.extras = std::move(soup.extras);
+    concatenate(chunks, threads, geometry);
+    return geometry;
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,126 @@
+// rasterizer/set_up/geometry.h - what comes in (clip-space vertices) and what is made of it once a frame (set-up triangles,
+// binned).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rasterizer/base/uninitialized.h"
+#include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/coverage/window_corner.h"
+#include "rasterizer/rules/raster_state.h"
+
+namespace strata::rasterizer {
+
+inline constexpr int color_channels = 4, texcoord_channels = 2;
+inline constexpr int attribute_count = color_channels + texcoord_channels;  // r g b a s t
+
+struct ClipVertex {
+    float x = 0, y = 0, z = 0, w = 1;
+    std::array<float, 4> front{1, 1, 1, 1};  // colour of front-facing triangles
+    std::array<float, 4> back{1, 1, 1, 1};   // and of back-facing ones (two-sided lighting)
+    std::array<float, 2> texcoord{0, 0};
+};
+
+// Further values of vertices, interpolated by perspective like the colours: `stride` a vertex, none if it is 0.
+inline constexpr std::size_t max_extras = 18;
+struct VertexExtras {
+    std::size_t stride = 0;
+    bool has_rq = false;  // the first two are r and q, whose quotient is the depth of perspective_rq and depth_replace,
+                          // r in units of vertex z (rules.window_z)
+    bool has_units = false;  // the last sixteen are s, t, r, q of the texture units, one after the other
+    std::vector<float> values;
+    [[nodiscard]] const float* of(std::size_t vertex) const noexcept { return &values[vertex * stride]; }
+    [[nodiscard]] const float* units_of(std::size_t vertex) const noexcept {
+        return &values[vertex * stride + stride - 4 * texture_units];
+    }
+};
+
+// A run of triangles with one material: three indices each, in submission order.
+struct TriangleRun {
+    std::uint32_t first_index = 0, index_count = 0;
+    std::uint32_t material = 0;
+    std::uint32_t object = 0;  // whose triangles these are: the caller's number
+    bool double_sided = true;
+    bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
+};
+
+struct TriangleSoup {
+    UninitializedVector<ClipVertex> vertices;
+    UninitializedVector<std::uint32_t> indices;
+    std::vector<TriangleRun> runs;
+    std::vector<std::uint32_t> order;  // empty: as listed; else the submission order of all triangles (painter)
+    VertexExtras extras;
+};
+
+// A triangle after clipping, snapping and facing; one source triangle may become several (fan from its first corner).
+// Corner order is that of submission: geforce3's depth and colour depend on it.
+struct TriangleRecord {
+    std::array<std::uint32_t, 3> vertex{};  // into Geometry::vertices and Geometry::corners
+    std::uint32_t primitive = 0;            // submission index of the source triangle
+    std::uint32_t material = 0;
+    PixelBox box;  // the pixels of the viewport whose centres lie in its bounding box: there are some
+    bool front_facing = true;
+};
+
+// The same with its corners gathered.
+struct SetupTriangle {
+    std::array<SubpixelPoint, 3> p;
+    std::array<std::array<float, 2>, 3> unsnapped;
+    std::array<double, 3> z;  // polygon offset added
+    std::array<float, 3> inverse_w;
+    std::array<std::array<float, attribute_count>, 3> attribute;  // as given, before the product with 1 / w
+    std::uint32_t primitive = 0;
+    std::uint32_t material = 0;
+    bool front_facing = true;
+};
+
+// What was dropped on the way, exact counts; `first_non_finite` is a source triangle.
+struct SetupCounters {
+    std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, non_finite = 0;
+    std::uint32_t first_non_finite = 0;
+    friend bool operator==(const SetupCounters&, const SetupCounters&) = default;
+};
+
+// Everything that later passes need, computed once. Bins are empty when no tile size was asked for.
+struct Geometry {
+    RasterState state;
+    RasterRules rules;
+    UninitializedVector<ClipVertex> vertices;       // the soup's, then those that clipping made
+    UninitializedVector<WindowCorner> corners;      // the same vertices in the window
+    VertexExtras extras;                            // of the same vertices
+    UninitializedVector<TriangleRecord> triangles;  // in submission order
+    std::vector<std::array<double, 3>> offset_z;    // of every triangle; empty without polygon offset
+    SetupCounters counters;
+    int tile_size = 0, tiles_x = 0, tiles_y = 0;
+    std::vector<std::uint32_t> bin_start;              // tiles_x * tiles_y + 1 offsets into bin_triangles
+    UninitializedVector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
+    UninitializedVector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list of a region that is the whole frame
+
+    [[nodiscard]] std::span<const std::uint32_t> bin(std::size_t tile) const {
+        return std::span{bin_triangles}.subspan(bin_start[tile], bin_start[tile + 1] - bin_start[tile]);
+    }
+    [[nodiscard]] std::array<SubpixelPoint, 3> points(const TriangleRecord& t) const noexcept {
+        return {corners[t.vertex[0]].p, corners[t.vertex[1]].p, corners[t.vertex[2]].p};
+    }
+    [[nodiscard]] std::array<double, 3> depths(std::size_t i) const noexcept {
+        if (!offset_z.empty()) return offset_z[i];
+        const auto& [a, b, c] = triangles[i].vertex;
+        return {corners[a].z, corners[b].z, corners[c].z};
+    }
+    [[nodiscard]] SetupTriangle triangle(std::size_t i) const noexcept;
+};
+
+// Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`.
+// The vertices become the geometry's: who moves the soup in saves their copy.
+[[nodiscard]] Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads);
+
+// Sorts the set-up triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport,
+// row-major; in parallel, result independent of `threads`.
+void bin_triangles(Geometry& geometry, int tile_size, int threads = 1);
+
+// The rectangle of tile number `tile` of the viewport.
+[[nodiscard]] Rect tile_rect(const Geometry& geometry, std::size_t tile);
+
+}  // namespace strata::rasterizer

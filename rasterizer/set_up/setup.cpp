@@ -1,0 +1,216 @@
+#include "rasterizer/set_up/setup.h"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/set_up/polygon_offset.h"
+
+namespace strata::rasterizer {
+namespace {
+
+// An exponent of all ones is an infinity or a NaN.
+template <std::size_t n>
+[[nodiscard]] bool all_finite(const std::array<float, n>& values) noexcept {
+    constexpr std::uint32_t exponent = 0x7f800000;
+    std::uint32_t found = 0;
+    for (const std::uint32_t bits : std::bit_cast<std::array<std::uint32_t, n>>(values))
+        found |= (bits & exponent) == exponent ? 1u : 0u;
+    return found == 0;
+}
+
+[[nodiscard]] bool is_finite(const ClipVertex& v) noexcept {
+    static_assert(sizeof(ClipVertex) == 14 * sizeof(float));
+    return all_finite(std::bit_cast<std::array<float, 14>>(v));
+}
+
+template <std::size_t n>
+[[nodiscard]] bool products_finite(std::array<float, n> values, float factor) noexcept {
+    for (float& value : values) value *= factor;
+    return all_finite(values);
+}
+
+}  // namespace
+
+TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices,
+                             const VertexExtras& extras)
+    : state_{state},
+      rules_{rules},
+      clipper_{state, rules},
+      window_{state, rules},
+      plain_rules_{window_.plain_rules(state.clip_depth)},
+      set_up_plain_{clipper_.holds_view_volume() && extras.stride == 0 && plain_rules_ ? rasterizer::set_up_plain()
+                                                                                       : nullptr},
+      vertices_{vertices},
+      extras_{extras},
+      corners_(vertices.size()),
+      marks_(vertices.size()) {}
+
+VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept {
+    const WindowVertex w = window_.project(v);
+    if (!all_finite(std::array{w.x, w.y, w.z, w.inverse_w}) || !products_finite(v.texcoord, w.inverse_w))
+        return marks_window;
+    for (std::size_t e = 0; e < extras_.stride; ++e)
+        if (!products_finite(std::array{extras[e]}, w.inverse_w)) return marks_window;
+    corner = {window_.snapped(w), {w.x, w.y}, w.z, w.inverse_w};
+    return (products_finite(v.front, w.inverse_w) ? 0u : marks_front) |
+           (products_finite(v.back, w.inverse_w) ? 0u : marks_back);
+}
+
+void TriangleSetup::set_up_vertex(std::size_t i) noexcept {
+    const ClipVertex& v = vertices_[i];
+    corners_[i] = {};
+    VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
+    if (marks == 0) marks = project(v, extras_.stride == 0 ? nullptr : extras_.of(i), corners_[i]);
+    marks_[i] = marks;
+}
+
+void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept {
+    std::size_t i = begin;
+    for (; set_up_plain_ != nullptr && i + plain_vertex_count <= end; i += plain_vertex_count) {
+        const std::uint32_t plain = set_up_plain_(*plain_rules_, &vertices_[i], &corners_[i]);
+        for (std::size_t k = 0; k < plain_vertex_count; ++k)
+            if ((plain >> k & 1u) != 0)
+                marks_[i + k] = 0;
+            else
+                set_up_vertex(i + k);
+    }
+    for (; i < end; ++i) set_up_vertex(i);
+}
+
+// Positive area is clockwise as memory shows it, rows downwards; with y up the window shows the same picture.
+bool TriangleSetup::is_front(std::int64_t area, bool mirrored) const noexcept {
+    const bool clockwise = (area > 0) == (state_.y_direction == YDirection::up);
+    return (clockwise == (state_.front_face == FrontFace::clockwise)) != mirrored;
+}
+
+bool TriangleSetup::is_culled(bool front) const noexcept {
+    switch (state_.cull) {
+        case CullFace::none: return false;
+        case CullFace::front: return front;
+        case CullFace::back: return !front;
+        case CullFace::front_and_back: return true;
+    }
+    return false;  // unreachable: the enum is closed
+}
+
+TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTriangle& triangle,
+                                             SetupChunk& out) const {
+    const auto& [a, b, c] = piece.corner;
+    if ((piece.marks & marks_window) != 0) return Fate::non_finite;
+    const std::array p{a->p, b->p, c->p};
+    const std::int64_t area = Edge{p[0], p[1]}.at(p[2]);
+    const bool front = is_front(area, triangle.run->mirrored);
+    if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
+    if (area == 0) return Fate::degenerate;
+    if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
+    const Rect box = intersection(centre_box(p, rules_.subpixel_bits), state_.viewport);
+    if (box.area() == 0) return Fate::outside;
+    out.triangles.push_back(
+        {piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front});
+    if (state_.polygon_offset.enabled) {
+        const std::array z{a->z, b->z, c->z};
+        const double offset = polygon_offset(p, z, state_, rules_);
+        out.offset_z.push_back({z[0] + offset, z[1] + offset, z[2] + offset});
+    }
+    return Fate::kept;
+}
+
+TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, const TriangleGroup& group, std::size_t k,
+                                             SetupChunk& out) const {
+    if (group.area[k] == 0) return Fate::degenerate;
+    const bool front = is_front(group.turned[k] == 0 ? 1 : -1, triangle.run->mirrored);
+    if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
+    if (group.width[k] == 0 || group.height[k] == 0) return Fate::outside;
+    const PixelBox box = in_viewport(group.box(k), state_.viewport);
+    out.triangles.push_back({triangle.vertex, triangle.primitive, triangle.run->material, box, front});
+    return Fate::kept;
+}
+
+ClipPolygon TriangleSetup::polygon(const SourceTriangle& triangle) const noexcept {
+    ClipPolygon polygon{{}, 3, extras_.stride, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        polygon.corner[i] = vertices_[triangle.vertex[i]];
+        if (extras_.stride > 0) std::copy_n(extras_.of(triangle.vertex[i]), extras_.stride, polygon.extra[i].begin());
+    }
+    return polygon;
+}
+
+// A clipped triangle is counted once: as kept if any piece is, else by the fate of its first piece.
+TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, std::uint32_t planes,
+                                               SetupChunk& out) const {
+    ClipPolygon cut = polygon(triangle);
+    clipper_.clip(cut, planes);
+    if (cut.count < 3) return Fate::outside;
+    const auto count = static_cast<std::size_t>(cut.count);
+    const auto first = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
+    std::array<WindowCorner, std::tuple_size_v<decltype(cut.corner)>> corner;
+    std::array<VertexMarks, corner.size()> marks;
+    for (std::size_t i = 0; i < count; ++i) marks[i] = project(cut.corner[i], cut.extra[i].data(), corner[i]);
+    Fate fate = Fate::outside;
+    bool any_kept = false;
+    for (std::size_t i = 2; i < count; ++i) {
+        const auto last = first + static_cast<std::uint32_t>(i);
+        const Piece fan{
+            {first, last - 1, last}, {&corner[0], &corner[i - 1], &corner[i]}, marks[0] | marks[i - 1] | marks[i]};
+        const Fate piece = add_piece(fan, triangle, out);
+        any_kept |= piece == Fate::kept;
+        if (i == 2 || piece == Fate::kept) fate = piece;
+    }
+    if (any_kept) {
+        out.vertices.insert(out.vertices.end(), cut.corner.begin(), cut.corner.begin() + cut.count);
+        out.corners.insert(out.corners.end(), corner.begin(), corner.begin() + cut.count);
+        for (std::size_t i = 0; i < count; ++i)
+            out.extras.insert(out.extras.end(), cut.extra[i].data(), cut.extra[i].data() + extras_.stride);
+    }
+    return fate;
+}
+
+void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
+    const auto& [a, b, c] = triangle.vertex;
+    const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;
+    Fate fate = Fate::non_finite;
+    if ((any & marks_input) == 0) {
+        const bool dropped_by_w = rules_.w_clip == WClip::drop && (crossed & 1u) != 0;
+        if ((marks_[a] & marks_[b] & marks_[c] & marks_planes) != 0 || dropped_by_w) {
+            fate = Fate::outside;
+        } else if (crossed == 0) {
+            fate = add_piece({triangle.vertex, {&corners_[a], &corners_[b], &corners_[c]}, any}, triangle, out);
+        } else {
+            fate = add_clipped(triangle, crossed, out);
+            if (fate != Fate::outside) ++out.counters.clipped;
+        }
+    }
+    count(fate, triangle, out.counters);
+}
+
+void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
+    TriangleGroup group;
+    load_corners(
+        corners_, triangles.size(), [&](std::size_t k) -> const auto& { return triangles[k].vertex; }, group);
+    small_kernels().set_up_boxes({state_.viewport, rules_.subpixel_bits, rules_.tie_rule}, group);
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        const auto& [a, b, c] = triangles[k].vertex;
+        const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled;
+        if (is_plain && group.small[k] != 0)
+            count(add_small(triangles[k], group, k, out), triangles[k], out.counters);
+        else
+            add(triangles[k], out);
+    }
+}
+
+void TriangleSetup::count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept {
+    ++counters.triangles_in;
+    switch (fate) {
+        case Fate::kept: break;
+        case Fate::culled: ++counters.culled; break;
+        case Fate::outside: ++counters.outside; break;
+        case Fate::degenerate: ++counters.degenerate; break;
+        case Fate::non_finite:
+            if (counters.non_finite++ == 0) counters.first_non_finite = triangle.number;
+            break;
+    }
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,95 @@
+// rasterizer/set_up/setup.h - one source triangle becomes set-up triangles, or is dropped and counted.
+//
+// Rule     In this order: a vertex that is not finite drops the triangle, and so does a window position, 1 / w or u / w
+//          that is not (non_finite); clipping (clipped, outside); per piece: zero area after snapping (degenerate),
+//          facing by the sign of the snapped area (culled), no pixel centre of the viewport in its bounding box
+//          (outside, if all its pieces go that way).
+// Source   hardware.md 1 and 13; D3D 11.3 15.11 (facing after snapping).
+// Tests    tests/rasterizer/set_up/setup_test.cpp
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rasterizer/coverage/small_triangles.h"
+#include "rasterizer/set_up/clip.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/set_up/window.h"
+
+namespace strata::rasterizer {
+
+// What the fate of a triangle depends on at each of its vertices, found once a vertex: bits 0 .. max_clip_planes - 1 name
+// the planes that it is outside of; the others what of it is not finite.
+using VertexMarks = std::uint32_t;
+inline constexpr VertexMarks marks_planes = (1u << max_clip_planes) - 1;
+inline constexpr VertexMarks marks_input = 1u << max_clip_planes;  // as given
+inline constexpr VertexMarks marks_window = marks_input << 1;      // window position, 1 / w, texture coordinate over w
+inline constexpr VertexMarks marks_front = marks_input << 2;       // front colour over w
+inline constexpr VertexMarks marks_back = marks_input << 3;
+
+struct SourceTriangle {
+    std::array<std::uint32_t, 3> vertex;
+    std::uint32_t number = 0;     // in the soup's listing
+    std::uint32_t primitive = 0;  // in submission order
+    const TriangleRun* run = nullptr;
+};
+
+// What a run of source triangles becomes. The vertices that clipping makes are numbered from the soup's last one on.
+struct SetupChunk {
+    std::vector<TriangleRecord> triangles;
+    std::vector<std::array<double, 3>> offset_z;
+    std::vector<ClipVertex> vertices;
+    std::vector<WindowCorner> corners;
+    std::vector<float> extras;
+    SetupCounters counters;
+};
+
+class TriangleSetup {
+  public:
+    TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices,
+                  const VertexExtras& extras);
+
+    // First every vertex once ...
+    void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
+    // ... then triangles: appends what is left of `triangle` to `out` and counts what is not.
+    void add(const SourceTriangle& triangle, SetupChunk& out) const;
+    // The same of up to TriangleGroup::size triangles.
+    void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
+
+    [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
+
+  private:
+    enum class Fate : std::uint8_t { kept, culled, outside, degenerate, non_finite };
+
+    // Three vertices in the window, and all that is marked at any of them.
+    struct Piece {
+        std::array<std::uint32_t, 3> vertex;
+        std::array<const WindowCorner*, 3> corner;
+        VertexMarks marks;
+    };
+    void set_up_vertex(std::size_t i) noexcept;
+    [[nodiscard]] VertexMarks project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept;
+    [[nodiscard]] ClipPolygon polygon(const SourceTriangle& triangle) const noexcept;
+    [[nodiscard]] Fate add_piece(const Piece& piece, const SourceTriangle& triangle, SetupChunk& out) const;
+    // A small triangle without marks, its edges in the group.
+    [[nodiscard]] Fate add_small(const SourceTriangle& triangle, const TriangleGroup& group, std::size_t k,
+                                 SetupChunk& out) const;
+    [[nodiscard]] Fate add_clipped(const SourceTriangle& triangle, std::uint32_t planes, SetupChunk& out) const;
+    static void count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept;
+    [[nodiscard]] bool is_front(std::int64_t area, bool mirrored) const noexcept;
+    [[nodiscard]] bool is_culled(bool front) const noexcept;
+
+    RasterState state_;
+    RasterRules rules_;
+    Clipper clipper_;
+    WindowTransform window_;
+    std::optional<PlainVertexRules> plain_rules_;
+    SetUpPlain set_up_plain_;
+    std::span<const ClipVertex> vertices_;
+    const VertexExtras& extras_;
+    UninitializedVector<WindowCorner> corners_;
+    UninitializedVector<VertexMarks> marks_;
+};
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,72 @@
+// rasterizer/set_up/triangle_walk.h - the triangles of a list, a group at a time, and the rows of a large one: what every walk over a
+// region starts with. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
+#pragma once
+#include <algorithm>
+#include <span>
+
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/coverage/small_triangles.h"
+#include "rasterizer/set_up/geometry.h"
+
+namespace strata::rasterizer {
+
+inline constexpr int max_span_rows = 128;  // found at a time
+
+struct RowSpan {
+    int x0, x1;  // pixels [x0, x1) of a row of the surface
+};
+
+// The rules of `geometry` for its triangles in `region`: clipped by the viewport and the scissor.
+[[nodiscard]] inline GroupRules group_rules(const Geometry& geometry, const Rect& region) noexcept {
+    GroupRules rules{intersection(region, geometry.state.viewport), geometry.rules.subpixel_bits,
+                     geometry.rules.tie_rule};
+    if (geometry.state.scissor) rules.clip = intersection(rules.clip, *geometry.state.scissor);
+    return rules;
+}
+
+// Sets up `list` (indices into geometry.triangles) group after group in `group` and calls visit(the group's part of it)
+// for each. What the next ones need is on its way meanwhile.
+template <class Visit>
+void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span<const std::uint32_t> list,
+                    TriangleGroup& group, const Visit& visit) {
+    constexpr std::size_t size = TriangleGroup::size;
+    const SmallKernels& kernels = small_kernels();
+    const auto part = [&](std::size_t at) {
+        const auto rest = list.subspan(std::min(at, list.size()));
+        return rest.first(std::min(size, rest.size()));
+    };
+    for (std::size_t at = 0; at < list.size(); at += size) {
+        for (const std::uint32_t t : part(at + 2 * size)) __builtin_prefetch(&geometry.triangles[t]);
+        for (const std::uint32_t t : part(at + size))
+            for (const std::uint32_t v : geometry.triangles[t].vertex) __builtin_prefetch(&geometry.corners[v]);
+        const std::span<const std::uint32_t> own = part(at);
+        const auto vertices = [&](std::size_t k) -> const auto& { return geometry.triangles[own[k]].vertex; };
+        load_corners(geometry.corners, own.size(), vertices, group);
+        kernels.set_up(rules, group);
+        visit(own);
+    }
+}
+
+// Whether every pixel of `box` is covered: the centres where the edge values are least decide.
+[[nodiscard]] inline bool covers(const TriangleEdges& edges, const Rect& box, int subpixel_bits) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Edge& edge = edges.edge(i);
+        const int x = edge.step_x() > 0 ? box.x0 : box.x1 - 1;
+        const int y = edge.step_y() > 0 ? box.y0 : box.y1 - 1;
+        if (edge.at(pixel_centre(x, y, subpixel_bits)) < edges.tie(i)) return false;
+    }
+    return true;
+}
+
+// What is covered of each of `rows`, at most max_span_rows of them.
+inline void find_spans(const TriangleEdges& edges, const Rect& rows, int subpixel_bits, RowSpan* spans) noexcept {
+    RowSpan* const end = spans + rows.height();
+    if (covers(edges, rows, subpixel_bits)) return std::fill(spans, end, RowSpan{rows.x0, rows.x1});
+    RowWalker walker{edges, rows, subpixel_bits};
+    for (RowSpan* row = spans; row != end; ++row, walker.next_row()) {
+        const PixelSpan span = walker.span();
+        *row = {span.x0, span.x1};
+    }
+}
+
+}  // namespace strata::rasterizer

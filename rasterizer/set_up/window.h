@@ -1,0 +1,118 @@
+// rasterizer/set_up/window.h - from clip space to the window: divide by w, viewport, snapping.
+//
+// Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
+//          once (rules.viewport); all in binary32, for WDivide::nv20 by nv20_arithmetic.h. y up turns the sign
+//          of the y scale. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
+//          a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
+// Source   GL 2.1 2.11.1; decisions.md 1; hardware.md 1; nv2a-geometry.md 1 and 4.
+// Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the second
+//          rounding is the only one. Tests    tests/rasterizer/set_up/window_test.cpp
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <optional>
+
+#include "rasterizer/base/exact_sum.h"
+#include "rasterizer/base/nv20_arithmetic.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/set_up/plain_vertices.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+struct WindowVertex {
+    float x, y, z, inverse_w;
+};
+
+// The number of vertex z units in depth 1.0: 2^n - 1 for buffer units of a fixed-point format, else 1.
+[[nodiscard]] constexpr double z_units(const RasterState& state, const RasterRules& rules) noexcept {
+    const bool scaled = rules.window_z == WindowZ::buffer_units && state.depth_format != DepthFormat::d32f;
+    if (scaled && state.depth_format == DepthFormat::d16f) return max_d16f;
+    return scaled ? max_code(state.depth_format) : 1.0;
+}
+
+// a * b + c rounded once to binary32.
+[[nodiscard]] constexpr float fused_multiply_add(float a, float b, float c) noexcept {
+    const TwoTerms sum = two_sum(double{a} * b, double{c});
+    auto bits = std::bit_cast<std::uint64_t>(sum.high);
+    if (sum.low != 0.0 && (bits & 1) == 0)
+        bits += (sum.low > 0.0) == (sum.high > 0.0) ? 1 : ~std::uint64_t{0};  // to odd
+    return static_cast<float>(std::bit_cast<double>(bits));
+}
+
+// v in subpixels; |v| * 2^n < 2^30.
+[[nodiscard]] constexpr std::int32_t snap(float v, int subpixel_bits, Snap rule) noexcept {
+    const double scaled = double{v} * (1 << subpixel_bits);  // exact
+    if (rule == Snap::toward_zero) return static_cast<std::int32_t>(scaled);
+    constexpr double round_at_one = 0x1.8p52;  // the unit in the last place of the sum is 1
+    return static_cast<std::int32_t>((scaled + round_at_one) - round_at_one);
+}
+
+class WindowTransform {
+  public:
+    constexpr WindowTransform(const RasterState& state, const RasterRules& rules) noexcept
+        : rules_{rules}, guard_{static_cast<float>(rules.guard_band_px)}, is_done_{state.window_positions} {
+        const Rect& v = state.viewport;
+        x_ = {0.5f * static_cast<float>(v.width()), static_cast<float>(v.x0) + 0.5f * static_cast<float>(v.width())};
+        y_ = {0.5f * static_cast<float>(v.height()), static_cast<float>(v.y0) + 0.5f * static_cast<float>(v.height())};
+        if (state.y_direction == YDirection::up) y_.scale = -y_.scale;
+        const double n = state.depth_near, f = state.depth_far, units = z_units(state, rules);
+        const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
+        z_ = {static_cast<float>((symmetric ? (f - n) * 0.5 : f - n) * units),
+              static_cast<float>((symmetric ? (n + f) * 0.5 : n) * units)};
+    }
+
+    [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v) const noexcept {
+        if (rules_.w_divide == WDivide::nv20) return project_nv20(v);
+        const float inverse_w = 1.0f / v.w;
+        if (is_done_) return {within_guard(v.x), within_guard(v.y), v.z, inverse_w};
+        const auto divided = [&](float c) { return rules_.w_divide == WDivide::quotient ? c / v.w : c * inverse_w; };
+        return {within_guard(map(x_, divided(v.x))), within_guard(map(y_, divided(v.y))), map(z_, divided(v.z)),
+                inverse_w};
+    }
+    [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
+        return {snap(v.x, rules_.subpixel_bits, rules_.snap), snap(v.y, rules_.subpixel_bits, rules_.snap)};
+    }
+
+    // For sixteen at a time, where no more is done than these rules say.
+    [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
+        if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport == ViewportArithmetic::fused) return {};
+        return PlainVertexRules{.scale = {x_.scale, y_.scale, z_.scale},
+                                .offset = {x_.offset, y_.offset, z_.offset},
+                                .guard = guard_,
+                                .subpixels = static_cast<float>(1 << rules_.subpixel_bits),
+                                .divides = rules_.w_divide == WDivide::quotient,
+                                .rounds = rules_.snap == Snap::nearest_even,
+                                .symmetric = depth == ClipDepth::minus_one_to_one};
+    }
+
+  private:
+    struct Axis {
+        float scale, offset;
+    };
+    [[nodiscard]] constexpr float map(const Axis& axis, float c) const noexcept {
+        if (rules_.viewport == ViewportArithmetic::fused) return fused_multiply_add(axis.scale, c, axis.offset);
+        const float scaled = axis.scale * c;
+        return scaled + axis.offset;
+    }
+    [[nodiscard]] constexpr WindowVertex project_nv20(const ClipVertex& v) const noexcept {
+        const float inverse_w = nv20::reciprocal(v.w);
+        const auto mapped = [&](const Axis& axis, float c) {
+            return nv20::sum(std::array{nv20::multiply(axis.scale, nv20::multiply(c, inverse_w)), axis.offset});
+        };
+        return {within_guard(mapped(x_, v.x)), within_guard(mapped(y_, v.y)), mapped(z_, v.z), inverse_w};
+    }
+    // Clipping left the vertex inside the guard band but for rounding. NaN stays: set-up counts it.
+    [[nodiscard]] constexpr float within_guard(float c) const noexcept {
+        return c > guard_ ? guard_ : (c < -guard_ ? -guard_ : c);
+    }
+
+    RasterRules rules_;
+    float guard_;
+    bool is_done_;
+    Axis x_{}, y_{}, z_{};
+};
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,96 @@
+// rasterizer/values/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
+//
+// Rule     Vertex colours to 8 bits first: their leading bits (InterpolationHypothesis), times 255, nearest, a half up.
+//          Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the two others), exactly. w0 =
+//          floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2 c2 + 128) >> 8, over 255 in
+//          binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64, cut
+//          to 24 bits; or of PerspectiveColor::weight_products p_i = b_i (1/w_i) cut to 24 bits, normalised with a
+//          reciprocal cut to 28.
+// Source   nv2a-fragment.md R5, R6; nv2a-depth.md section 3.
+// Tests    tests/rasterizer/values/color_weights_test.cpp
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "rasterizer/base/exact_sum.h"
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/rules/interpolation_hypothesis.h"
+#include "rasterizer/values/cut_weight.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+// `bits` leading ones of c count, 1 to 24.
+[[nodiscard]] constexpr std::int32_t to_color_code(float c, int bits = 24) noexcept {
+    if (!(c > 0.0f)) return 0;
+    if (c >= 1.0f) return 255;
+    const std::uint32_t dropped = (1u << (24 - bits)) - 1;
+    const auto kept = std::bit_cast<float>(std::bit_cast<std::uint32_t>(c) & ~dropped);
+    return static_cast<std::int32_t>(double{kept} * 255.0 + 0.5);
+}
+
+class ColorWeights {
+  public:
+    ColorWeights(const std::array<float, 3>& inverse_w, std::int64_t area,
+                 PerspectiveColor rule = PerspectiveColor::edge_products) noexcept
+        : reciprocal_{static_cast<std::uint64_t>(area)},
+          inverse_w_{inverse_w},
+          rule_{rule},
+          is_affine_{inverse_w[0] == inverse_w[1] && inverse_w[0] == inverse_w[2]} {}
+
+    // w0, w1, w2 in 1/256 at a fragment with edge values `e`.
+    [[nodiscard]] std::array<std::int32_t, 3> at(const EdgeValues& e) const noexcept {
+        return from(is_affine_ ? affine(e) : perspective(e));
+    }
+
+  private:
+    using Weights = std::array<double, 3>;
+
+    [[nodiscard]] Weights affine(const EdgeValues& e) const noexcept {
+        Weights b{};
+        for (std::size_t i = 0; i < 3; ++i) b[i] = value(reciprocal_.weight(static_cast<std::uint64_t>(e[i])));
+        return b;
+    }
+    // v >= 0 without what is below its `bits` leading bits.
+    [[nodiscard]] static double cut(double v, int bits) noexcept {
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) & ~std::uint64_t{0} << (53 - bits));
+    }
+    [[nodiscard]] Weights perspective(const EdgeValues& e) const noexcept {
+        const bool by_weights = rule_ == PerspectiveColor::weight_products;
+        Weights p = by_weights ? affine(e) : Weights{};
+        for (std::size_t i = 0; i < 3; ++i)
+            p[i] = by_weights ? cut(p[i] * inverse_w_[i], 24) : static_cast<double>(e[i]) * inverse_w_[i];
+        const double r = 1.0 / ((p[0] + p[1]) + p[2]);
+        for (double& b : p) b = cut(b * (by_weights ? cut(r, 28) : r), 24);
+        return p;
+    }
+    [[nodiscard]] static std::array<std::int32_t, 3> from(const Weights& b) noexcept {
+        const std::size_t rest = remainder_vertex(b);
+        const auto whole = [&](std::size_t i) {
+            if (i != rest) return static_cast<std::int32_t>(256.0 * b[i]);
+            // floor(256 (1 - x)) = 256 - ceil(256 x); x = high + low exactly, and low alone never crosses a multiple of
+            // 1/256.
+            const TwoTerms x = two_sum(b[(i + 1) % 3], b[(i + 2) % 3]);
+            const double scaled = 256.0 * x.high;
+            const auto down = static_cast<std::int32_t>(scaled);
+            return 256 - down - (down < scaled || x.low > 0.0 ? 1 : 0);
+        };
+        const std::int32_t w0 = whole(0), w2 = whole(2);
+        return {w0, 256 - w0 - w2, w2};
+    }
+
+    CutReciprocal reciprocal_;
+    std::array<float, 3> inverse_w_;
+    PerspectiveColor rule_;
+    bool is_affine_;
+};
+
+// One channel: `c` are vertex codes.
+[[nodiscard]] constexpr float weighted_color(const std::array<std::int32_t, 3>& w,
+                                             const std::array<std::int32_t, 3>& c) noexcept {
+    return static_cast<float>((w[0] * c[0] + w[1] * c[1] + w[2] * c[2] + 128) >> 8) / 255.0f;
+}
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,63 @@
+#include "rasterizer/values/cut_coordinates.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "rasterizer/base/nv20_arithmetic.h"
+#include "rasterizer/values/cut_weight.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+namespace {
+
+struct OuterWeights {
+    double b0, b2;
+};
+
+[[nodiscard]] OuterWeights outer_weights(const CutReciprocal& reciprocal, const EdgeValues& e) noexcept {
+    std::array<double, 3> b{};
+    for (std::size_t i = 0; i < 3; ++i) b[i] = value(reciprocal.weight(static_cast<std::uint64_t>(e[i])));
+    const std::size_t rest = remainder_vertex(b);
+    b[rest] = 1.0 - (b[(rest + 1) % 3] + b[(rest + 2) % 3]);
+    return {b[0], b[2]};
+}
+
+// floor(log2 |v|); far below everything for 0.
+[[nodiscard]] int exponent_of(double v) noexcept {
+    return static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 52 & 0x7ff) - 1023;
+}
+
+// The terms that are added at every fragment, but for their weights.
+struct CutSum {
+    double middle, first, last;
+
+    explicit CutSum(const std::array<float, 3>& u) noexcept
+        : middle{u[1]}, first{double{u[0]} - double{u[1]}}, last{double{u[2]} - double{u[1]}} {}
+
+    [[nodiscard]] double at(const OuterWeights& b) const noexcept {
+        const double p0 = b.b0 * first, p2 = b.b2 * last;
+        const int k = std::max(
+            {exponent_of(middle), exponent_of(b.b0) + exponent_of(first), exponent_of(b.b2) + exponent_of(last)});
+        if (k < -400 || k > 400) return (middle + p0) + p2;  // 0, infinities and NaN
+        const double unit = power_of_two(k - 23), units = power_of_two(23 - k);
+        const auto cut = [units](double v) { return static_cast<double>(static_cast<std::int64_t>(v * units)); };
+        return ((cut(middle) + cut(p0)) + cut(p2)) * unit;
+    }
+};
+
+}  // namespace
+}  // namespace strict
+
+void cut_coordinates(const std::array<float, 3>& u, const TriangleLanes& lanes, float* out) noexcept {
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
+    if (bits[0] == bits[1] && bits[0] == bits[2]) {
+        std::fill_n(out, lanes.count, u[0]);
+        return;
+    }
+    const CutReciprocal reciprocal{static_cast<std::uint64_t>(lanes.edges->area())};
+    const CutSum sum{u};
+    for (int i = 0; i < lanes.count; ++i)
+        out[i] = cut_to_binary32(sum.at(outer_weights(reciprocal, lanes.edge_values(i))));
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,152 @@
+#include "rasterizer/values/depth_paths.h"
+
+#include "rasterizer/set_up/window.h"
+#include "rasterizer/values/window_z.h"
+
+namespace strata::rasterizer {
+namespace {
+
+[[nodiscard]] bool is_constant(const std::array<float, 3>& u) noexcept {
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
+    return bits[0] == bits[1] && bits[0] == bits[2];
+}
+
+[[nodiscard]] bool has_w(const std::array<float, 3>& inverse_w) noexcept {
+    return !(inverse_w[0] == 1.0f && inverse_w[1] == 1.0f && inverse_w[2] == 1.0f);
+}
+
+// u (1/w) at the vertices, in binary32.
+[[nodiscard]] RationalPlane over_w(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w) noexcept {
+    RationalPlane plane;
+    for (std::size_t i = 0; i < 3; ++i) plane.v[i] = double{u[i] * inverse_w[i]};
+    return plane;
+}
+
+int rounded_plane(const RationalPlane& plane, const TriangleLanes& lanes, int bits, float* out) noexcept {
+    const int fallbacks = round_plane(plane, lanes, out);
+    for (int i = 0; i < lanes.count; ++i) out[i] = round_mantissa(out[i], bits);
+    return fallbacks;
+}
+
+// The same coordinate with nothing rounded to less than binary64; the vertex products are exact.
+void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w,
+                        const TriangleLanes& lanes, double* out) noexcept {
+    if (is_constant(u)) return static_cast<void>(std::fill_n(out, lanes.count, double{u[0]}));
+    RationalPlane dividend, divisor;
+    for (std::size_t i = 0; i < 3; ++i) {
+        dividend.v[i] = double{u[i]} * double{inverse_w[i]};
+        divisor.v[i] = double{inverse_w[i]};
+    }
+    const FilterPlane over{dividend, lanes.is_exact}, under{divisor, lanes.is_exact};
+    const bool divides = has_w(inverse_w);
+    for (int i = 0; i < lanes.count; ++i) {
+        const double b1 = lanes.weight1[i], b2 = lanes.weight2[i];
+        out[i] = divides ? over.at(b1, b2) / under.at(b1, b2) : over.at(b1, b2);
+    }
+}
+
+}  // namespace
+
+QuotientCorners quotient_corners(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
+    QuotientCorners c;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float* const rq = geometry.extras.of(triangle.vertex[i]);
+        c.r[i] = rq[0];
+        c.q[i] = rq[1];
+        c.inverse_w[i] = geometry.corners[triangle.vertex[i]].inverse_w;
+    }
+    return c;
+}
+
+int interpolate(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w, const TriangleLanes& lanes,
+                const DepthHypothesis& hypothesis, float* out) noexcept {
+    if (is_constant(u)) {
+        std::fill_n(out, lanes.count, round_mantissa(u[0], hypothesis.interpolant_bits));
+        return 0;
+    }
+    const int bits = hypothesis.interpolant_bits;
+    int fallbacks = rounded_plane(over_w(u, inverse_w), lanes, bits, out);
+    if (!has_w(inverse_w)) return fallbacks;
+    Lanes<float> divisor;
+    fallbacks += rounded_plane({{inverse_w[0], inverse_w[1], inverse_w[2]}}, lanes, bits, divisor.data());
+    for (int i = 0; i < lanes.count; ++i)
+        out[i] = divide(out[i], divisor[static_cast<std::size_t>(i)], hypothesis.divide);
+    return fallbacks;
+}
+
+int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
+                   double* out) noexcept {
+    if (hypothesis.interpolant_bits == full_double) {
+        Lanes<double> q;
+        interpolate_double(corners.r, corners.inverse_w, lanes, out);
+        interpolate_double(corners.q, corners.inverse_w, lanes, q.data());
+        for (int i = 0; i < lanes.count; ++i) out[i] = out[i] / q[static_cast<std::size_t>(i)];
+        return 0;
+    }
+    Lanes<float> r, q;
+    const int fallbacks = interpolate(corners.r, corners.inverse_w, lanes, hypothesis, r.data()) +
+                          interpolate(corners.q, corners.inverse_w, lanes, hypothesis, q.data());
+    for (int i = 0; i < lanes.count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        out[i] = double{divide(r[k], q[k], hypothesis.divide)};
+    }
+    return fallbacks;
+}
+
+void float32_plane_depth(const SetupTriangle& t, int subpixel_bits, PlaneAnchor anchor, const TriangleLanes& lanes,
+                         double* out) noexcept {
+    const float pixel = 1.0f / static_cast<float>(1 << subpixel_bits);
+    const auto x = [&](std::size_t i) { return static_cast<float>(t.p[i].x) * pixel; };
+    const auto y = [&](std::size_t i) { return static_cast<float>(t.p[i].y) * pixel; };
+    const auto z = [&](std::size_t i) { return static_cast<float>(t.z[i]); };
+    float x0 = x(0), y0 = y(0), z0 = z(0);
+    const float x1 = x(1) - x0, y1 = y(1) - y0, z1 = z(1) - z0;
+    const float x2 = x(2) - x0, y2 = y(2) - y0, z2 = z(2) - z0;
+    const float area = x1 * y2 - x2 * y1;
+    const float dx = (z1 * y2 - z2 * y1) / area, dy = (z2 * x1 - z1 * x2) / area;
+    if (anchor == PlaneAnchor::window_corner) {
+        z0 = (z0 - dx * x0) - dy * y0;
+        x0 = y0 = 0.0f;
+    }
+    for (int i = 0; i < lanes.count; ++i) {
+        const float px = static_cast<float>(lanes.x[i]) + 0.5f, py = static_cast<float>(lanes.y[i]) + 0.5f;
+        out[i] = double{(z0 + dx * (px - x0)) + dy * (py - y0)};
+    }
+}
+
+void plane_depth(const SetupTriangle& t, const TriangleLanes& lanes, double* out) noexcept {
+    const FilterPlane plane{RationalPlane{t.z}, lanes.is_exact};
+    for (int i = 0; i < lanes.count; ++i) out[i] = plane.at(lanes.weight1[i], lanes.weight2[i]);
+}
+
+int window_z_depth(const SetupTriangle& t, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
+                   double* out) noexcept {
+    if (hypothesis.window_z == WindowZRule::float32) {
+        Lanes<float> z;
+        const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
+        std::copy_n(z.begin(), lanes.count, out);
+        return fallbacks;
+    }
+    if (hypothesis.window_z == WindowZRule::exact) {
+        plane_depth(t, lanes, out);
+        return 0;
+    }
+    const WindowZ24 rule{t.z, lanes.edges->area(), hypothesis};
+    for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
+    return 0;
+}
+
+void add_rq(TriangleSoup& soup, const RasterState& state, const RasterRules& rules) {
+    const double n = state.depth_near, f = state.depth_far, units = z_units(state, rules);
+    const bool symmetric = state.clip_depth == ClipDepth::minus_one_to_one;
+    const auto scale = static_cast<float>((symmetric ? (f - n) * 0.5 : f - n) * units);
+    const auto offset = static_cast<float>((symmetric ? (n + f) * 0.5 : n) * units);
+    soup.extras = {.stride = 2, .has_rq = true, .values = {}};
+    for (const ClipVertex& v : soup.vertices) {
+        const float scaled = scale * v.z, moved = offset * v.w;
+        soup.extras.values.push_back(scaled + moved);
+        soup.extras.values.push_back(v.w);
+    }
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,370 @@
+#include "rasterizer/values/fragment_values.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "rasterizer/base/nv20_arithmetic.h"
+#include "rasterizer/set_up/window.h"
+#include "rasterizer/values/color_weights.h"
+#include "rasterizer/values/cut_coordinates.h"
+#include "rasterizer/values/depth_paths.h"
+#include "rasterizer/values/window_z.h"
+
+namespace strata::rasterizer {
+namespace {
+
+// A depth range limit, within [0,1] as glDepthRange clamps it; -0 becomes 0.
+[[nodiscard]] float range_limit(float z) noexcept { return z > 0.0f ? std::min(z, 1.0f) : 0.0f; }
+
+[[nodiscard]] bool same_bits(float a, float b) noexcept {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+void to_codes(const float* __restrict z, int count, float least, float greatest, DepthFormat format, double half,
+              std::uint32_t* __restrict out) noexcept {
+    if (format == DepthFormat::d32f) {
+        for (int i = 0; i < padded(count); ++i) {
+            const float above = z[i] > least ? z[i] : least;  // also turns -0 and NaN into `least`
+            out[i] = std::bit_cast<std::uint32_t>(above < greatest ? above : greatest);
+        }
+        return;
+    }
+    const double max = max_code(format);
+    for (int i = 0; i < padded(count); ++i) {
+        const float above = z[i] > least ? z[i] : least;
+        const float clamped = above < greatest ? above : greatest;
+        out[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(double{clamped} * max + half));
+    }
+}
+
+[[nodiscard]] bool is_quotient(DepthPath path) noexcept {
+    return path == DepthPath::perspective_rq || path == DepthPath::depth_replace;
+}
+
+// The paths that are a value before they are a code.
+[[nodiscard]] bool is_value(DepthPath path, const DepthHypothesis& hypothesis) noexcept {
+    return is_quotient(path) || path == DepthPath::float32_plane ||
+           (path == DepthPath::window_z && hypothesis.window_z == WindowZRule::float32);
+}
+
+// Lane `from` becomes lane `to`.
+void move_lane(std::size_t from, std::size_t to, FragmentBatch& batch, WeightLanes& weights) noexcept {
+    batch.pixel[to] = batch.pixel[from];
+    batch.x[to] = batch.x[from];
+    batch.y[to] = batch.y[from];
+    batch.shader_z[to] = batch.shader_z[from];
+    weights.b1[to] = weights.b1[from];
+    weights.b2[to] = weights.b2[from];
+}
+
+void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, const InterpolationHypothesis& hypothesis,
+                        int first, FragmentBatch& batch) noexcept {
+    std::array<std::array<std::int32_t, 3>, color_channels> codes{};
+    for (std::size_t c = 0; c < color_channels; ++c)
+        for (std::size_t i = 0; i < 3; ++i)
+            codes[c][i] = to_color_code(t.attribute[i][c], hypothesis.vertex_color_bits);
+    const ColorWeights weights{t.inverse_w, lanes.edges->area(), hypothesis.perspective_color};
+    for (int i = 0; i < lanes.count; ++i) {
+        const std::array<std::int32_t, 3> w = weights.at(lanes.edge_values(i));
+        for (std::size_t c = 0; c < color_channels; ++c)
+            batch.color[c][static_cast<std::size_t>(first + i)] = weighted_color(w, codes[c]);
+    }
+}
+
+}  // namespace
+
+FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs)
+    : kernels_{lane_kernels()},
+      rules_{geometry.rules},
+      depth_{depth},
+      needs_{needs},
+      z_units_{z_units(geometry.state, geometry.rules)},
+      code_units_{depth.format == DepthFormat::d32f ? 1.0 : max_code(depth.format)} {
+    needs_.code |= needs.reference;
+    const float n = range_limit(geometry.state.depth_near), f = range_limit(geometry.state.depth_far);
+    least_ = std::min(n, f);
+    greatest_ = std::max(n, f);
+    least_code_ = to_depth_code(least_, depth.format, rules_.depth_rounding);
+    greatest_code_ = to_depth_code(greatest_, depth.format, rules_.depth_rounding);
+    rejects_ = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
+    clips_fragments_ = rules_.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
+    const bool is_float = depth.format == DepthFormat::d32f;
+    needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
+                     (needs.exact_code && is_float) || needs.reference;
+    needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
+    is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code && !needs.reference && !rejects_ &&
+                (!needs.code || depth.path == DepthPath::float32);
+    assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0) ||
+            z_units_ == max_d16f) &&
+           "window_z works in the buffer units of the format that is stored, which is no d32f");
+    assert((geometry.extras.has_rq || !is_quotient(depth.path)) &&
+           (geometry.extras.has_rq || !depth.reference || !is_quotient(*depth.reference)) &&
+           "perspective_rq and depth_replace take r and q of the vertices");
+}
+
+TriangleLanes FragmentValues::lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
+                                    const FragmentBatch& batch, const WeightLanes& weights) const noexcept {
+    const auto f = static_cast<std::size_t>(first);
+    return {&edges,         rules_.subpixel_bits, &batch.x[f],         &batch.y[f],
+            &weights.b1[f], &weights.b2[f],       batch.count - first, triangle.weights.is_exact()};
+}
+
+void FragmentValues::fill_weights(const DrawnTriangle& triangle, int first, const FragmentBatch& batch,
+                                  WeightLanes& weights) const noexcept {
+    const PixelWeights& w = triangle.weights;
+    const auto f = static_cast<std::size_t>(first);
+    if (w.kind != PixelWeights::Kind::snapped_wide)
+        return kernels_.weights(w, &batch.x[f], &batch.y[f], batch.count - first, &weights.b1[f], &weights.b2[f]);
+    const TriangleEdges edges = triangle.edges();
+    const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    for (int i = 0; i < own.count; ++i) {
+        const EdgeValues e = own.edge_values(i);
+        weights.b1[f + static_cast<std::size_t>(i)] = static_cast<double>(e[1]) * w.r;
+        weights.b2[f + static_cast<std::size_t>(i)] = static_cast<double>(e[2]) * w.r;
+    }
+}
+
+DepthConversion FragmentValues::to_code() const noexcept {
+    return {depth_.format != DepthFormat::d32f, least_, greatest_, static_cast<double>(max_code(depth_.format)),
+            rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0};
+}
+
+bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                WeightLanes& weights) const noexcept {
+    const auto f = static_cast<std::size_t>(first);
+    if (!is_plain_ || triangle.weights.kind == PixelWeights::Kind::snapped_wide) return false;
+    if (!needs_float_z_) {
+        if (needs_attributes_) fill_weights(triangle, first, batch, weights);
+        return true;
+    }
+    const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
+    if (plane.is_constant()) return false;
+    const DepthLanes out{to_code(), needs_.shader_z ? &batch.shader_z[f] : nullptr,
+                         needs_.code ? &batch.code[f] : nullptr, needs_attributes_ ? &weights.b1[f] : nullptr,
+                         needs_attributes_ ? &weights.b2[f] : nullptr};
+    return !kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.is_exact()}, &batch.x[f], &batch.y[f],
+                           batch.count - first, out);
+}
+
+// A convex combination leaves the range only if a corner does; the products are exact.
+bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcept {
+    const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
+    return low < least_ * z_units_ || high > greatest_ * z_units_;
+}
+
+// ZClip::per_fragment compares shader_z with the range [A]: what rounds to n or f is inside.
+void FragmentValues::drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept {
+    auto kept = static_cast<std::size_t>(first);
+    for (auto i = kept; i < static_cast<std::size_t>(batch.count); ++i) {
+        if (!(batch.shader_z[i] >= least_ && batch.shader_z[i] <= greatest_)) continue;
+        move_lane(i, kept++, batch, weights);
+    }
+    batch.count = static_cast<int>(kept);
+}
+
+// `depth` is that of fragments `first` on.
+void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights,
+                                   double* depth) const noexcept {
+    const auto begin = static_cast<std::size_t>(first);
+    const double least = least_ * code_units_, greatest = greatest_ * code_units_;
+    std::size_t kept = begin;
+    for (std::size_t i = begin; i < static_cast<std::size_t>(batch.count); ++i) {
+        if (!is_in_depth_range(depth[i - begin], least, greatest)) continue;
+        depth[kept - begin] = depth[i - begin];
+        move_lane(i, kept++, batch, weights);
+    }
+    batch.count = static_cast<int>(kept);
+}
+
+int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes& lanes, const float* shader_z,
+                                     std::uint32_t* out) const noexcept {
+    if (depth_.format == DepthFormat::d32f) {
+        to_codes(shader_z, lanes.count, least_, greatest_, depth_.format, 0.0, out);
+        return 0;
+    }
+    const std::uint32_t max = max_code(depth_.format);
+    const bool in_codes = z_units_ == max;
+    const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
+    const double half = rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
+    const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
+    for (int i = 0; i < padded(lanes.count); ++i) out[i] = std::clamp(out[i], least_code_, greatest_code_);
+    return fallbacks;
+}
+
+int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
+                               const float* shader_z, std::uint32_t* out) const {
+    const bool by_chip = path == DepthPath::window_z && rules_.hypothesis.window_z == WindowZRule::chip;
+    if (depth_.format == DepthFormat::d16f && by_chip) {  // [M] Depth_buffer: every word of four captures
+        const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
+        for (int i = 0; i < lanes.count; ++i)
+            out[i] = std::clamp(to_d16f_code(cut_to_binary32(rule.value(lanes.edge_values(i)))), least_code_,
+                                greatest_code_);
+        return 0;
+    }
+    if (depth_.format == DepthFormat::d16f) {
+        alignas(64) Lanes<float> z;
+        const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
+        for (int i = 0; i < lanes.count; ++i)
+            out[i] = std::clamp(to_d16f_code(z[static_cast<std::size_t>(i)]), least_code_, greatest_code_);
+        return fallbacks;
+    }
+    if (path == DepthPath::float32) {
+        to_codes(shader_z, lanes.count, least_, greatest_, depth_.format,
+                 rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0, out);
+        return 0;
+    }
+    if (!by_chip) return fill_exact_codes(t, lanes, shader_z, out);
+    const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
+    for (int i = 0; i < lanes.count; ++i)
+        out[i] = static_cast<std::uint32_t>(
+            std::clamp(rule.at(lanes.edge_values(i)), double{1.0} * least_code_, double{1.0} * greatest_code_));
+    return 0;
+}
+
+std::uint32_t FragmentValues::code_of(double value) const noexcept {
+    const double least = least_ * code_units_, greatest = greatest_ * code_units_;
+    const double above = value > least ? value : least;  // also turns -0 and NaN into `least`
+    const double clamped = above < greatest ? above : greatest;
+    if (depth_.format == DepthFormat::d32f) return std::bit_cast<std::uint32_t>(static_cast<float>(clamped));
+    return static_cast<std::uint32_t>(clamped + (rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0));
+}
+
+int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
+                                      const TriangleLanes& lanes, const float* shader_z, double* out) const {
+    const DepthHypothesis& h = rules_.hypothesis;
+    int fallbacks = 0;
+    switch (path) {
+        case DepthPath::perspective_rq:
+        case DepthPath::depth_replace:
+            fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record), lanes, h, out);
+            break;
+        case DepthPath::float32_plane: float32_plane_depth(t, rules_.subpixel_bits, h.plane_anchor, lanes, out); break;
+        case DepthPath::float32:
+            for (int i = 0; i < lanes.count; ++i) out[i] = double{shader_z[i]} * code_units_;
+            return 0;
+        case DepthPath::window_z: fallbacks = window_z_depth(t, lanes, h, out); break;
+        case DepthPath::exact: plane_depth(t, lanes, out); break;
+    }
+    for (int i = 0; z_units_ != code_units_ && i < lanes.count; ++i) out[i] = out[i] * code_units_ / z_units_;
+    return fallbacks;
+}
+
+int FragmentValues::fill_value_codes(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                     FragmentBatch& batch, WeightLanes& weights) const {
+    const auto f = static_cast<std::size_t>(first);
+    const TriangleEdges edges = triangle.edges();
+    Lanes<double> depth;
+    const int fallbacks = fill_depth_values(depth_.path, t, triangle, lanes(triangle, edges, first, batch, weights),
+                                            &batch.shader_z[f], depth.data());
+    if (rejects_) drop_rejected(first, batch, weights, depth.data());
+    for (auto i = f; needs_.code && i < static_cast<std::size_t>(batch.count); ++i)
+        batch.code[i] = code_of(depth[i - f]);
+    return fallbacks;
+}
+
+int FragmentValues::fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                   FragmentBatch& batch, const WeightLanes& weights) const {
+    const auto f = static_cast<std::size_t>(first);
+    const DepthPath path = depth_.reference.value_or(depth_.path);
+    const TriangleEdges edges = triangle.edges();
+    const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    int fallbacks = fill_depth_values(path, t, triangle, own, &batch.shader_z[f], &batch.reference_z[f]);
+    if (path == depth_.path) {
+        std::copy_n(&batch.code[f], own.count, &batch.reference_code[f]);
+    } else if (is_value(path, rules_.hypothesis)) {
+        for (auto i = f; i < static_cast<std::size_t>(batch.count); ++i)
+            batch.reference_code[i] = code_of(batch.reference_z[i]);
+    } else {
+        fallbacks += fill_codes(path, t, own, &batch.shader_z[f], &batch.reference_code[f]);
+    }
+    return fallbacks;
+}
+
+int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                    const WeightLanes& weights) const {
+    const Geometry& geometry = triangle.geometry;
+    const auto f = static_cast<std::size_t>(first);
+    const bool weighted = needs_.color && rules_.color == ColorInterpolation::weights_8bit;
+    const std::size_t begin = needs_.color && !weighted ? 0 : color_channels;
+    std::array<const ClipVertex*, 3> v;
+    std::array<double, 3> w;
+    for (std::size_t i = 0; i < 3; ++i) {
+        v[i] = &geometry.vertices[triangle.record.vertex[i]];
+        w[i] = geometry.corners[triangle.record.vertex[i]].inverse_w;
+    }
+    const bool cut = needs_.texcoord && cuts_coordinates(rules_, w);
+    const std::size_t end = needs_.texcoord && !cut ? attribute_count : color_channels;
+    AttributeLanes varying;
+    varying.has_w = !(w[0] == 1.0 && w[1] == 1.0 && w[2] == 1.0);  // else the quotient is the dividend
+    varying.inverse_w = {w};
+    for (std::size_t a = begin; a < end; ++a) {
+        const auto value = [&](std::size_t i) {
+            if (a >= color_channels) return v[i]->texcoord[a - color_channels];
+            return triangle.record.front_facing ? v[i]->front[a] : v[i]->back[a];
+        };
+        float* const out = a < color_channels ? &batch.color[a][f] : &batch.texcoord[a - color_channels][f];
+        if (same_bits(value(0), value(1)) && same_bits(value(0), value(2))) {
+            varying.add(value(0), out);
+            continue;
+        }
+        const auto product = [&](std::size_t i) -> double { return value(i) * static_cast<float>(w[i]); };  // binary32
+        varying.add({{product(0), product(1), product(2)}}, out);
+    }
+    const TriangleEdges edges = triangle.edges();
+    const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, rules_.interpolation, first, batch);
+    for (std::size_t a = 0; cut && a < texcoord_channels; ++a)
+        cut_coordinates({v[0]->texcoord[a], v[1]->texcoord[a], v[2]->texcoord[a]}, own, &batch.texcoord[a][f]);
+    return fill_varying(varying, own);
+}
+
+int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const {
+    if (!kernels_.attributes(varying, lanes)) return 0;
+    int fallbacks = 0;  // some lane is not certain: one plane after the other
+    alignas(64) Lanes<float> inverse_w;
+    if (varying.has_w) fallbacks += round_plane(varying.inverse_w, lanes, inverse_w.data());
+    for (std::size_t k = 0; k < varying.count; ++k) {
+        float* const out = varying.out[k];
+        fallbacks += round_plane(varying.plane[k], lanes, out);
+        for (int i = 0; varying.has_w && i < lanes.count; ++i) out[i] = out[i] / inverse_w[static_cast<std::size_t>(i)];
+    }
+    return fallbacks;
+}
+
+int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                WeightLanes& weights) const {
+    const auto f = static_cast<std::size_t>(first);
+    fill_weights(triangle, first, batch, weights);
+    const TriangleEdges edges = triangle.edges();
+    TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    const bool clips = clips_fragments_ && may_leave_depth_range(t);
+    int fallbacks = 0;
+    if (needs_float_z_ || clips) fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
+    if (clips) {
+        drop_outside_depth_range(first, batch, weights);
+        own.count = batch.count - first;
+    }
+    if (is_value(depth_.path, rules_.hypothesis) && (needs_.code || rejects_)) {
+        fallbacks += fill_value_codes(t, triangle, first, batch, weights);
+        own.count = batch.count - first;
+    } else if (needs_.code) {
+        fallbacks += fill_codes(depth_.path, t, own, &batch.shader_z[f], &batch.code[f]);
+    }
+    if (needs_.reference) fallbacks += fill_reference(t, triangle, first, batch, weights);
+    if (needs_.exact_code) fallbacks += fill_exact_codes(t, own, &batch.shader_z[f], &batch.exact_code[f]);
+    return fallbacks;
+}
+
+int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const {
+    int fallbacks = 0;
+    if (!fill_depth(triangle, first, batch, weights))
+        fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
+    if (needs_attributes_) fallbacks += fill_attributes(triangle, first, batch, weights);
+    if (needs_.units != 0) fallbacks += fill_units(triangle, first, batch, weights);
+    if (needs_.facing)
+        std::fill_n(&batch.front_facing[static_cast<std::size_t>(first)], batch.count - first,
+                    std::uint8_t{triangle.record.front_facing});
+    return fallbacks;
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,98 @@
+// rasterizer/values/fragment_values.h - fills the arrays of a batch for the fragments of one triangle.
+//
+// Rule     Depth: shader_z is the exact plane in [0,1] units, rounded once, not clamped; code by the requested path,
+//          clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded
+//          once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the
+//          same bits are that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions,
+//          evaluated in binary64 and rounded once. Colours by 8-bit weights, coordinates by cut weights: color_weights.h,
+//          cut_coordinates.h. depth_replace drops a fragment whose depth is outside the depth
+//          range (with depth clamp: clamps it), after the clip of window z. The reference is another depth of the same
+//          fragment.
+// Source   decisions.md 1; hardware.md 2, 3 and 5.
+// Tests    tests/rasterizer/values/fragment_values_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/lane_kernels.h"
+
+namespace strata::rasterizer {
+
+// A triangle that is being drawn.
+struct DrawnTriangle {
+    const Geometry& geometry;
+    std::uint32_t index;
+    const TriangleRecord& record;
+    PixelWeights weights;
+
+    DrawnTriangle(const Geometry& g, std::uint32_t i) noexcept
+        : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record} {}
+    // The same of small triangle `k` of a group.
+    DrawnTriangle(const Geometry& g, std::uint32_t i, const TriangleGroup& group, std::size_t k) noexcept
+        : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record, group, k} {}
+    [[nodiscard]] TriangleEdges edges() const noexcept { return {geometry.points(record), geometry.rules.tie_rule}; }
+};
+
+class FragmentValues {
+  public:
+    FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
+
+    // Fragments [first, batch.count) are those of `triangle`, with pixel, x, y and primitive written. Fills what else the
+    // needs name; with ZClip::per_fragment it removes the fragments outside the depth range. Returns the number of
+    // exact fallbacks.
+    [[nodiscard]] int fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const;
+
+    // What DepthPath::float32 makes of shader_z.
+    [[nodiscard]] DepthConversion to_code() const noexcept;
+
+  private:
+    [[nodiscard]] TriangleLanes lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
+                                      const FragmentBatch& batch, const WeightLanes& weights) const noexcept;
+    // Weights, shader_z and code in one loop; false if the general way must do it.
+    [[nodiscard]] bool fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                  WeightLanes& weights) const noexcept;
+    [[nodiscard]] int fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                  FragmentBatch& batch, WeightLanes& weights) const;
+    void fill_weights(const DrawnTriangle& triangle, int first, const FragmentBatch& batch,
+                      WeightLanes& weights) const noexcept;
+    [[nodiscard]] bool may_leave_depth_range(const SetupTriangle& triangle) const noexcept;
+    void drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept;
+    void drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights, double* depth) const noexcept;
+    [[nodiscard]] int fill_exact_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, const float* shader_z,
+                                       std::uint32_t* out) const noexcept;
+    // `path` is one of those that go from the plane to the code.
+    [[nodiscard]] int fill_codes(DepthPath path, const SetupTriangle& triangle, const TriangleLanes& lanes,
+                                 const float* shader_z, std::uint32_t* out) const;
+    // Depth as a value, in codes of a fixed format or in [0,1]; not clamped.
+    [[nodiscard]] int fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
+                                        const TriangleLanes& lanes, const float* shader_z, double* out) const;
+    [[nodiscard]] std::uint32_t code_of(double value) const noexcept;
+    // The stored path, if it is one of depth_paths.h; drops what depth_replace rejects.
+    [[nodiscard]] int fill_value_codes(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                       FragmentBatch& batch, WeightLanes& weights) const;
+    [[nodiscard]] int fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                                     FragmentBatch& batch, const WeightLanes& weights) const;
+    [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
+    [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                      const WeightLanes& weights) const;
+
+    [[nodiscard]] int fill_units(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                 const WeightLanes& weights) const;  // unit_values.cpp
+
+    const LaneKernels& kernels_;
+    RasterRules rules_;
+    DepthRequest depth_;
+    FragmentNeeds needs_;
+    double z_units_;          // vertex z of depth 1.0
+    double code_units_;       // value in codes (D32F: depth) of depth 1.0
+    float least_, greatest_;  // the depth range, ordered
+    std::uint32_t least_code_, greatest_code_;
+    bool clips_fragments_;
+    bool rejects_;  // depth_replace
+    bool needs_float_z_, needs_attributes_;
+    bool is_plain_;  // depth is shader_z and the code of it: what the kernel does
+};
+
+}  // namespace strata::rasterizer

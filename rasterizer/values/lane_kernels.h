@@ -1,0 +1,186 @@
+// rasterizer/values/lane_kernels.h - the inner loops of rasterization as a table, one for each set, and their scalar twins.
+//
+// Rule     The twins below are the definition; every set gives the same bits (simd.h). `depth` has no twin of its own:
+//          its meaning is FragmentValues::fill, and where it is null, or cannot decide, that runs.
+// Numbers  Loops run over whole blocks of lanes and may write up to 15 lanes beyond the count: usable_capacity.
+// Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp runs every available set against the twins.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+#include "rasterizer/coverage/pixel_claims.h"
+#include "rasterizer/set_up/triangle_walk.h"
+#include "rasterizer/values/pixel_weights.h"
+#include "rasterizer/values/plane.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+// Rows of one triangle on their way into a batch, from where it was interrupted.
+struct RowRun {
+    int row, rows;  // the next one and their number
+    int taken;      // pixels [..., taken) of that row are in the batch before
+    int y0;         // of row 0
+    int region_x0, region_y0, region_width;
+    std::uint32_t primitive;
+};
+
+// How a binary32 depth becomes its code.
+struct DepthConversion {
+    bool is_fixed;          // a fixed-point format; else binary32
+    float least, greatest;  // the depth range
+    double max, half;       // fixed-point: the code of 1.0, and what the conversion adds
+};
+
+// What `depth` makes of a plane of depth: its binary32 value, and the code of that.
+struct DepthLanes {
+    DepthConversion to_code;
+    float* shader_z;      // null: not wanted
+    std::uint32_t* code;  // null: not wanted
+    double* b1;           // null: no one looks at the weights
+    double* b2;
+};
+
+// Attributes that change over the triangle, before the division by the plane of 1 / w, and those that do not.
+struct AttributeLanes {
+    struct Constant {
+        float value;
+        float* out;
+    };
+    std::size_t count = 0, constant_count = 0;
+    std::array<Constant, attribute_count> constant;
+    std::array<RationalPlane, attribute_count> plane;
+    std::array<float*, attribute_count> out;
+    RationalPlane inverse_w;
+    bool has_w = false;
+
+    void add(const RationalPlane& p, float* lanes) noexcept {
+        plane[count] = p;
+        out[count++] = lanes;
+    }
+    void add(float value, float* lanes) noexcept { constant[constant_count++] = {value, lanes}; }
+};
+
+struct LaneKernels {
+    // Appends the pixels of the spans until the rows are done (true), or the batch is full or holds the next one already
+    // (false).
+    bool (*emit)(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept;
+    // b1 and b2 at `count` pixels; not for Kind::snapped_wide.
+    void (*weights)(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count, double* b1,
+                    double* b2) noexcept;
+    // Every plane rounded to binary32, divided by the rounded plane of 1 / w, and the constants; true if some lane is not
+    // certain.
+    bool (*attributes)(const AttributeLanes& attributes, const TriangleLanes& lanes) noexcept;
+    // Weights, the rounded plane and its codes in one; true if some lane is not certain.
+    bool (*depth)(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y,
+                  int count, const DepthLanes& out) noexcept;
+};
+
+// Those of the chosen set. Ask once a draw.
+[[nodiscard]] const LaneKernels& lane_kernels() noexcept;
+
+namespace scalar {
+
+// The part of a span that the batch takes now: its pixels are claimed; 0 if the batch must be flushed first.
+[[nodiscard]] inline int claimed(const RowRun& run, int row, const RowSpan& span, PixelClaims& claims,
+                                 int batch_count) noexcept {
+    const int count = std::min(span.x1 - span.x0, usable_capacity - batch_count);
+    const auto region_row = static_cast<std::size_t>(run.y0 + row - run.region_y0);
+    const auto column = static_cast<unsigned>(span.x0 - run.region_x0);
+    return count > 0 && claims.claim(region_row, column, static_cast<unsigned>(count)) ? count : 0;
+}
+
+[[nodiscard]] inline std::uint32_t pixel_number(const RowRun& run, int row, int x) noexcept {
+    return static_cast<std::uint32_t>((run.y0 + row - run.region_y0) * run.region_width + x - run.region_x0);
+}
+
+inline void append(FragmentBatch& batch, int held, int count, std::uint32_t pixel, int x, int y,
+                   std::uint32_t primitive) noexcept {
+    for (int i = 0; i < count; ++i) {
+        const auto at = static_cast<std::size_t>(held + i);
+        batch.pixel[at] = pixel + static_cast<std::uint32_t>(i);
+        batch.x[at] = static_cast<std::uint16_t>(x + i);
+        batch.y[at] = static_cast<std::uint16_t>(y);
+        batch.primitive[at] = primitive;
+    }
+}
+
+// The walk of both kernels: `span_of(row)` gives the spans, `append` writes the lanes.
+template <class SpanOf, class Append>
+[[gnu::always_inline]] inline bool emit_rows(RowRun& run, PixelClaims& claims, FragmentBatch& batch,
+                                             const SpanOf& span_of, const Append& append_row) noexcept {
+    const RowRun rows = run;  // what the lanes that are written cannot change
+    int held = batch.count, row = rows.row, taken = rows.taken;
+    bool has_room = true;
+    while (row < rows.rows) {
+        RowSpan span = span_of(row);
+        span.x0 = std::max(span.x0, taken);
+        while (span.x0 < span.x1) {
+            const int count = claimed(rows, row, span, claims, held);
+            has_room = count > 0;
+            if (!has_room) break;
+            append_row(batch, held, count, pixel_number(rows, row, span.x0), span.x0, rows.y0 + row, rows.primitive);
+            held += count;
+            span.x0 += count;
+        }
+        taken = has_room ? 0 : span.x0;
+        if (!has_room) break;
+        ++row;
+    }
+    batch.count = held;
+    run.row = row;
+    run.taken = taken;
+    return has_room;
+}
+
+inline bool emit(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept {
+    return emit_rows(
+        run, claims, batch, [&](int row) { return spans[row]; }, append);
+}
+
+inline void weights(const PixelWeights& w, const std::uint16_t* __restrict x, const std::uint16_t* __restrict y,
+                    int count, double* __restrict b1, double* __restrict b2) noexcept {
+    for (int i = 0; i < count; ++i) {
+        if (w.kind == PixelWeights::Kind::unsnapped) {
+            const double dx = x[i] + 0.5 - w.x0, dy = y[i] + 0.5 - w.y0;
+            b1[i] = (dx * w.y2 - dy * w.x2) * w.r;
+            b2[i] = (dy * w.x1 - dx * w.y1) * w.r;
+        } else {
+            b1[i] = w.e1.at(x[i], y[i]) * w.r;
+            b2[i] = w.e2.at(x[i], y[i]) * w.r;
+        }
+    }
+}
+
+inline bool round(const FilterPlane& plane, const double* __restrict b1, const double* __restrict b2, int count,
+                  float* __restrict out) noexcept {
+    std::uint32_t unsure = 0;
+    for (int i = 0; i < count; ++i) {
+        const double v = plane.at(b1[i], b2[i]);
+        const auto low = static_cast<float>(v - plane.error), high = static_cast<float>(v + plane.error);
+        unsure |= std::bit_cast<std::uint32_t>(low) ^ std::bit_cast<std::uint32_t>(high);
+        out[i] = low;
+    }
+    return unsure != 0;
+}
+
+inline bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noexcept {
+    Lanes<float> inverse_w;
+    bool unsure = false;
+    const auto round_all = [&](const RationalPlane& plane, float* out) {
+        const FilterPlane filter{plane, lanes.is_exact};
+        unsure |= round(filter, lanes.weight1, lanes.weight2, lanes.count, out);
+    };
+    for (std::size_t k = 0; k < a.constant_count; ++k) std::fill_n(a.constant[k].out, lanes.count, a.constant[k].value);
+    if (a.has_w && a.count > 0) round_all(a.inverse_w, inverse_w.data());
+    for (std::size_t k = 0; k < a.count; ++k) {
+        round_all(a.plane[k], a.out[k]);
+        for (int i = 0; a.has_w && i < lanes.count; ++i)
+            a.out[k][i] = a.out[k][i] / inverse_w[static_cast<std::size_t>(i)];
+    }
+    return unsure;
+}
+
+}  // namespace scalar
+}  // namespace strict
+}  // namespace strata::rasterizer

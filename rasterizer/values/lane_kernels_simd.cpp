@@ -1,0 +1,165 @@
+// rasterizer/values/lane_kernels_simd.cpp - the kernels of lane_kernels.h for every instruction set; their meaning stands there.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rasterizer/values/lane_kernels_simd.cpp"
+#include <bit>
+#include <cstring>
+
+#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/highway.h"
+#include "rasterizer/base/simd.h"
+#include "rasterizer/values/weights-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::rasterizer::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A block of 16 pixels, or as many of them as the widest vector has lanes of 32 bits.
+using Row32 = hn::CappedTag<std::int32_t, 16>;
+using Row16 = hn::Rebind<std::uint16_t, Row32>;
+
+alignas(64) constexpr std::int32_t counting32[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+alignas(64) constexpr std::uint16_t counting16[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+// Writes `count` pixels of a row from lane `held` on.
+struct AppendRow {
+    void operator()(FragmentBatch& batch, int held, int count, std::uint32_t pixel, int x, int y,
+                    std::uint32_t primitive) const {
+        const Row32 d;
+        const Row16 d16;
+        auto pixels = hn::Add(hn::LoadU(d, counting32), hn::Set(d, static_cast<std::int32_t>(pixel)));
+        auto xs = hn::Add(hn::LoadU(d16, counting16), hn::Set(d16, static_cast<std::uint16_t>(x)));
+        const int step = static_cast<int>(hn::Lanes(d)), end = held + count;
+        for (int i = held; i < end; i += step) {
+            const auto at = static_cast<std::size_t>(i);
+            hn::StoreU(pixels, d, reinterpret_cast<std::int32_t*>(&batch.pixel[at]));
+            hn::StoreU(xs, d16, &batch.x[at]);
+            hn::StoreU(hn::Set(d16, static_cast<std::uint16_t>(y)), d16, &batch.y[at]);
+            hn::StoreU(hn::Set(d, static_cast<std::int32_t>(primitive)), d,
+                       reinterpret_cast<std::int32_t*>(&batch.primitive[at]));
+            pixels = hn::Add(pixels, hn::Set(d, step));
+            xs = hn::Add(xs, hn::Set(d16, static_cast<std::uint16_t>(step)));
+        }
+    }
+};
+
+// The walk is the twins'; it and what it calls are compiled here for this set.
+[[gnu::flatten]] bool emit(const RowSpan* spans, RowRun& run, PixelClaims& claims, FragmentBatch& batch) noexcept {
+    const auto span_of = [&](int row) HWY_ATTR { return spans[row]; };
+    return scalar::emit_rows(run, claims, batch, span_of, AppendRow{});
+}
+
+template <bool unsnapped>
+HWY_INLINE void weights_of(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count,
+                           double* HWY_RESTRICT b1, double* HWY_RESTRICT b2) {
+    const F64 d;
+    const WeightsAt<unsnapped> at{w};
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+        const Weights b = at.lanes(x + i, y + i);
+        hn::StoreU(b.b1, d, b1 + i);
+        hn::StoreU(b.b2, d, b2 + i);
+    }
+}
+
+void weights(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t* y, int count, double* b1,
+             double* b2) noexcept {
+    if (w.kind == PixelWeights::Kind::unsnapped) return weights_of<true>(w, x, y, count, b1, b2);
+    weights_of<false>(w, x, y, count, b1, b2);
+}
+
+template <bool exact>
+HWY_INLINE bool attributes_of(const AttributeLanes& a, const TriangleLanes& lanes) {
+    const F64 d;
+    FilterPlane planes[attribute_count + 1];
+    for (std::size_t k = 0; k < a.count; ++k) planes[k] = FilterPlane{a.plane[k], exact};
+    planes[a.count] = FilterPlane{a.inverse_w, exact};
+    auto unsure = hn::Zero(U32{});
+    const auto value = [&](const FilterPlane& plane, const Weights& b) HWY_ATTR {
+        const V64 v = plane_at(plane, b);
+        return exact ? rounded(v, hn::Set(d, plane.error), unsure) : hn::DemoteTo(F32{}, v);
+    };
+    for (int i = 0; i < lanes.count; i += static_cast<int>(hn::Lanes(d))) {
+        const Weights b{hn::LoadU(d, lanes.weight1 + i), hn::LoadU(d, lanes.weight2 + i)};
+        const V32 inverse_w = a.has_w ? value(planes[a.count], b) : hn::Set(F32{}, 1.0f);
+        for (std::size_t k = 0; k < a.count; ++k) {
+            const V32 u = value(planes[k], b);
+            hn::StoreU(a.has_w ? hn::Div(u, inverse_w) : u, F32{}, a.out[k] + i);
+        }
+    }
+    return exact && !hn::AllTrue(U32{}, hn::Eq(unsure, hn::Zero(U32{})));
+}
+
+void fill(float value, int count, float* out) {
+    using Wide = hn::CappedTag<float, 16>;
+    const auto v = hn::Set(Wide{}, value);
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Wide{}))) hn::StoreU(v, Wide{}, out + i);
+}
+
+bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noexcept {
+    for (std::size_t k = 0; k < a.constant_count; ++k) fill(a.constant[k].value, lanes.count, a.constant[k].out);
+    if (a.count == 0) return false;
+    return lanes.is_exact ? attributes_of<true>(a, lanes) : attributes_of<false>(a, lanes);
+}
+
+template <bool unsnapped, bool by_rows>
+HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x,
+                         const std::uint16_t* y, int count, const DepthLanes& out) {
+    const F64 d;
+    const int step = static_cast<int>(hn::Lanes(d));
+    const WeightsAt<unsnapped> at{w};
+    Weights terms{hn::Zero(d), hn::Zero(d)};
+    int row = -1;
+    auto unsure = hn::Zero(U32{});
+    for (int i = 0; i < count; i += step) {
+        // A vector within a row, as most of a large triangle are, shares what depends on y with the one before.
+        const bool in_row = by_rows && i + step <= count && y[i] == y[i + step - 1];
+        if (in_row && y[i] != row) {
+            row = y[i];
+            terms = at.row_terms(row);
+        }
+        const Weights b = in_row ? at.at(at.column_terms(numbers_from(x[i])), terms) : at.lanes(x + i, y + i);
+        const V64 v = plane_at(plane, b);
+        auto different = hn::Zero(U32{});
+        // The lanes beyond the count hold pixels of no triangle: they may be unsure for nothing, and cost time alone.
+        const V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : rounded(v, hn::Set(d, plane.error), different);
+        unsure = hn::Or(unsure, different);
+        if (out.shader_z != nullptr) hn::StoreU(z, F32{}, out.shader_z + i);
+        if (out.code != nullptr) hn::StoreU(codes(z, out.to_code), U32{}, out.code + i);
+        if (out.b1 == nullptr) continue;
+        hn::StoreU(b.b1, d, out.b1 + i);
+        hn::StoreU(b.b2, d, out.b2 + i);
+    }
+    return !unsnapped && !hn::AllTrue(U32{}, hn::Eq(unsure, hn::Zero(U32{})));
+}
+
+bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
+           const DepthLanes& out) noexcept {
+    const bool by_rows = count >= 64;
+    if (w.kind == PixelWeights::Kind::unsnapped)
+        return by_rows ? depth_of<true, true>(w, plane, x, y, count, out)
+                       : depth_of<true, false>(w, plane, x, y, count, out);
+    return by_rows ? depth_of<false, true>(w, plane, x, y, count, out)
+                   : depth_of<false, false>(w, plane, x, y, count, out);
+}
+
+const LaneKernels* table() {
+    static constexpr LaneKernels kernels{emit, weights, attributes, depth};
+    return &kernels;
+}
+
+}  // namespace strata::rasterizer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace strata::rasterizer {
+HWY_EXPORT(table);
+
+inline namespace strict {
+
+const LaneKernels& lane_kernels() noexcept {
+    static constexpr LaneKernels twins{scalar::emit, scalar::weights, scalar::attributes, nullptr};
+    return simd_is_scalar() ? twins : *HWY_DYNAMIC_DISPATCH(table)();
+}
+
+}  // namespace strict
+}  // namespace strata::rasterizer
+#endif

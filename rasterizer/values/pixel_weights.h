@@ -1,0 +1,93 @@
+// rasterizer/values/pixel_weights.h - the weights b1 and b2 of a triangle's corners 1 and 2 as functions of the pixel alone.
+//
+// Rule     Snapped planes: b_i = e_i r with r = 1/A, rounded; the filter of plane.h allows for it. Unsnapped planes
+//          (PlaneOrigin::unsnapped) start at the unsnapped corners: the binary64 value below is the weight itself.
+// Numbers  e_i = (x sx + y sy) + c; if |c| + 2^16 (|sx| + |sy|) <= 2^53, every step is an integer that binary64 holds.
+//          Else e_i is taken from the 64-bit edge functions and rounded once.
+// Tests    tests/rasterizer/values/plane_test.cpp, fragment_values_test.cpp
+#pragma once
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/coverage/small_triangles.h"
+#include "rasterizer/set_up/geometry.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+// The weights of a batch's fragments in their own triangles.
+struct alignas(64) WeightLanes {
+    Lanes<double> b1, b2;
+};
+
+struct PixelWeights {
+    enum class Kind : std::uint8_t { snapped, snapped_wide, unsnapped };
+
+    // What e_i is at pixel (x, y): (x * step_x + y * step_y) + constant.
+    struct EdgePlane {
+        double step_x, step_y, constant;
+        [[nodiscard]] constexpr double at(double x, double y) const noexcept {
+            return (x * step_x + y * step_y) + constant;
+        }
+    };
+
+    Kind kind = Kind::unsnapped;
+    double r;  // 1 / A, of the snapped or unsnapped corners
+    EdgePlane e1, e2;
+    double x0, y0, x1, y1, x2, y2;  // unsnapped corner 0, and corners 1 and 2 seen from it
+
+    PixelWeights(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
+        if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
+        const TriangleEdges edges{geometry.points(triangle), geometry.rules.tie_rule};
+        r = 1.0 / static_cast<double>(edges.area());
+        e1 = plane(edges.edge(1), geometry.rules.subpixel_bits);
+        e2 = plane(edges.edge(2), geometry.rules.subpixel_bits);
+        kind = std::max(size(e1), size(e2)) > 0x1p53 ? Kind::snapped_wide : Kind::snapped;
+    }
+    // Of small triangle `k` of a group: never wide. The same integers.
+    PixelWeights(const Geometry& geometry, const TriangleRecord& triangle, const TriangleGroup& group,
+                 std::size_t k) noexcept {
+        if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
+        r = 1.0 / group.area[k];
+        e1 = plane(group, k, 1);
+        e2 = plane(group, k, 2);
+        kind = Kind::snapped;
+    }
+    [[nodiscard]] bool is_exact() const noexcept { return kind != Kind::unsnapped; }
+
+  private:
+    // False if the unsnapped corners lie on a line and have no plane.
+    [[nodiscard]] bool unsnap(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
+        const auto& corners = geometry.corners;
+        const auto& p0 = corners[triangle.vertex[0]].unsnapped;
+        const auto& p1 = corners[triangle.vertex[1]].unsnapped;
+        const auto& p2 = corners[triangle.vertex[2]].unsnapped;
+        x0 = p0[0], y0 = p0[1];
+        x1 = p1[0] - x0, y1 = p1[1] - y0;
+        x2 = p2[0] - x0, y2 = p2[1] - y0;
+        if (x1 * y2 == x2 * y1) return false;
+        kind = Kind::unsnapped;
+        r = 1.0 / (x1 * y2 - x2 * y1);
+        return true;
+    }
+    [[nodiscard]] static EdgePlane plane(const Edge& edge, int subpixel_bits) noexcept {
+        const auto unit = static_cast<double>(1 << subpixel_bits);
+        return {static_cast<double>(edge.step_x()) * unit, static_cast<double>(edge.step_y()) * unit,
+                static_cast<double>(edge.at(pixel_centre(0, 0, subpixel_bits)))};
+    }
+    [[nodiscard]] static EdgePlane plane(const TriangleGroup& g, std::size_t k, std::size_t i) noexcept {
+        const auto number = [k](const TriangleGroup::Row& row) {
+            return std::int64_t{static_cast<std::int32_t>(row[k])};
+        };
+        const std::int64_t right = number(g.step[i]), down = number(g.down[i]);
+        const std::int64_t first = number(g.value[i]) + number(g.tie[i]);
+        return {static_cast<double>(right), static_cast<double>(down),
+                static_cast<double>(first - number(g.x0) * right - number(g.y0) * down)};
+    }
+    [[nodiscard]] static constexpr double size(const EdgePlane& e) noexcept {
+        const auto magnitude = [](double v) { return v < 0.0 ? -v : v; };
+        return magnitude(e.constant) + 0x1p16 * (magnitude(e.step_x) + magnitude(e.step_y));
+    }
+};
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,120 @@
+#include "rasterizer/values/plane.h"
+
+#include "rasterizer/base/exact_sum.h"
+#include "rasterizer/values/lane_kernels.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+namespace {
+
+// N (e0 v0 + e1 v1 + e2 v2), exactly.
+[[nodiscard]] ExactSum weighted_sum(const RationalPlane& plane, const EdgeValues& e) noexcept {
+    ExactSum sum;
+    for (std::size_t i = 0; i < 3; ++i) sum.add_product(e[i], plane.v[i], plane.numerator);
+    return sum;
+}
+
+// The sign of V - value.
+[[nodiscard]] int compare(ExactSum sum, double value, const RationalPlane& plane, std::int64_t area) noexcept {
+    sum.add_product(-area, value, plane.denominator);
+    return sum.sign();
+}
+
+// V within 2^-49 of itself.
+[[nodiscard]] double quotient(const ExactSum& sum, const RationalPlane& plane, std::int64_t area) noexcept {
+    return sum.approximation() / (static_cast<double>(area) * plane.denominator);
+}
+
+[[nodiscard]] constexpr std::uint32_t difference(float low, float high) noexcept {
+    return std::bit_cast<std::uint32_t>(low) ^ std::bit_cast<std::uint32_t>(high);
+}
+
+[[nodiscard]] std::int32_t clamped_floor(double v, double max) noexcept {
+    v = v > 0.0 ? v : 0.0;
+    v = v < max ? v : max;
+    return static_cast<std::int32_t>(v);  // v >= 0: the cast floors
+}
+
+}  // namespace
+
+float exact_float(const RationalPlane& plane, const EdgeValues& e, std::int64_t area) noexcept {
+    const ExactSum sum = weighted_sum(plane, e);
+    const double v = quotient(sum, plane, area);
+    const auto low = static_cast<float>(v * (1.0 - 0x1p-48)), high = static_cast<float>(v * (1.0 + 0x1p-48));
+    if (difference(low, high) == 0) return low;
+    // Two neighbours at most: 25 bits hold the value half way between them.
+    const double middle = (double{low} + double{high}) * 0.5;
+    const int side = compare(sum, middle, plane, area);
+    if (side == 0) return static_cast<float>(middle);  // a tie goes to the even one
+    const bool takes_larger = side > 0;
+    return takes_larger == (high > low) ? high : low;
+}
+
+std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::int64_t area,
+                         CodeRounding rounding) noexcept {
+    const ExactSum sum = weighted_sum(plane, e);
+    const double max = rounding.max;
+    double code = clamped_floor(quotient(sum, plane, area) + rounding.half, max);
+    while (code > 0.0 && compare(sum, code - rounding.half, plane, area) < 0) code -= 1.0;
+    while (code < max && compare(sum, code + 1.0 - rounding.half, plane, area) >= 0) code += 1.0;
+    return static_cast<std::uint32_t>(code);
+}
+
+float constant_float(const RationalPlane& plane, std::int64_t area) noexcept {
+    if (plane.numerator == plane.denominator) return static_cast<float>(plane.v[0]);
+    return exact_float(plane, {area, 0, 0}, area);
+}
+
+int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* __restrict out) noexcept {
+    const int count = lanes.count;
+    if (plane.is_constant()) {
+        const float value = constant_float(plane, lanes.edges->area());
+        for (int i = 0; i < padded(count); ++i) out[i] = value;
+        return 0;
+    }
+    const FilterPlane filter{plane, lanes.is_exact};
+    const bool unsure = scalar::round(filter, lanes.weight1, lanes.weight2, count, out);
+    if (!unsure || !lanes.is_exact) return 0;
+    int fallbacks = 0;
+    for (int i = 0; i < count; ++i) {
+        const double v = filter.at(lanes.weight1[i], lanes.weight2[i]);
+        if (difference(static_cast<float>(v - filter.error), static_cast<float>(v + filter.error)) == 0) continue;
+        out[i] = exact_float(plane, lanes.edge_values(i), lanes.edges->area());
+        ++fallbacks;
+    }
+    return fallbacks;
+}
+
+int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRounding rounding,
+                std::uint32_t* __restrict out) noexcept {
+    const int count = lanes.count;
+    if (plane.is_constant()) {
+        const std::uint32_t code = exact_code(plane, {lanes.edges->area(), 0, 0}, lanes.edges->area(), rounding);
+        for (int i = 0; i < padded(count); ++i) out[i] = code;
+        return 0;
+    }
+    const FilterPlane filter{plane, lanes.is_exact};
+    const double* __restrict b1 = lanes.weight1;
+    const double* __restrict b2 = lanes.weight2;
+    const double max = rounding.max, half = rounding.half;
+    const double error = lanes.is_exact ? filter.error + 0x1p-47 : 0.0;  // the sum with 1/2 rounds once more
+    std::int32_t unsure = 0;
+    for (int i = 0; i < padded(count); ++i) {
+        const double v = filter.at(b1[i], b2[i]) + half;
+        const std::int32_t low = clamped_floor(v - error, max), high = clamped_floor(v + error, max);
+        unsure |= low ^ high;
+        out[i] = static_cast<std::uint32_t>(low);
+    }
+    if (unsure == 0 || !lanes.is_exact) return 0;
+    int fallbacks = 0;
+    for (int i = 0; i < count; ++i) {
+        const double v = filter.at(b1[i], b2[i]) + half;
+        if (clamped_floor(v - error, max) == clamped_floor(v + error, max)) continue;
+        out[i] = exact_code(plane, lanes.edge_values(i), lanes.edges->area(), rounding);
+        ++fallbacks;
+    }
+    return fallbacks;
+}
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,96 @@
+// rasterizer/values/plane.h - the plane through three vertex values at pixel centres, correctly rounded.
+//
+// Rule     V = N (e0 v0 + e1 v1 + e2 v2) / (A D), exact, then one rounding: to binary32 (nearest even), or to a code
+//          floor(V) or floor(V + 1/2). e_i edge values, A their sum; N and D turn one depth unit into another.
+// Source   decisions.md 1; design.md "Depth paths". The filter is that of exact geometric predicates (Shewchuk 1997).
+// Numbers  Filter: b_i = e_i r with r = 1/A, v = w0 + (b1 (w1 - w0) + b2 (w2 - w0)), w_i = v_i N / D, all in binary64.
+//          With u = 2^-53 and M = max |w_i|: w_i is within 2u M; a difference within 6u M and at most 2M; b_i within 4u
+//          b_i (rounded e, A, 1/A, product) plus, for A > 2^53, 4u absolute (e is stepped along the span in binary64);
+//          b1 + b2 <= 1. So the products are within 4u 2M + u 2M + 6u M + 8u 2M = 32u M, their sum adds 2u M, the last
+//          sum with w0's own error 3u M, together less than 40u M; terms of second order stay below u M. The filter
+//          takes 64u M = 2^-47 M, and 2^-1000 for underflow. Where V - error and V + error round alike, V does too;
+//          otherwise exact_float and exact_code decide.
+// Tests    tests/rasterizer/values/plane_test.cpp
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "rasterizer/coverage/coverage.h"
+#include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/rules/depth_code.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+struct RationalPlane {
+    std::array<double, 3> v{};
+    double numerator = 1.0, denominator = 1.0;  // N and D: integers up to 2^24 - 1
+
+    [[nodiscard]] bool is_constant() const noexcept {
+        const auto bits = [this](std::size_t i) { return std::bit_cast<std::uint64_t>(v[i]); };
+        return bits(0) == bits(1) && bits(0) == bits(2);
+    }
+};
+
+// A rounding of a plane to codes 0..max: floor(V + half).
+struct CodeRounding {
+    double half = 0.0;
+    std::uint32_t max = 0;
+};
+
+// The exact answers, by expansions; `e` are the edge values at the fragment. Slow: some microseconds.
+[[nodiscard]] float exact_float(const RationalPlane& plane, const EdgeValues& e, std::int64_t area) noexcept;
+[[nodiscard]] std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::int64_t area,
+                                       CodeRounding rounding) noexcept;
+// The value of a constant plane, rounded once.
+[[nodiscard]] float constant_float(const RationalPlane& plane, std::int64_t area) noexcept;
+
+// Loops over lanes run to whole blocks, so that they have no remainder; what stands in the lanes beyond the count is
+// never looked at. A batch is flushed early enough that there is room for them (lane_kernels.h).
+inline constexpr int lane_block = 4;
+[[nodiscard]] constexpr int padded(int count) noexcept { return (count + lane_block - 1) & -lane_block; }
+
+// The fragments of one triangle: `count` lanes of batch arrays.
+struct TriangleLanes {
+    const TriangleEdges* edges;
+    int subpixel_bits;
+    const std::uint16_t* x;
+    const std::uint16_t* y;
+    const double* weight1;  // b1 and b2
+    const double* weight2;
+    int count;
+    bool is_exact;  // the weights are those of the snapped triangle; otherwise the binary64 value is the plane's value
+
+    [[nodiscard]] EdgeValues edge_values(int i) const noexcept {
+        return edges->at(pixel_centre(x[i], y[i], subpixel_bits));
+    }
+};
+
+// The plane as the filter sees it.
+struct FilterPlane {
+    double w0 = 0.0, d1 = 0.0, d2 = 0.0, error = 0.0;
+
+    FilterPlane() = default;
+    FilterPlane(const RationalPlane& plane, bool is_exact) noexcept {
+        const double n = plane.numerator, d = plane.denominator;
+        const double scale = n == d ? 1.0 : n / d;  // 1, N or 1 / D: rounded at most once
+        w0 = plane.v[0] * scale;
+        const double w1 = plane.v[1] * scale, w2 = plane.v[2] * scale;
+        d1 = w1 - w0;
+        d2 = w2 - w0;
+        const auto size = [](double w) { return w < 0.0 ? -w : w; };
+        error = is_exact ? 0x1p-47 * std::max({size(w0), size(w1), size(w2)}) + 0x1p-1000 : 0.0;
+    }
+    [[nodiscard]] double at(double b1, double b2) const noexcept { return w0 + (b1 * d1 + b2 * d2); }
+};
+
+// Rounds the plane at every lane to binary32. Returns the number of lanes that needed the exact arithmetic.
+int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* out) noexcept;
+// The same to codes.
+int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRounding rounding,
+                std::uint32_t* out) noexcept;
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,65 @@
+// rasterizer/values/unit_values.cpp - the coordinates of texture units at a triangle's fragments.
+//
+// Rule     Each of s, t, r, q as fragment_values.h says of every attribute: u (1/w) rounded to binary32 at the vertex,
+//          exact plane rounded once, over the plane of 1/w rounded once; under another DepthHypothesis as depth_paths.h
+//          interpolates r and q; where cut_coordinates.h applies, by its rule. Nothing is divided by q here: which
+//          operation does, and which does not, is the texture shader's affair.
+// Source   decisions.md 1; hardware.md 3 (GL 2.1 equation 3.8).
+// Tests    tests/rasterizer/values/unit_values_test.cpp
+#include <cassert>
+
+#include "rasterizer/values/cut_coordinates.h"
+#include "rasterizer/values/depth_paths.h"
+#include "rasterizer/values/fragment_values.h"
+
+namespace strata::rasterizer {
+namespace {
+
+using Corners = std::array<float, 3>;
+
+[[nodiscard]] bool is_constant(const Corners& u) noexcept {
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
+    return bits[0] == bits[1] && bits[0] == bits[2];
+}
+
+}  // namespace
+
+int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                               const WeightLanes& weights) const {
+    const Geometry& geometry = triangle.geometry;
+    assert(geometry.extras.has_units && "texture units are prepared with the geometry");
+    std::array<const float*, 3> v;
+    Corners w;
+    for (std::size_t i = 0; i < 3; ++i) {
+        v[i] = geometry.extras.units_of(triangle.record.vertex[i]);
+        w[i] = geometry.corners[triangle.record.vertex[i]].inverse_w;
+    }
+    const DepthHypothesis& h = rules_.hypothesis;
+    const bool cut = cuts_coordinates(rules_, w);
+    const bool is_plain = h.interpolant_bits >= 24 && h.divide == DivideRule::exact;
+    const TriangleEdges edges = triangle.edges();
+    const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    int fallbacks = 0;
+    for (std::size_t u = 0; u < texture_units; ++u) {
+        AttributeLanes varying;
+        varying.has_w = !(w[0] == 1.0f && w[1] == 1.0f && w[2] == 1.0f);
+        varying.inverse_w = {{w[0], w[1], w[2]}};
+        for (std::size_t c = 0; c < 4; ++c) {
+            if (!names(needs_.units, u, c)) continue;
+            float* const out = &batch.unit[u][c][static_cast<std::size_t>(first)];
+            const Corners value{v[0][4 * u + c], v[1][4 * u + c], v[2][4 * u + c]};
+            if (cut)
+                cut_coordinates(value, own, out);
+            else if (!is_plain)
+                fallbacks += interpolate(value, w, own, h, out);
+            else if (is_constant(value))
+                varying.add(value[0], out);
+            else
+                varying.add({{value[0] * w[0], value[1] * w[1], value[2] * w[2]}}, out);  // products in binary32
+        }
+        if (varying.count + varying.constant_count > 0) fallbacks += fill_varying(varying, own);
+    }
+    return fallbacks;
+}
+
+}  // namespace strata::rasterizer

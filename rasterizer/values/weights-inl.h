@@ -1,0 +1,123 @@
+// rasterizer/values/weights-inl.h - weights, planes and codes of neighbouring or scattered pixels, a vector of binary64 at a
+// time. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
+//
+// Rule     The operations and their order are those of PixelWeights, FilterPlane and to_codes: every set gives the bits
+//          of the twins in lane_kernels.h.
+// Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
+#include "hwy/highway.h"
+#include "rasterizer/values/lane_kernels.h"
+
+#if defined(STRATA_RASTERIZER_WEIGHTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRATA_RASTERIZER_WEIGHTS_INL_H
+#undef STRATA_RASTERIZER_WEIGHTS_INL_H
+#else
+#define STRATA_RASTERIZER_WEIGHTS_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::rasterizer::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F64 = hn::CappedTag<double, 8>;  // as many lanes of everything else as of binary64
+using F32 = hn::Rebind<float, F64>;
+using I32 = hn::Rebind<std::int32_t, F64>;
+using U32 = hn::Rebind<std::uint32_t, F64>;
+using U16 = hn::Rebind<std::uint16_t, F64>;
+using V64 = hn::Vec<F64>;
+using V32 = hn::Vec<F32>;
+
+// hn::Iota goes through the stack, and waits for it.
+alignas(64) constexpr double counting64[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+
+// Pixel coordinates as binary64.
+HWY_INLINE V64 coordinates(const std::uint16_t* p) {
+    return hn::PromoteTo(F64{}, hn::PromoteTo(I32{}, hn::LoadU(U16{}, p)));
+}
+// first, first + 1 ...
+HWY_INLINE V64 numbers_from(int first) {
+    return hn::Add(hn::Set(F64{}, static_cast<double>(first)), hn::Load(F64{}, counting64));
+}
+
+struct Weights {
+    V64 b1, b2;
+};
+
+// The weights of a kind. They are sums of what depends on the column and what depends on the row. What is the same in
+// all lanes is hoisted by the compiler.
+template <bool unsnapped>
+class WeightsAt {
+  public:
+    HWY_INLINE explicit WeightsAt(const PixelWeights& w) : w_{w} {}
+
+    HWY_INLINE Weights lanes(const std::uint16_t* x, const std::uint16_t* y) const {
+        return at(column_terms(coordinates(x)), row_terms(coordinates(y)));
+    }
+    HWY_INLINE Weights column_terms(V64 x) const {
+        if constexpr (unsnapped) {
+            const V64 dx = hn::Sub(hn::Add(x, set(0.5)), set(w_.x0));
+            return {hn::Mul(dx, set(w_.y2)), hn::Mul(dx, set(w_.y1))};
+        } else {
+            return {hn::Mul(x, set(w_.e1.step_x)), hn::Mul(x, set(w_.e2.step_x))};
+        }
+    }
+    HWY_INLINE Weights row_terms(V64 y) const {
+        if constexpr (unsnapped) {
+            const V64 dy = hn::Sub(hn::Add(y, set(0.5)), set(w_.y0));
+            return {hn::Mul(dy, set(w_.x2)), hn::Mul(dy, set(w_.x1))};
+        } else {
+            return {hn::Mul(y, set(w_.e1.step_y)), hn::Mul(y, set(w_.e2.step_y))};
+        }
+    }
+    HWY_INLINE Weights row_terms(int y) const { return row_terms(set(static_cast<double>(y))); }
+    HWY_INLINE Weights at(const Weights& column, const Weights& row) const {
+        if constexpr (unsnapped) {
+            return {hn::Mul(hn::Sub(column.b1, row.b1), set(w_.r)), hn::Mul(hn::Sub(row.b2, column.b2), set(w_.r))};
+        } else {
+            const V64 e1 = hn::Add(hn::Add(column.b1, row.b1), set(w_.e1.constant));
+            const V64 e2 = hn::Add(hn::Add(column.b2, row.b2), set(w_.e2.constant));
+            return {hn::Mul(e1, set(w_.r)), hn::Mul(e2, set(w_.r))};
+        }
+    }
+
+  private:
+    [[nodiscard]] HWY_INLINE static V64 set(double v) { return hn::Set(F64{}, v); }
+    const PixelWeights w_;
+};
+
+HWY_INLINE V64 plane_at(const FilterPlane& p, const Weights& b) {
+    const F64 d;
+    return hn::Add(hn::Set(d, p.w0), hn::Add(hn::Mul(b.b1, hn::Set(d, p.d1)), hn::Mul(b.b2, hn::Set(d, p.d2))));
+}
+
+// Low end of the filter's interval, rounded; `unsure` gathers the bits in which the high end differs.
+HWY_INLINE V32 rounded(V64 v, V64 error, hn::Vec<U32>& unsure) {
+    const V32 low = hn::DemoteTo(F32{}, hn::Sub(v, error)), high = hn::DemoteTo(F32{}, hn::Add(v, error));
+    unsure = hn::Or(unsure, hn::Xor(hn::BitCast(U32{}, low), hn::BitCast(U32{}, high)));
+    return low;
+}
+
+// a where it is greater (less) than b, else b: what x86 means by MAX and MIN of (a, b), for NaN and -0 too.
+HWY_INLINE V32 greater_or_second(V32 a, V32 b) {
+    return HWY_ARCH_X86 ? hn::Max(a, b) : hn::IfThenElse(hn::Gt(a, b), a, b);
+}
+HWY_INLINE V32 less_or_second(V32 a, V32 b) {
+    return HWY_ARCH_X86 ? hn::Min(a, b) : hn::IfThenElse(hn::Lt(a, b), a, b);
+}
+
+template <bool is_fixed>
+HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion& to) {
+    const F32 d;
+    const V32 above = greater_or_second(z, hn::Set(d, to.least));  // as the twin: NaN and -0 become `least`
+    const V32 clamped = less_or_second(above, hn::Set(d, to.greatest));
+    if constexpr (!is_fixed) return hn::BitCast(U32{}, clamped);
+    const F64 d64;
+    const V64 scaled = hn::Mul(hn::PromoteTo(d64, clamped), hn::Set(d64, to.max));
+    return hn::BitCast(U32{}, hn::DemoteTo(I32{}, hn::Add(scaled, hn::Set(d64, to.half))));
+}
+HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion& to) {
+    return to.is_fixed ? codes<true>(z, to) : codes<false>(z, to);
+}
+
+}  // namespace strata::rasterizer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,33 @@
+#include "rasterizer/walk/rows.h"
+
+#include <bit>
+
+#include "rasterizer/base/simd.h"
+
+namespace strata::rasterizer {
+
+bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
+    const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
+    // With two lanes of binary64 batches are faster.
+    return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && !clips_fragments &&
+           geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
+}
+
+void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,
+                  const std::int32_t* y, std::uint32_t lanes, float* values) noexcept {
+    const TriangleEdges edges{geometry.points(geometry.triangles[index]), geometry.rules.tie_rule};
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const int i = std::countr_zero(lanes);
+        const SubpixelPoint centre = pixel_centre(x[i], y[i], geometry.rules.subpixel_bits);
+        values[i] = exact_float(plane, edges.at(centre), edges.area());
+    }
+}
+
+FilterPlane constant_filter(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index) noexcept {
+    FilterPlane filter;
+    const TriangleEdges edges{geometry.points(geometry.triangles[index]), geometry.rules.tie_rule};
+    filter.w0 = constant_float(plane, edges.area());
+    return filter;
+}
+
+}  // namespace strata::rasterizer

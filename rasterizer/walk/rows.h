@@ -1,0 +1,39 @@
+// rasterizer/walk/rows.h - passes that draw triangles straight into what is stored, row by row and without batches: when they are
+// possible, and the one that the rasterizer has itself, a pass of depth alone.
+//
+// Rule     What is left at a pixel, and how many fragments there were and passed, is what batches would leave that are
+//          tested one after the other: TileRasterizer::draw is the definition.
+// Tests    tests/rasterizer/walk/rows_test.cpp
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/fragment_values.h"
+
+namespace strata::rasterizer {
+
+inline constexpr int max_row_pixels = 128;     // of a region: the largest tile
+inline constexpr std::size_t row_padding = 8;  // words behind the last pixel that rows may read, and write as they were
+
+// Whether rows can do what the batches of `geometry` would hold, in `region` and on the chosen instruction set.
+[[nodiscard]] bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;
+
+struct DepthDrawn {
+    std::uint64_t fragments = 0, passed = 0;
+};
+
+// Every fragment of `triangles` (as TileRasterizer::draw takes them) whose code is LESS than the stored one replaces it, in
+// submission order. `codes`: the region's pixels row by row, and row_padding words more. Only where row_walk_suits.
+DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                           const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
+
+// For the kernels. Replaces values[i] by the exact plane at (x[i], y[i]), for every bit i of `lanes`.
+void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,
+                  const std::int32_t* y, std::uint32_t lanes, float* values) noexcept;
+// A plane of equal values as the filter sees it: certain everywhere.
+[[nodiscard]] FilterPlane constant_filter(const RationalPlane& plane, const Geometry& geometry,
+                                          std::uint32_t index) noexcept;
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,118 @@
+#include "rasterizer/walk/tile_rasterizer.h"
+
+#include "rasterizer/set_up/triangle_walk.h"
+#include "rasterizer/values/fragment_values.h"
+
+namespace strata::rasterizer {
+// One call of draw: what is constant for it, and the batch being filled.
+class TileRasterizer::Pass {
+  public:
+    Pass(TileRasterizer& owner, const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs,
+         const BatchSink& sink)
+        : owner_{owner},
+          batch_{owner.batch_},
+          geometry_{geometry},
+          sink_{sink},
+          kernels_{lane_kernels()},
+          small_{small_kernels()},
+          values_{geometry, depth, needs},
+          rules_{group_rules(geometry, owner.region_)} {}
+
+    void draw(std::span<const std::uint32_t> triangles) {
+        flush();  // the claims of an earlier draw say nothing about this one
+        for_each_group(geometry_, rules_, triangles, group_, [&](auto group) { draw_group(group); });
+        flush();
+    }
+
+    void flush() {
+        if (batch_.count > 0) sink_(batch_);
+        batch_.count = 0;
+        first_ = 0;
+        owner_.claims_.next_batch();
+    }
+
+  private:
+    void draw_group(std::span<const std::uint32_t> triangles) {
+        for (std::size_t k = 0; k < triangles.size(); ++k) {
+            if (group_.box(k).area() == 0) continue;
+            const TriangleRecord& record = geometry_.triangles[triangles[k]];
+            if (record.material != batch_.material) {
+                flush();
+                batch_.material = record.material;
+            }
+            if (group_.small[k] != 0)
+                draw_small(triangles[k], k);
+            else
+                draw_large(triangles[k]);
+        }
+    }
+
+    void draw_small(std::uint32_t index, std::size_t k) {
+        const TriangleRecord& record = geometry_.triangles[index];
+        const Rect& region = owner_.region_;
+        const RegionPlace place{group_.x0[k] - static_cast<std::uint32_t>(region.x0),
+                                group_.y0[k] - static_cast<std::uint32_t>(region.y0),
+                                static_cast<std::uint32_t>(region.width()), record.primitive};
+        first_ = batch_.count;
+        if (!small_.emit(group_, k, place, owner_.claims_, batch_)) {
+            flush();
+            static_cast<void>(small_.emit(group_, k, place, owner_.claims_, batch_));
+        }
+        if (batch_.count > first_) fill({geometry_, index, group_, k});
+    }
+
+    void draw_large(std::uint32_t index) {
+        const DrawnTriangle triangle{geometry_, index};
+        const Rect box = intersection(centre_box(geometry_.points(triangle.record), rules_.subpixel_bits), rules_.clip);
+        first_ = batch_.count;
+        for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
+            rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
+            emit(triangle, rows);
+        }
+        fill(triangle);
+    }
+
+    [[nodiscard]] RowRun row_run(const DrawnTriangle& triangle, const Rect& rows) const noexcept {
+        const Rect& region = owner_.region_;
+        return {0, rows.height(), 0, rows.y0, region.x0, region.y0, region.width(), triangle.record.primitive};
+    }
+
+    void emit(const DrawnTriangle& triangle, const Rect& rows) {
+        find_spans(triangle.edges(), rows, rules_.subpixel_bits, spans_.data());
+        RowRun run = row_run(triangle, rows);
+        while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(triangle);
+    }
+
+    void fill_and_flush(const DrawnTriangle& triangle) {
+        fill(triangle);
+        flush();
+    }
+
+    void fill(const DrawnTriangle& triangle) {
+        if (batch_.count == first_) return;
+        owner_.exact_fallbacks_ += static_cast<std::uint64_t>(values_.fill(triangle, first_, batch_, owner_.weights_));
+        first_ = batch_.count;
+    }
+
+    TileRasterizer& owner_;
+    FragmentBatch& batch_;
+    const Geometry& geometry_;
+    const BatchSink& sink_;
+    const LaneKernels& kernels_;
+    const SmallKernels& small_;
+    FragmentValues values_;
+    GroupRules rules_;
+    TriangleGroup group_;
+    int first_ = 0;  // the present triangle's first fragment in the batch that has no values yet
+    std::array<RowSpan, max_span_rows + 1> spans_;
+};
+
+TileRasterizer::TileRasterizer(Rect region) : region_{region}, claims_{region} {}
+
+void TileRasterizer::draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
+                          const FragmentNeeds& needs, BatchSink sink) {
+    Pass pass{*this, geometry, depth, needs, sink};
+    pass.draw(triangles);
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,52 @@
+// rasterizer/walk/tile_rasterizer.h - walks set-up triangles over a region and hands out batches of fragments.
+//
+// Rule     Fragments come in submission order per pixel; coverage and values are a function of the set-up triangle and
+//          the pixel alone, never of the region, the tile size or the walk.
+// Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp
+#pragma once
+#include <span>
+#include <type_traits>
+
+#include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/coverage/pixel_claims.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/fragment_values.h"
+
+namespace strata::rasterizer {
+
+// A borrowed callable, called once a batch.
+class BatchSink {
+  public:
+    template <class F>
+    requires(!std::is_same_v<std::remove_cvref_t<F>, BatchSink>) explicit BatchSink(F& f) noexcept
+        : object_{&f}, call_{[](void* object, FragmentBatch& batch) { (*static_cast<F*>(object))(batch); }} {}
+    void operator()(FragmentBatch& batch) const { call_(object_, batch); }
+
+  private:
+    void* object_;
+    void (*call_)(void*, FragmentBatch&);
+};
+
+class TileRasterizer {
+  public:
+    explicit TileRasterizer(Rect region);  // inside the viewport of the geometry it will walk
+
+    // Rasterizes `triangles` (indices into geometry.triangles, ascending) and calls `sink` with every batch that has
+    // fragments. Scissor and, with ZClip::per_fragment, the depth range have been applied.
+    void draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, const DepthRequest& depth,
+              const FragmentNeeds& needs, BatchSink sink);
+
+    // Fragments whose filtered depth or attribute needed the exact arithmetic of plane.h; for tests and statistics.
+    [[nodiscard]] std::uint64_t exact_fallbacks() const noexcept { return exact_fallbacks_; }
+
+  private:
+    class Pass;
+
+    Rect region_;
+    PixelClaims claims_;
+    std::uint64_t exact_fallbacks_ = 0;
+    FragmentBatch batch_;
+    WeightLanes weights_{};
+};
+
+}  // namespace strata::rasterizer

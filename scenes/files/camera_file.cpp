@@ -1,0 +1,171 @@
+// scenes/files/camera_file.cpp - camera files in and out. Numbers are read and written the same under every locale and
+// rounding mode.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/camera.h"
+#include "scenes/files/text_file.h"
+#include "scenes/nearest_name.h"
+
+namespace strata::scenes {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view look_at_keys[] = {"eye", "center", "up", "fovy_degrees", "near", "far"};
+constexpr std::string_view matrix_keys[] = {"view", "projection"};
+constexpr std::string_view all_keys[] = {"eye", "center", "up", "fovy_degrees", "near", "far", "view", "projection"};
+
+// A value of the file with the two names that an error needs.
+struct Place {
+    const std::string& file;
+    std::string pointer;
+    const json& value;
+
+    [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
+        throw InputError(file, pointer.empty() ? "/" : pointer, expected, found);
+    }
+    [[noreturn]] void fail(const std::string& expected) const {  // dump recurses: not into what may be nested deeply
+        fail(expected, value.is_structured() ? value.type_name() : value.dump().substr(0, 64));
+    }
+    [[nodiscard]] Place operator[](std::string_view key) const {
+        return {file, pointer + "/" + std::string{key}, value.at(std::string{key})};
+    }
+    [[nodiscard]] Place operator[](std::size_t i) const {
+        return {file, pointer + "/" + std::to_string(i), value.at(i)};
+    }
+};
+
+// "-0x1.8p+1": a sign, 0x, then what std::from_chars calls hex.
+std::optional<double> parse_hex_float(std::string_view text) {
+    const bool negative = text.starts_with('-');
+    if (negative || text.starts_with('+')) text.remove_prefix(1);
+    if (!text.starts_with("0x") && !text.starts_with("0X")) return std::nullopt;
+    text.remove_prefix(2);
+    if (text.empty() || !std::isxdigit(static_cast<unsigned char>(text.front())))
+        return std::nullopt;  // no second sign, no inf
+    double magnitude = 0;
+    const auto [end, error] =
+        std::from_chars(text.data(), text.data() + text.size(), magnitude, std::chars_format::hex);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return negative ? -magnitude : magnitude;
+}
+
+double number(const Place& place) {
+    std::optional<double> value;
+    if (place.value.is_number()) value = place.value.get<double>();
+    if (place.value.is_string()) value = parse_hex_float(place.value.get_ref<const std::string&>());
+    if (!value || !std::isfinite(*value))
+        place.fail("a finite number, or a hexadecimal float in a string such as \"0x1.8p+1\"");
+    return *value;
+}
+
+template <std::size_t count>
+std::array<double, count> numbers(const Place& place) {
+    if (!place.value.is_array() || place.value.size() != count) {
+        place.fail(fmt::format("an array of {} numbers", count),
+                   place.value.is_array() ? fmt::format("{} elements", place.value.size()) : place.value.type_name());
+    }
+    std::array<double, count> result{};
+    for (std::size_t i = 0; i < count; ++i) result[i] = number(place[i]);
+    return result;
+}
+
+void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
+    for (const auto& [key, value] : camera.value.items()) {
+        if (std::ranges::find(wanted, key) == wanted.end())
+            camera.fail(fmt::format("only the keys {}", fmt::join(wanted, ", ")), quoted_with_suggestion(key, wanted));
+    }
+    for (const std::string_view key : wanted) {
+        if (!camera.value.contains(key)) camera.fail(fmt::format("the key '{}'", key), "none");
+    }
+}
+
+// |a x b| relative to both lengths, squared.
+double squared_sine(const Vector& a, const Vector& b) noexcept {
+    const double aa = dot(a, a), bb = dot(b, b);
+    const Vector c = cross(a, b);
+    return aa > 0 && bb > 0 ? dot(c, c) / aa / bb : 0;
+}
+
+Vector vector(const Place& place) {
+    const auto [x, y, z] = numbers<3>(place);
+    return {x, y, z};
+}
+
+LookAt parse_look_at(const Place& camera) {
+    check_keys(camera, look_at_keys);
+    const LookAt result{.eye = vector(camera["eye"]),
+                        .center = vector(camera["center"]),
+                        .up = vector(camera["up"]),
+                        .fovy_degrees = number(camera["fovy_degrees"]),
+                        .near = number(camera["near"]),
+                        .far = number(camera["far"])};
+    if (!(result.fovy_degrees > 0 && result.fovy_degrees < 180))
+        camera["fovy_degrees"].fail("degrees between 0 and 180");
+    if (!(result.near > 0)) camera["near"].fail("a distance above 0");
+    if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
+    if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
+    if (!(squared_sine(result.center - result.eye, result.up) > 1e-24))
+        camera["up"].fail("a direction across the line of sight");
+    return result;
+}
+
+json parse_json(const std::string& text, const std::string& name) {
+    try {
+        return json::parse(text);
+    } catch (const json::parse_error& error) {
+        throw InputError(name, "byte " + std::to_string(error.byte), "a camera in JSON", "a syntax error");
+    } catch (const json::exception&) {
+        throw InputError(name, "/", "a camera in JSON", "a number out of range");
+    }
+}
+
+std::string hex_float(double value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(std::begin(text), std::end(text), std::abs(value), std::chars_format::hex);
+    return fmt::format("{}0x{}", std::signbit(value) ? "-" : "", std::string_view{text, end});
+}
+
+std::string to_json(const pipeline::Matrix& matrix) {
+    std::string text;
+    for (const double entry : matrix) text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", hex_float(entry));
+    return "[" + text + "]";
+}
+
+}  // namespace
+
+pipeline::View parse_camera(const std::string& text, const std::string& name, double aspect) {
+    const FloatEnvironment environment;
+    const json document = parse_json(text, name);
+    const Place camera{name, "", document};
+    if (!document.is_object()) camera.fail("an object", document.type_name());
+    for (const auto& [key, value] : document.items()) {  // a misspelt key must not choose the form
+        if (std::ranges::find(all_keys, key) == std::end(all_keys))
+            camera.fail(fmt::format("only the keys {}", fmt::join(all_keys, ", ")),
+                        quoted_with_suggestion(key, all_keys));
+    }
+    if (!document.contains("view") && !document.contains("projection")) return look_at(parse_look_at(camera), aspect);
+    check_keys(camera, matrix_keys);
+    return {numbers<16>(camera["view"]), numbers<16>(camera["projection"])};
+}
+
+pipeline::View load_camera(const std::string& path, double aspect) {
+    return parse_camera(read_text_file(path), path, aspect);
+}
+
+std::string to_json(const pipeline::View& view) {
+    return fmt::format("{{\"view\":{},\"projection\":{}}}\n", to_json(view.view), to_json(view.projection));
+}
+
+}  // namespace strata::scenes

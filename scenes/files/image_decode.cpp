@@ -1,0 +1,67 @@
+// scenes/files/image_decode.cpp - see image_decode.h.
+#include "scenes/files/image_decode.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+namespace strata::scenes {
+namespace {
+
+using Codes = std::vector<std::uint8_t>;
+
+std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const ImageHeader& header,
+                                       const Place& place) {
+    const char* const name = header.kind == ImageKind::png ? "png" : "jpeg";
+    std::unique_ptr<OIIO::ImageInput> reader = OIIO::ImageInput::create(name);
+    if (!reader) throw std::runtime_error(std::string("OpenImageIO has no reader named ") + name);
+    OIIO::ImageSpec spec, how;
+    how.attribute("oiio:UnassociatedAlpha", 1);
+    reader->set_ioproxy(&memory);
+    if (!reader->open(std::string("image.") + name, spec, how))
+        place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
+    if (spec.width != static_cast<int>(header.width) || spec.height != static_cast<int>(header.height) ||
+        spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 4)
+        place.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
+    return reader;
+}
+
+// All channels as the file has them, 8 bits each.
+Codes read(OIIO::ImageInput& reader, const Place& place) {
+    const OIIO::ImageSpec& spec = reader.spec();
+    const std::size_t count = static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels;
+    const bool is_wide = spec.format == OIIO::TypeDesc::UINT16;
+    std::vector<std::uint16_t> wide(is_wide ? count : 0);
+    Codes codes(is_wide ? 0 : count);
+    void* const target = is_wide ? static_cast<void*>(wide.data()) : codes.data();
+    if (!reader.read_image(0, 0, 0, spec.nchannels, is_wide ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8, target))
+        place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
+    if (!is_wide) return codes;
+    codes.reserve(count);
+    for (const std::uint16_t c : wide) codes.push_back(static_cast<std::uint8_t>((c + 128) / 257));
+    return codes;
+}
+
+// Grey, grey and alpha, rgb or rgba to rgba.
+Codes to_rgba(const Codes& codes, std::size_t channels) {
+    const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
+    Codes texels;
+    texels.reserve(codes.size() / channels * 4);
+    for (std::size_t i = 0; i < codes.size(); i += channels) {
+        for (std::size_t c = 0; c < 3; ++c) texels.push_back(codes[is_grey ? i : i + c]);
+        texels.push_back(has_alpha ? codes[i + channels - 1] : std::uint8_t{255});
+    }
+    return texels;
+}
+
+}  // namespace
+
+Codes decode_image(Bytes bytes, const ImageHeader& header, const Place& place) {
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const auto reader = open(memory, header, place);
+    Codes codes = read(*reader, place);
+    const auto channels = static_cast<std::size_t>(reader->spec().nchannels);
+    reader->close();
+    return channels == 4 ? codes : to_rgba(codes, channels);
+}
+
+}  // namespace strata::scenes

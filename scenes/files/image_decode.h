@@ -1,0 +1,35 @@
+// scenes/files/image_decode.h - a PNG or JPEG in memory to 8-bit RGBA.
+//
+// Rule     PNG by OpenImageIO's reader "png", JPEG by "jpeg", never by a guess; alpha stays straight, colour profiles
+//          and gamma chunks change nothing. 16-bit PNG codes become the nearest 8-bit ones: (c + 128) / 257 rounded
+//          down. Grey is copied to r, g, b; missing alpha is 255. The header is read here first: a side is at most
+//          16384 texels, and the data must be long enough for the size that the header claims (deflate packs at most
+//          1032 to 1; a JPEG block takes at least one bit).
+// Source   glTF 2.0, 3.8.3; PNG 11.2.2; JPEG: ITU T.81, B.2. JPEG's own arithmetic is libjpeg-turbo's (integer, slow
+//          but exact). Tests    tests/scenes/gltf/gltf_image_test.cpp
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scenes/gltf/document/container.h"
+#include "scenes/gltf/document/place.h"
+
+namespace strata::scenes {
+
+inline constexpr std::uint32_t max_image_side = 16384;
+
+enum class ImageKind : std::uint8_t { png, jpeg };
+
+struct ImageHeader {
+    ImageKind kind = ImageKind::png;
+    std::uint32_t width = 0, height = 0;
+};
+
+// Throws InputError at `place` for anything but a PNG or JPEG of sane size.
+[[nodiscard]] ImageHeader read_image_header(Bytes bytes, const Place& place);
+
+// width * height * 4 codes, top row first. `header` is what read_image_header said of the same bytes.
+[[nodiscard]] std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place);
+
+}  // namespace strata::scenes

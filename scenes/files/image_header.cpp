@@ -1,0 +1,133 @@
+// scenes/files/image_header.cpp - what a PNG or JPEG says of its size, before any decoder sees it. See image_decode.h.
+#include <algorithm>
+#include <array>
+
+#include "scenes/files/image_decode.h"
+
+namespace strata::scenes {
+namespace {
+
+constexpr std::array<unsigned char, 8> png_signature{0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a};
+constexpr std::uint64_t deflate_ratio = 1032;  // no deflate stream grows by more
+constexpr int max_jpeg_scans = 64;             // each scan is a walk over the whole image: few bytes, much time
+
+std::uint32_t byte_at(Bytes bytes, std::size_t at) { return std::to_integer<std::uint32_t>(bytes[at]); }
+std::uint32_t big_endian16(Bytes bytes, std::size_t at) { return byte_at(bytes, at) << 8 | byte_at(bytes, at + 1); }
+std::uint32_t big_endian32(Bytes bytes, std::size_t at) {
+    return big_endian16(bytes, at) << 16 | big_endian16(bytes, at + 2);
+}
+
+bool is_png(Bytes bytes) {
+    return bytes.size() >= png_signature.size() &&
+           std::equal(png_signature.begin(), png_signature.end(), bytes.begin(),
+                      [](unsigned char s, std::byte b) { return s == std::to_integer<unsigned char>(b); });
+}
+bool is_jpeg(Bytes bytes) { return bytes.size() >= 3 && big_endian16(bytes, 0) == 0xffd8 && byte_at(bytes, 2) == 0xff; }
+
+void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_t bytes, const Place& place) {
+    const std::string size = std::to_string(header.width) + " x " + std::to_string(header.height);
+    if (header.width == 0 || header.height == 0) place.fail("IMAGE_DATA_INVALID", "an image with texels", size);
+    if (header.width > max_image_side || header.height > max_image_side)
+        place.fail("VALUE_NOT_IN_RANGE", "an image of at most 16384 x 16384", size);
+    if (least_bytes > bytes)
+        place.fail("IMAGE_UNEXPECTED_EOS", "at least " + std::to_string(least_bytes) + " bytes for " + size + " texels",
+                   std::to_string(bytes));
+}
+
+constexpr std::array<std::uint32_t, 256> crc_table = [] {  // PNG annex D
+    std::array<std::uint32_t, 256> table{};
+    for (std::uint32_t n = 0; n < 256; ++n) {
+        std::uint32_t c = n;
+        for (int k = 0; k < 8; ++k) c = (c & 1) != 0 ? 0xedb88320u ^ (c >> 1) : c >> 1;
+        table[n] = c;
+    }
+    return table;
+}();
+
+std::uint32_t crc32(Bytes bytes) {
+    std::uint32_t crc = 0xffffffffu;
+    for (const std::byte b : bytes) crc = crc_table[(crc ^ std::to_integer<std::uint32_t>(b)) & 0xff] ^ (crc >> 8);
+    return ~crc;
+}
+
+// Whole chunks with right checksums up to IEND: what is damaged by accident never reaches libpng, which would print of
+// its own.
+void check_png_chunks(Bytes bytes, const Place& place) {
+    constexpr std::size_t frame = 12;  // length, type, checksum
+    constexpr std::uint32_t iend = 0x49454e44;
+    for (std::size_t at = png_signature.size();;) {
+        const std::size_t left = bytes.size() - at;
+        if (left < frame || big_endian32(bytes, at) > left - frame)
+            place.fail("IMAGE_UNEXPECTED_EOS", "PNG chunks up to IEND", "an end within a chunk");
+        const std::size_t length = big_endian32(bytes, at);
+        if (crc32(bytes.subspan(at + 4, length + 4)) != big_endian32(bytes, at + 8 + length))
+            place.fail("IMAGE_DATA_INVALID", "PNG chunks with right checksums",
+                       "a wrong one at byte " + std::to_string(at + 8 + length));
+        if (big_endian32(bytes, at + 4) == iend) return;
+        at += frame + length;
+    }
+}
+
+ImageHeader png_header(Bytes bytes, const Place& place) {
+    constexpr std::size_t ihdr = 8, end = 33;  // length, "IHDR", 13 bytes, checksum
+    if (bytes.size() < end) place.fail("IMAGE_UNEXPECTED_EOS", "a PNG header", std::to_string(bytes.size()) + " bytes");
+    if (big_endian32(bytes, ihdr) != 13 || big_endian32(bytes, ihdr + 4) != 0x49484452)
+        place.fail("IMAGE_DATA_INVALID", "an IHDR chunk first", "another");
+    const ImageHeader header{ImageKind::png, big_endian32(bytes, ihdr + 8), big_endian32(bytes, ihdr + 12)};
+    const std::uint64_t bits = byte_at(bytes, ihdr + 16);  // at least one channel of them a texel
+    const std::uint64_t raw = (std::uint64_t{header.width} * bits + 7) / 8 * header.height;
+    check_size(header, raw / deflate_ratio, bytes.size(), place);
+    check_png_chunks(bytes, place);
+    return header;
+}
+
+bool is_frame(std::uint32_t marker) {  // SOF0 to SOF15 without DHT, JPG, DAC
+    return marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+}
+
+// The next marker at or after `at`, its position behind it; 0 at the end. Stuffed zeros and restart markers are data.
+std::uint32_t next_marker(Bytes bytes, std::size_t& at) {
+    while (at + 1 < bytes.size()) {
+        const std::uint32_t code = byte_at(bytes, at + 1);
+        const bool is_marker =
+            byte_at(bytes, at) == 0xff && code != 0x00 && code != 0xff && !(code >= 0xd0 && code <= 0xd7);
+        ++at;
+        if (!is_marker) continue;
+        ++at;
+        return code;
+    }
+    return 0;
+}
+
+ImageHeader jpeg_header(Bytes bytes, const Place& place) {
+    ImageHeader header{ImageKind::jpeg, 0, 0};
+    constexpr std::uint32_t scan = 0xda, end_of_image = 0xd9;
+    int scans = 0;
+    std::size_t at = 2;
+    for (std::uint32_t marker = next_marker(bytes, at); marker != end_of_image; marker = next_marker(bytes, at)) {
+        if (marker == 0 || at + 8 > bytes.size()) place.fail("IMAGE_UNEXPECTED_EOS", "an end-of-image marker", "none");
+        if (is_frame(marker)) {
+            if (header.width != 0) place.fail("IMAGE_DATA_INVALID", "one frame", "another");
+            header = {ImageKind::jpeg, big_endian16(bytes, at + 5), big_endian16(bytes, at + 3)};
+            check_size(header, std::uint64_t{header.width} * header.height / 512, bytes.size(), place);
+            const std::uint32_t channels = byte_at(bytes, at + 7);
+            if (channels != 1 && channels != 3)
+                place.fail("IMAGE_DATA_INVALID", "a JPEG of 1 or 3 channels", std::to_string(channels));
+        }
+        if (marker == scan && ++scans > max_jpeg_scans)
+            place.fail("IMAGE_DATA_INVALID", "at most " + std::to_string(max_jpeg_scans) + " scans", "more");
+        if (marker != 0x01) at += big_endian16(bytes, at);
+    }
+    if (header.width == 0 || scans == 0) place.fail("IMAGE_DATA_INVALID", "a frame and a scan", "none");
+    return header;
+}
+
+}  // namespace
+
+ImageHeader read_image_header(Bytes bytes, const Place& place) {
+    if (is_png(bytes)) return png_header(bytes, place);
+    if (is_jpeg(bytes)) return jpeg_header(bytes, place);
+    place.fail("IMAGE_UNRECOGNIZED_FORMAT", "a PNG or JPEG image", "neither");
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,67 @@
+// scenes/files/image_io.h - finished targets to PNG and EXR files and back, without losing a bit or adding one.
+//
+// Rule     The file's name decides: .png holds 8-bit straight colours, .exr everything. scenes/README.md lists
+//          channels, parts, attributes and the conversion to 8 bits. The same call writes the same bytes: no time, host
+//          or path goes in. Written under a temporary name and renamed: SystemError, and no file, if that fails.
+// Source   decisions.md 5; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files unless
+//          told not to.
+// Tests    tests/scenes/files/png_test.cpp, exr_test.cpp, deep_exr_test.cpp
+#pragma once
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/formats/image.h"
+#include "pipeline/vertices/draw_list.h"
+
+namespace strata::scenes {
+
+using Attributes = std::map<std::string, std::string>;  // stored as "strata:KEY"
+
+struct OutputColor {
+    pipeline::Image color{};     // one sample, a colour format
+    pipeline::Image depth{};     // of the same size, or empty
+    bool premultiplied = false;  // whether `color` holds colours times alpha
+    pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
+    Attributes attributes{};  // formats, digests and colour space are added by the writer
+};
+
+enum class ImageFile : std::uint8_t { png, exr };
+
+// By the name's ending; InputError if it is neither .png nor .exr. Call it before rendering.
+[[nodiscard]] ImageFile image_file(const std::string& path);
+
+void write_image(const std::string& path, const OutputColor& image);
+
+// Part `layer.000`, `layer.001` ... of one EXR file; all of one size, and at least one.
+void write_layers(const std::string& path, std::span<const OutputColor> layers);
+
+// Every fragment of every pixel, pixel by pixel in rows from the top; within a pixel in the order given.
+struct DeepFragments {
+    int width = 0, height = 0;
+    std::vector<std::uint32_t> count{};       // fragments a pixel
+    std::vector<std::uint32_t> depth_code{};  // the others: one entry a fragment
+    std::vector<float> z{};
+    std::vector<pipeline::Rgba> rgba{};  // straight
+    std::vector<std::uint32_t> primitive{};
+    friend bool operator==(const DeepFragments&, const DeepFragments&) = default;
+};
+
+void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes);
+[[nodiscard]] DeepFragments read_deep(const std::string& path);  // rgba as in the file: premultiplied
+
+// A target found in a file: "color" or "depth", of the part `layer.000` or of the whole file (part "").
+struct FileImage {
+    std::string part, target;
+    pipeline::Image image;
+};
+
+// Everything that `digest` can speak of: a PNG's 8-bit codes, an EXR's codes. InputError for what is no such image.
+[[nodiscard]] std::vector<FileImage> read_images(const std::string& path);
+
+// What a .png of `image` holds: straight 8-bit colours, encoded.
+[[nodiscard]] pipeline::Image as_straight_rgba8(const OutputColor& image);
+
+}  // namespace strata::scenes

@@ -1,0 +1,94 @@
+// scenes/files/png.cpp - 8-bit straight colours: the one picture that every program shows.
+//
+// Rule     A target of 8-bit codes in the encoded space goes out byte for byte. Else value / alpha where the target is
+//          premultiplied (0 where alpha is not above 0), then clamp and 255 x rounded half up; in the linear space
+//          encode_srgb8 instead.
+#include <algorithm>
+#include <cassert>
+#include <span>
+
+#include "pipeline/formats/unorm8.h"
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/image_decode.h"
+#include "scenes/files/image_formats.h"
+#include "scenes/files/text_file.h"
+#include "scenes/numbers/srgb_encode.h"
+
+namespace strata::scenes {
+namespace {
+
+using pipeline::ChannelType;
+using pipeline::ColorSpace;
+using pipeline::Format;
+using pipeline::Image;
+
+// 255 c / a to the nearest code, a half goes up.
+std::uint32_t divided_by_alpha(std::uint32_t c, std::uint32_t a) noexcept {
+    return a == 0 ? 0 : std::min((2 * 255 * c + a) / (2 * a), 255u);
+}
+
+void convert_codes(const std::uint32_t* from, std::uint32_t* to, bool premultiplied) noexcept {
+    const std::uint32_t alpha = from[3];
+    for (int c = 0; c < 3; ++c) to[c] = premultiplied ? divided_by_alpha(from[c], alpha) : from[c];
+    to[3] = alpha;
+}
+
+void convert_values(const std::uint32_t* from, std::uint32_t* to, ChannelType type, const OutputColor& image) noexcept {
+    const float alpha = channel_value(type, from[3]);
+    for (int c = 0; c < 3; ++c) {
+        float v = channel_value(type, from[c]);
+        if (image.premultiplied) v = alpha > 0 ? v / alpha : 0.0f;
+        to[c] = image.space == ColorSpace::linear ? encode_srgb8(v) : pipeline::to_unorm8(v);
+    }
+    to[3] = pipeline::to_unorm8(alpha);
+}
+
+}  // namespace
+
+Image as_straight_rgba8(const OutputColor& image) {
+    const FloatEnvironment environment;
+    const Image& color = image.color;
+    assert(color.channels() == 4 && color.samples == 1);
+    const ChannelType type = pipeline::info(color.format).type;
+    const bool copies_codes = type == ChannelType::unorm8 && image.space == ColorSpace::encoded;
+    Image result{Format::rgba8, color.width, color.height};
+    for (std::size_t i = 0; i < color.codes.size(); i += 4) {
+        if (copies_codes)
+            convert_codes(&color.codes[i], &result.codes[i], image.premultiplied);
+        else
+            convert_values(&color.codes[i], &result.codes[i], type, image);
+    }
+    return result;
+}
+
+void write_png(const std::string& path, const OutputColor& image) {
+    const Image straight = as_straight_rgba8(image);
+    const std::vector<std::uint8_t> bytes(straight.codes.begin(), straight.codes.end());
+    OIIO::ImageSpec spec = base_spec(straight.width, straight.height, image.attributes);
+    spec.erase_attribute("DateTime");  // which PNG has no need to be told
+    spec.nchannels = 4;
+    spec.default_channel_names();
+    spec.set_format(OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);  // else colours are divided by alpha on the way out
+    write_with("png", path, [&](OIIO::ImageOutput& output, const std::string& name) {
+        return output.open(name, spec) && output.write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output.close();
+    });
+}
+
+std::vector<FileImage> read_png(const std::string& path) {
+    constexpr std::size_t max_bytes = std::size_t{1} << 31;
+    const std::string file = read_text_file(path, max_bytes);
+    const Bytes bytes = std::as_bytes(std::span{file});
+    const Place place{path, ""};
+    const ImageHeader header = read_image_header(bytes, place);  // all chunks whole: libpng says and leaks nothing
+    // PNG 11.2.2: bit depth and colour type, of which bit 1 means colour.
+    if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
+        throw InputError(path, "format", "a PNG with 8-bit colours", "another image");
+    const std::vector<std::uint8_t> codes = decode_image(bytes, header, place);
+    Image image{Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height)};
+    image.codes.assign(codes.begin(), codes.end());
+    return {{"", "color", std::move(image)}};
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,199 @@
+#include "scenes/files/profile_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "pipeline/device/profile_fields.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/text_file.h"
+#include "scenes/nearest_name.h"
+
+namespace strata::scenes {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+using pipeline::DeviceProfile;
+using pipeline::FieldKind;
+using pipeline::profile_fields;
+using pipeline::ProfileField;
+
+using Names = std::vector<std::string_view>;
+
+constexpr std::string_view raster_prefix = "raster.";
+constexpr std::size_t longest_name = 64, longest_description = 1000;
+
+[[nodiscard]] bool is_raster(const ProfileField& field) { return field.key.starts_with(raster_prefix); }
+
+// The last part of the key: what the JSON object says.
+[[nodiscard]] std::string_view leaf(const ProfileField& field) {
+    return is_raster(field) ? field.key.substr(raster_prefix.size()) : field.key;
+}
+
+[[nodiscard]] std::string pointer(const ProfileField& field) {
+    return (is_raster(field) ? "/raster/" : "/") + std::string{leaf(field)};
+}
+
+Names builtin_names() {
+    Names names;
+    for (const DeviceProfile& profile : pipeline::builtin_profiles()) names.push_back(profile.name);
+    return names;
+}
+
+Names keys(bool of_raster) {
+    Names names;
+    if (!of_raster) names = {"base", "name", "description", "raster"};
+    for (const ProfileField& field : profile_fields())
+        if (is_raster(field) == of_raster) names.push_back(leaf(field));
+    return names;
+}
+
+std::string shown(const json& value) {  // dump recurses: not into what may be nested deeply
+    return value.is_structured() ? value.type_name()
+                                 : value.dump(-1, ' ', true, json::error_handler_t::replace).substr(0, 64);
+}
+
+void check_keys(const json& object, const Names& allowed, const std::string& file, const std::string& place) {
+    if (!object.is_object()) throw InputError(file, place, "an object", shown(object));
+    for (const auto& [key, value] : object.items())
+        if (std::ranges::find(allowed, key) == allowed.end())
+            throw InputError(file, place, "a key of a profile", quoted_with_suggestion(key, allowed));
+}
+
+std::string text(const json& document, const std::string& key, std::size_t longest, const std::string& file) {
+    const auto found = document.find(key);
+    const std::string expected = fmt::format("a string of at most {} bytes", longest);
+    if (found == document.end()) throw InputError(file, "/" + key, expected, "nothing");
+    if (!found->is_string() || found->get_ref<const std::string&>().size() > longest)
+        throw InputError(file, "/" + key, expected, shown(*found));
+    return found->get<std::string>();
+}
+
+[[nodiscard]] std::string expectation(const ProfileField& field) {
+    switch (field.kind) {
+        case FieldKind::boolean: return "true or false";
+        case FieldKind::choice: return fmt::format("one of {}", fmt::join(field.choices, ", "));
+        case FieldKind::integer: break;
+    }
+    if (field.step == 1) return fmt::format("a whole number from {} to {}", field.lowest, field.highest);
+    return fmt::format("a number from {} to {} in steps of {}", field.lowest, field.highest, field.step);
+}
+
+// The value as ProfileField::set takes it; empty if the JSON says something else than the field may be.
+std::optional<int> value_of(const ProfileField& field, const json& value) {
+    switch (field.kind) {
+        case FieldKind::boolean:
+            if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
+            return std::nullopt;
+        case FieldKind::choice: {
+            if (!value.is_string()) return std::nullopt;
+            const auto found = std::ranges::find(field.choices, value.get_ref<const std::string&>());
+            if (found == field.choices.end()) return std::nullopt;
+            return static_cast<int>(found - field.choices.begin());
+        }
+        case FieldKind::integer: {
+            if (!value.is_number_unsigned()) return std::nullopt;  // no field is negative
+            const auto number = value.get<std::uint64_t>();
+            const auto lowest = static_cast<std::uint64_t>(field.lowest),
+                       highest = static_cast<std::uint64_t>(field.highest);
+            if (number < lowest || number > highest) return std::nullopt;
+            if ((number - lowest) % static_cast<std::uint64_t>(field.step) != 0) return std::nullopt;
+            return static_cast<int>(number);
+        }
+    }
+    return std::nullopt;  // unreachable: the enum is closed
+}
+
+std::string found_text(const ProfileField& field, const json& value) {
+    if (field.kind == FieldKind::choice && value.is_string())
+        return quoted_with_suggestion(value.get_ref<const std::string&>(), field.choices);
+    return shown(value);
+}
+
+json parse_json(const std::string& document, const std::string& file) {
+    try {
+        return json::parse(document);
+    } catch (const json::parse_error& error) {
+        throw InputError(file, "byte " + std::to_string(error.byte), "a profile in JSON", "a syntax error");
+    } catch (const json::exception&) {
+        throw InputError(file, "/", "a profile in JSON", "a number out of range");
+    }
+}
+
+// The built-in profile that the file starts from; empty if it says everything itself.
+const DeviceProfile* base_of(const json& document, const std::string& file) {
+    if (!document.contains("base")) return nullptr;
+    const std::string name = text(document, "base", longest_name, file);
+    const DeviceProfile* const base = pipeline::find_profile(name);
+    const Names names = builtin_names();
+    if (base == nullptr)
+        throw InputError(file, "/base", fmt::format("one of {}", fmt::join(names, ", ")),
+                         quoted_with_suggestion(name, names));
+    return base;
+}
+
+void read_field(const ProfileField& field, const json& object, bool has_base, const std::string& file,
+                DeviceProfile& profile) {
+    const auto found = object.find(leaf(field));
+    if (found == object.end()) {
+        if (has_base) return;
+        throw InputError(file, pointer(field), expectation(field), "nothing, and no \"base\" to take it from");
+    }
+    const std::optional<int> value = value_of(field, *found);
+    if (!value) throw InputError(file, pointer(field), expectation(field), found_text(field, *found));
+    field.set(profile, *value);
+}
+
+}  // namespace
+
+std::string to_json(const DeviceProfile& profile) {
+    ordered_json document;
+    document["name"] = profile.name;
+    document["description"] = profile.description;
+    for (const ProfileField& field : profile_fields()) {
+        ordered_json& object = is_raster(field) ? document["raster"] : document;
+        ordered_json& value = object[std::string{leaf(field)}];
+        switch (field.kind) {
+            case FieldKind::boolean: value = field.value(profile) != 0; break;
+            case FieldKind::integer: value = field.value(profile); break;
+            case FieldKind::choice: value = pipeline::text_of(field, profile); break;
+        }
+    }
+    return document.dump(2) + "\n";
+}
+
+DeviceProfile parse_profile(const std::string& document_text, const std::string& file) {
+    const json document = parse_json(document_text, file);
+    check_keys(document, keys(false), file, "/");
+    const json none = json::object();
+    const json& raster = document.contains("raster") ? document["raster"] : none;
+    check_keys(raster, keys(true), file, "/raster");
+    const DeviceProfile* const base = base_of(document, file);
+    DeviceProfile profile = base != nullptr ? *base : DeviceProfile{};
+    profile.name = text(document, "name", longest_name, file);
+    if (profile.name.empty()) throw InputError(file, "/name", "a name", "\"\"");
+    if (base == nullptr || document.contains("description"))
+        profile.description = text(document, "description", longest_description, file);
+    for (const ProfileField& field : profile_fields())
+        read_field(field, is_raster(field) ? raster : document, base != nullptr, file, profile);
+    return profile;
+}
+
+DeviceProfile load_profile(const std::string& name_or_path) {
+    if (const DeviceProfile* builtin = pipeline::find_profile(name_or_path)) return *builtin;
+    std::error_code error;
+    const bool looks_like_file = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json");
+    if (looks_like_file || std::filesystem::exists(name_or_path, error))
+        return parse_profile(read_text_file(name_or_path), name_or_path);
+    const Names names = builtin_names();
+    throw InputError("--profile", "name", fmt::format("{}, or a JSON file", fmt::join(names, ", ")),
+                     quoted_with_suggestion(name_or_path, names));
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,27 @@
+#include "scenes/files/text_file.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "rasterizer/base/input_error.h"
+
+namespace strata::scenes {
+
+std::string read_text_file(const std::string& path, std::size_t max_bytes) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw InputError(path, "file", "a file", "nothing of that name");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(path, "file", "a file", "a folder or device");
+    const auto size = std::filesystem::file_size(path, error);
+    if (error) throw InputError(path, "file", "a readable file", error.message());
+    if (size > max_bytes) {
+        throw InputError(path, "file", "at most " + std::to_string(max_bytes) + " bytes", std::to_string(size));
+    }
+    std::string text(static_cast<std::size_t>(size), '\0');
+    std::ifstream file(path, std::ios::binary);
+    if (!file || !file.read(text.data(), static_cast<std::streamsize>(size)))
+        throw InputError(path, "file", "a readable file", "one that cannot be read");
+    return text;
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,11 @@
+// scenes/files/text_file.h - a whole small file as a string.
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace strata::scenes {
+
+// InputError if `path` is not a readable regular file or holds more than `max_bytes`.
+[[nodiscard]] std::string read_text_file(const std::string& path, std::size_t max_bytes = std::size_t{1} << 20);
+
+}  // namespace strata::scenes

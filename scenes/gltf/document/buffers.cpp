@@ -1,0 +1,72 @@
+// scenes/gltf/document/buffers.cpp - see buffers.h.
+#include "scenes/gltf/document/buffers.h"
+
+#include "scenes/gltf/document/uri.h"
+
+namespace strata::scenes {
+namespace {
+
+constexpr std::uint64_t elements_per_byte =
+    16;  // 1 is what unshared data needs; the rest is for primitives that share vertices
+
+void check_media_type(const Resource& resource, const Place& place) {
+    const std::string& type = resource.media_type;
+    if (!type.empty() && type != "application/octet-stream" && type != "application/gltf-buffer")
+        place.fail("BUFFER_DATA_URI_MIME_TYPE_INVALID", "application/octet-stream or application/gltf-buffer",
+                   in_quotes(type));
+}
+
+}  // namespace
+
+void Budget::pay_elements(std::uint64_t count, const Place& place) {
+    if (count > elements_)
+        place.fail("VALUE_NOT_IN_RANGE",
+                   "meshes of at most 2^22 vertices and indices, and 16 more for each byte of the file",
+                   "more with the " + std::to_string(count) + " of this primitive");
+    elements_ -= count;
+}
+
+void Budget::pay_texels(std::uint64_t count, const Place& place) {
+    if (count > texels_)
+        place.fail("VALUE_NOT_IN_RANGE", "textures of at most 2^28 texels together",
+                   "more with the " + std::to_string(count) + " of this image");
+    texels_ -= count;
+}
+
+Bytes Buffers::view(std::size_t view_index) {
+    const Json& view = document_.json["bufferViews"][view_index];
+    const auto offset = view.value("byteOffset", std::size_t{0});
+    return buffer(view["buffer"].get<std::size_t>()).subspan(offset, view["byteLength"].get<std::size_t>());
+}
+
+Bytes Buffers::buffer(std::size_t index) {
+    if (const auto found = known_.find(index); found != known_.end()) return found->second;
+    const Bytes bytes = read(index);
+    budget_.allow_elements(elements_per_byte * bytes.size());
+    return known_[index] = bytes;
+}
+
+// Exactly the declared length.
+Bytes Buffers::read(std::size_t index) {
+    const JsonAt at = document_.at("buffers", index);
+    const auto declared = at.json()["byteLength"].get<std::size_t>();
+    Bytes bytes;
+    if (const auto uri = at.find("uri")) {
+        Resource resource = read_uri(uri->json().get_ref<const std::string&>(), document_.folder, uri->place());
+        check_media_type(resource, uri->place());
+        bytes = held_[index] = std::move(resource.bytes);
+    } else {
+        if (index != 0)
+            at.place().fail("BUFFER_NON_FIRST_GLB", "a uri, for only the first buffer can be the BIN chunk", "none");
+        if (!document_.bin) at.place().fail("BUFFER_MISSING_GLB_DATA", "a uri, for the file has no BIN chunk", "none");
+        bytes = *document_.bin;
+    }
+    if (bytes.size() < declared)
+        at.place()
+            .under("byteLength")
+            .fail(at.has("uri") ? "BUFFER_EXTERNAL_BYTELENGTH_MISMATCH" : "BUFFER_EMBEDDED_BYTELENGTH_MISMATCH",
+                  "at most the " + std::to_string(bytes.size()) + " bytes that are there", std::to_string(declared));
+    return bytes.first(declared);
+}
+
+}  // namespace strata::scenes

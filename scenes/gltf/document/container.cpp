@@ -1,0 +1,99 @@
+// scenes/gltf/document/container.cpp - see container.h.
+#include "scenes/gltf/document/container.h"
+
+#include <cstdint>
+
+#include "scenes/gltf/document/place.h"
+
+namespace strata::scenes {
+namespace {
+
+constexpr std::uint32_t magic = 0x46546c67, json_chunk = 0x4e4f534a, bin_chunk = 0x004e4942;  // "glTF", "JSON", "BIN\0"
+constexpr std::size_t header_size = 12, chunk_header_size = 8;
+constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
+
+std::uint32_t word(Bytes bytes, std::size_t at) {  // little endian
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
+    return value;
+}
+
+std::string_view text(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+struct Chunk {
+    std::uint32_t type;
+    Bytes data;
+};
+
+class ChunkReader {
+  public:
+    ChunkReader(Bytes bytes, const std::string& file) : bytes_{bytes}, file_{file} {
+        if (bytes.size() < header_size) fail(0, "GLB_UNEXPECTED_END_OF_HEADER", "12 bytes of header", bytes.size());
+        if (word(bytes, 4) != 2) fail(4, "GLB_INVALID_VERSION", "version 2", word(bytes, 4));
+        const std::uint32_t length = word(bytes, 8);
+        if (length < header_size + chunk_header_size)
+            fail(8, "GLB_LENGTH_TOO_SMALL", "a length of at least 20", length);
+        if (length != bytes.size())
+            fail(8, "GLB_LENGTH_MISMATCH", "the file's length " + std::to_string(bytes.size()), length);
+    }
+    [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
+
+    Chunk next() {
+        const std::size_t left = bytes_.size() - at_;
+        if (left < chunk_header_size) fail(at_, "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", "8 bytes of chunk header", left);
+        const std::uint32_t length = word(bytes_, at_), type = word(bytes_, at_ + 4);
+        if (length > left - chunk_header_size)
+            fail(at_, "GLB_CHUNK_TOO_BIG", "a chunk of at most " + std::to_string(left - chunk_header_size) + " bytes",
+                 length);
+        if (length % 4 != 0) fail(at_, "GLB_CHUNK_LENGTH_UNALIGNED", "a chunk length that is a multiple of 4", length);
+        const Chunk chunk{type, bytes_.subspan(at_ + chunk_header_size, length)};
+        at_ += chunk_header_size + length;
+        return chunk;
+    }
+    [[noreturn]] void fail(std::size_t at, std::string_view code, const std::string& expected,
+                           std::uint64_t found) const {
+        Place{file_, "byte " + std::to_string(at)}.fail(code, expected, std::to_string(found));
+    }
+
+  private:
+    Bytes bytes_;
+    const std::string& file_;
+    std::size_t at_ = header_size;
+};
+
+Container split_glb(Bytes bytes, const std::string& file) {
+    ChunkReader reader{bytes, file};
+    const Chunk first = reader.next();
+    if (first.type != json_chunk) reader.fail(16, "GLB_UNEXPECTED_FIRST_CHUNK", "a JSON chunk first", first.type);
+    if (first.data.empty()) reader.fail(12, "GLB_EMPTY_CHUNK", "JSON text", 0);
+    Container container{text(first.data), std::nullopt};
+    for (bool is_second = true; !reader.at_end(); is_second = false) {
+        const Chunk chunk = reader.next();
+        if (chunk.type == json_chunk) reader.fail(16, "GLB_DUPLICATE_CHUNK", "one JSON chunk", 2);
+        if (chunk.type != bin_chunk) continue;  // "clients MUST ignore chunks with unknown types"
+        if (container.bin) reader.fail(16, "GLB_DUPLICATE_CHUNK", "at most one BIN chunk", 2);
+        if (!is_second) reader.fail(16, "GLB_UNEXPECTED_BIN_CHUNK", "the BIN chunk as the second one", 3);
+        container.bin = chunk.data;
+    }
+    return container;
+}
+
+}  // namespace
+
+Container split_container(Bytes bytes, const std::string& file) {
+    const Place start{file, "byte 0"};
+    if (bytes.empty()) start.fail("INVALID_JSON", "a glTF file", "an empty one");
+    const bool is_glb = bytes.size() >= 4 && word(bytes, 0) == magic;
+    const auto first = std::to_integer<unsigned char>(bytes[0]);
+    const bool may_be_json =
+        first == '{' || first == ' ' || first == '\t' || first == '\n' || first == '\r' || first == 0xef;
+    if (!is_glb && !may_be_json)
+        start.fail("GLB_INVALID_MAGIC", "glTF, JSON text or a .glb",
+                   in_quotes(text(bytes.first(bytes.size() < 4 ? bytes.size() : 4))));
+    const Container container = is_glb ? split_glb(bytes, file) : Container{text(bytes), std::nullopt};
+    if (container.json.size() > max_json_bytes)
+        start.fail("INVALID_JSON", "at most 2^28 bytes of JSON", std::to_string(container.json.size()));
+    return container;
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,27 @@
+// scenes/gltf/document/container.h - the outermost layer of a file: .glb chunks, or JSON text alone.
+//
+// Rule     A file that begins with "glTF" is a .glb: a 12-byte header, then chunks of which the first is JSON and the
+//          second may be BIN; other chunks are passed over. Every length is compared with what is there before it is
+//          used.
+// Source   glTF 2.0, 4.4 (GLB file format).
+// Tests    tests/scenes/gltf/gltf_bad_container_test.cpp: a small file cut at every length
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace strata::scenes {
+
+using Bytes = std::span<const std::byte>;
+
+struct Container {
+    std::string_view json;
+    std::optional<Bytes> bin;
+};
+
+// The result looks into `bytes`.
+[[nodiscard]] Container split_container(Bytes bytes, const std::string& file);
+
+}  // namespace strata::scenes

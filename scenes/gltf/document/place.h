@@ -1,0 +1,36 @@
+// scenes/gltf/document/place.h - where in a glTF file something stands, and the one way to say that it is wrong.
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "rasterizer/base/input_error.h"
+
+namespace strata::scenes {
+
+// `code` is the issue code that the Khronos glTF validator gives the same fault (its ISSUES.md), where it knows the
+// fault.
+struct Place {
+    std::string file;
+    std::string pointer;  // JSON pointer (RFC 6901), or "byte N" in a .glb
+
+    [[noreturn]] void fail(std::string_view code, const std::string& expected, const std::string& found) const {
+        throw InputError(file, pointer.empty() ? "/" : pointer, expected, found + " [" + std::string(code) + "]");
+    }
+    [[nodiscard]] Place under(std::string_view key) const { return {file, pointer + "/" + std::string(key)}; }
+    [[nodiscard]] Place under(std::size_t index) const { return under(std::to_string(index)); }
+};
+
+// Text from a file, fit for one line of a terminal: control characters become '?', and it ends after 160 bytes.
+[[nodiscard]] inline std::string one_line(std::string_view text) {
+    std::string line;
+    for (const char c : text.substr(0, 160)) line += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+    return text.size() > 160 ? line + "..." : line;
+}
+[[nodiscard]] inline std::string in_quotes(std::string_view text) {
+    std::string line{"'"};
+    line += one_line(text);
+    line += '\'';
+    return line;
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,125 @@
+// scenes/gltf/document/uri.cpp - see uri.h.
+#include "scenes/gltf/document/uri.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+namespace strata::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+int base64_value(char c) {  // -1: not of the alphabet
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    if (c == '+') return 62;
+    return c == '/' ? 63 : -1;
+}
+
+std::vector<std::byte> decode_base64(std::string_view text, const Place& place) {
+    for (int i = 0; i < 2 && !text.empty() && text.back() == '='; ++i) text.remove_suffix(1);
+    if (text.size() % 4 == 1)
+        place.fail("INVALID_URI", "whole base64 groups", std::to_string(text.size()) + " characters");
+    std::vector<std::byte> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 2);
+    std::uint32_t bits = 0;
+    int held = 0;
+    for (const char c : text) {
+        const int value = base64_value(c);
+        if (value < 0) place.fail("INVALID_URI", "base64 characters", in_quotes(std::string_view(&c, 1)));
+        bits = bits << 6 | static_cast<std::uint32_t>(value);
+        held += 6;
+        if (held < 8) continue;
+        held -= 8;
+        bytes.push_back(static_cast<std::byte>(bits >> held & 0xff));
+    }
+    return bytes;
+}
+
+Resource read_data_uri(std::string_view uri, const Place& place) {
+    const std::size_t comma = uri.find(',');
+    if (comma == uri.npos) place.fail("INVALID_URI", "a comma before the data", in_quotes(uri));
+    std::string_view head = uri.substr(5, comma - 5);
+    constexpr std::string_view base64 = ";base64";
+    if (!head.ends_with(base64)) place.fail("INVALID_URI", "base64 data", in_quotes(head));
+    head.remove_suffix(base64.size());
+    return {std::string(head.substr(0, head.find(';'))), decode_base64(uri.substr(comma + 1), place)};
+}
+
+bool has_scheme(std::string_view uri) {
+    const std::size_t colon = uri.find_first_of(":/");
+    return colon != uri.npos && uri[colon] == ':';
+}
+
+int hex_value(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    const char lower = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
+}
+
+std::string percent_decoded(std::string_view uri, const Place& place) {
+    std::string path;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] != '%') {
+            path += uri[i];
+            continue;
+        }
+        const bool is_whole = i + 2 < uri.size() && hex_value(uri[i + 1]) >= 0 && hex_value(uri[i + 2]) >= 0;
+        if (!is_whole) place.fail("INVALID_URI", "two hexadecimal digits after %", in_quotes(uri));
+        path += static_cast<char>(hex_value(uri[i + 1]) * 16 + hex_value(uri[i + 2]));
+        i += 2;
+    }
+    return path;
+}
+
+// A path that by its text alone cannot leave the folder it is taken from.
+fs::path relative_path(std::string_view uri, const Place& place) {
+    const std::string inside = "a relative uri inside the scene's folder";
+    if (has_scheme(uri) || uri.starts_with('/')) place.fail("NON_RELATIVE_URI", inside, in_quotes(uri));
+    if (uri.empty() || uri.find_first_of("?#") != uri.npos) place.fail("INVALID_URI", inside, in_quotes(uri));
+    const std::string decoded = percent_decoded(uri, place);
+    const auto is_forbidden = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == '\\' || c == 0x7f; };
+    if (std::any_of(decoded.begin(), decoded.end(), is_forbidden)) place.fail("INVALID_URI", inside, in_quotes(uri));
+    const fs::path path{decoded};
+    const bool goes_up = std::find(path.begin(), path.end(), fs::path{".."}) != path.end();
+    if (path.is_absolute() || goes_up) place.fail("NON_RELATIVE_URI", inside, in_quotes(uri));
+    return path;
+}
+
+bool is_inside(const fs::path& path, const fs::path& folder) {  // both canonical
+    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+}  // namespace
+
+std::vector<std::byte> read_file(const fs::path& path, const Place& place) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error))
+        place.fail(
+            "FILE_NOT_FOUND", "a file",
+            fs::is_directory(path, error) ? "a folder" : in_quotes(path.filename().string()) + ", which is none");
+    const std::uintmax_t size = fs::file_size(path, error);
+    if (error || size > max_file_bytes)
+        place.fail("IO_ERROR", "a file below 4 GiB", error ? error.message() : std::to_string(size));
+    std::vector<std::byte> bytes(size);
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
+        place.fail("IO_ERROR", "a readable file", "one that cannot be read");
+    return bytes;
+}
+
+Resource read_uri(std::string_view uri, const std::optional<fs::path>& folder, const Place& place) {
+    if (uri.starts_with("data:")) return read_data_uri(uri, place);
+    const fs::path relative = relative_path(uri, place);
+    if (!folder) place.fail("FILE_NOT_FOUND", "a data: uri, for this scene has no folder", in_quotes(uri));
+    std::error_code error;
+    const fs::path home = fs::canonical(*folder, error);
+    const fs::path path = error ? fs::path{} : fs::canonical(home / relative, error);
+    if (error) place.fail("FILE_NOT_FOUND", "a file in the scene's folder", in_quotes(uri));
+    if (!is_inside(path, home)) place.fail("NON_RELATIVE_URI", "a file in the scene's folder", "a link that leaves it");
+    return {"", read_file(path, place)};
+}
+
+}  // namespace strata::scenes

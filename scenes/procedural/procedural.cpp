@@ -1,0 +1,118 @@
+// scenes/procedural/procedural.cpp - scenes that come from a formula: names, parameters, and the choice between them and files.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/nearest_name.h"
+#include "scenes/procedural/parameters.h"
+#include "scenes/procedural/plane_stack.h"
+#include "scenes/procedural/random_soup.h"
+#include "scenes/procedural/shadow_demo.h"
+#include "scenes/procedural/teapot.h"
+#include "scenes/procedural/volume_beam.h"
+
+namespace strata::scenes {
+namespace {
+
+using Keys = std::vector<std::string_view>;
+
+Scene teapot(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"tessellation"}};
+    return make_teapot(options, static_cast<int>(parameters.integer("tessellation", 1, 256, 16)));
+}
+
+Scene volume_beam(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"slices", "order"}};
+    const auto slices = static_cast<int>(parameters.integer("slices", 1, 65536, 32));
+    const bool from_near = parameters.choice("order", Keys{"far", "near"}) == 1;
+    return make_volume_beam(options, slices, from_near ? BeamOrder::near : BeamOrder::far);
+}
+
+Scene random_soup(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"seed", "triangles"}};
+    const auto triangles = static_cast<std::uint32_t>(parameters.integer("triangles", 0, 10'000'000, 1000));
+    return make_random_soup(options, parameters.integer("seed", 0, UINT64_MAX, 1), triangles);
+}
+
+Scene plane_stack(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"count", "gap", "cells"}};
+    return make_plane_stack(options, {.count = static_cast<int>(parameters.integer("count", 1, 64, 6)),
+                                      .cells = static_cast<int>(parameters.integer("cells", 1, 256, 8)),
+                                      .gap = static_cast<double>(parameters.integer("gap", 0, 1u << 20, 1u << 16))});
+}
+
+Scene shadow_demo(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{}};
+    return make_shadow_demo(options);
+}
+
+struct Maker {
+    std::string_view name;
+    Scene (*make)(const std::string& spec, const SceneOptions& options);
+};
+constexpr Maker makers[] = {{"teapot", teapot},
+                            {"volume-beam", volume_beam},
+                            {"random", random_soup},
+                            {"planes", plane_stack},
+                            {"shadow-demo", shadow_demo}};
+
+Keys names() {
+    Keys result;
+    for (const Maker& maker : makers) result.push_back(maker.name);
+    return result;
+}
+
+bool is_gltf_path(const std::string& spec) {
+    std::string tail = spec.substr(spec.size() - std::min<std::size_t>(spec.size(), 5));
+    std::ranges::transform(tail, tail.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return tail == ".gltf" || tail.ends_with(".glb");
+}
+
+}  // namespace
+
+const std::vector<ProceduralScene>& procedural_scenes() {
+    static const std::vector<ProceduralScene> scenes{
+        {"teapot", "tessellation=N",
+         "Utah teapot on a ground plane: outside red, inside green, plane blue; N x N cells a patch (1 to 256, default "
+         "16)"},
+        {"volume-beam", "slices=N,order=far|near",
+         "N alpha-modulated planes crossed by a conical shell (1 to 65536, default 32), drawn from the far or the near "
+         "end"},
+        {"random", "seed=S,triangles=N",
+         "triangle soup with exact ties for tests (0 to 10000000, default 1000; seed default 1)"},
+        {"planes", "count=N,gap=G,cells=C",
+         "N parallel planes, G / 2^20 apart, each cut into a grid of its own (1 to 64, default 6; 0 to 1048576, "
+         "default "
+         "65536; 1 to 256, default 8)"},
+        {"shadow-demo", "",
+         "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
+    };
+    return scenes;
+}
+
+bool is_procedural(const std::string& spec) {
+    return std::ranges::find(makers, scene_name(spec), &Maker::name) != std::end(makers);
+}
+
+Scene make_procedural(const std::string& spec, const SceneOptions& options) {
+    const FloatEnvironment environment;
+    const auto maker = std::ranges::find(makers, scene_name(spec), &Maker::name);
+    if (maker == std::end(makers)) {
+        throw InputError(spec, "scene", fmt::format("one of {}", fmt::join(names(), ", ")),
+                         quoted_with_suggestion(scene_name(spec), names()));
+    }
+    if (options.scene.value_or(0) != 0)
+        throw InputError(spec, "--scene", "0, the only one", std::to_string(*options.scene));
+    return maker->make(spec, options);
+}
+
+Scene load_scene(const std::string& spec, const SceneOptions& options) {
+    if (is_procedural(spec)) return make_procedural(spec, options);
+    if (is_gltf_path(spec)) return load_gltf(spec, options);
+    throw InputError(spec, "scene", fmt::format("a .gltf or .glb file, or one of {}", fmt::join(names(), ", ")),
+                     quoted_with_suggestion(scene_name(spec), names()));
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,87 @@
+#include "scenes/procedural/volume_beam.h"
+
+#include <cmath>
+
+#include "rasterizer/base/numerics.h"
+#include "scenes/bounds.h"
+#include "scenes/numbers/elementary.h"
+#include "scenes/numbers/srgb_encode.h"
+
+namespace strata::scenes {
+namespace {
+
+pipeline::Vec3 rounded(double x, double y, double z) noexcept {
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+}
+
+// 0.5 + 0.5 cos(2 pi (t - shift))
+float wave(double t, double shift) noexcept { return static_cast<float>(0.5 + 0.5 * cos(2 * pi * (t - shift))); }
+
+void add_slice(pipeline::Mesh& mesh, int i, int slices, pipeline::ColorSpace space) {
+    const double t = (i + 0.5) / slices;
+    const double z = -1 + 2 * (i + 0.5) / slices;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int k = 0; k < 4; ++k) {
+        const float alpha = 0.25f * static_cast<float>(1 + (7 * i + 5 * k) % 4);
+        mesh.positions.push_back(rounded((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, z));
+        mesh.normals.push_back({0, 0, 1});
+        mesh.colors.push_back(from_encoded({wave(t, 0), wave(t, 1.0 / 3), wave(t, 2.0 / 3), alpha}, space));
+    }
+    for (const std::uint32_t corner : {0u, 1u, 3u, 0u, 3u, 2u}) mesh.indices.push_back(first + corner);
+}
+
+pipeline::Mesh planes(int slices, BeamOrder order, pipeline::ColorSpace space) {
+    pipeline::Mesh mesh;
+    mesh.name = "planes";
+    for (int i = 0; i < slices; ++i) add_slice(mesh, order == BeamOrder::far ? i : slices - 1 - i, slices, space);
+    return mesh;
+}
+
+constexpr int rings = 50, segments = 50;
+
+void add_ring(pipeline::Mesh& mesh, int j, const pipeline::Rgba& color) {
+    const double s = j / double{rings};
+    const double y = 0.9 - 1.8 * s, radius = 0.02 + 0.83 * s;
+    constexpr double slope = 0.83 / 1.8;
+    const double length = std::sqrt(1 + slope * slope);
+    for (int k = 0; k < segments; ++k) {
+        const double angle = 2 * pi * k / segments;
+        const double c = cos(angle), d = sin(angle);
+        mesh.positions.push_back(rounded(radius * c, y, radius * d));
+        mesh.normals.push_back(rounded(c / length, slope / length, d / length));
+        mesh.colors.push_back(color);
+    }
+}
+
+pipeline::Mesh cone(pipeline::ColorSpace space) {
+    pipeline::Mesh mesh;
+    mesh.name = "cone";
+    for (int j = 0; j <= rings; ++j) add_ring(mesh, j, from_encoded({0.9f, 0.8f, 0.3f, 1}, space));
+    constexpr std::uint32_t row = segments;
+    for (std::uint32_t j = 0; j < rings; ++j) {
+        for (std::uint32_t k = 0; k < row; ++k) {
+            const std::uint32_t a = j * row + k, b = j * row + (k + 1) % row;
+            const std::uint32_t c = a + row, d = b + row;
+            mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
+        }
+    }
+    return mesh;
+}
+
+}  // namespace
+
+Scene make_volume_beam(const SceneOptions& options, int slices, BeamOrder order) {
+    Scene scene;
+    scene.name = "volume-beam";
+    scene.list.meshes = {planes(slices, order, options.color_space), cone(options.color_space)};
+    for (const char* name : {"planes", "cone"}) {
+        scene.list.materials.push_back(
+            {.name = name, .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = !options.light});
+    }
+    scene.list.instances = {{.mesh = 0, .material = 0, .arrives_sorted = order == BeamOrder::near},
+                            {.mesh = 1, .material = 1}};
+    scene.bounds = bounds_of(scene.list);
+    return scene;
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,16 @@
+// scenes/procedural/volume_beam.h - a stack of alpha-modulated planes crossed by a conical shell, after Carr et al., Figure 1.
+//
+// Rule     decisions.md 2, in binary64, each vertex rounded once to binary32. Mesh 0: the planes in the order in which
+//          they are drawn; mesh 1: the cone. Both two-sided and BLEND (the cone's alpha is 1: `--alpha` makes it
+//          transparent).
+// Tests    tests/scenes/procedural/volume_beam_test.cpp
+#pragma once
+#include "scenes/scene.h"
+
+namespace strata::scenes {
+
+enum class BeamOrder { far, near };  // which end of the stack is drawn first, seen from +z
+
+[[nodiscard]] Scene make_volume_beam(const SceneOptions& options, int slices, BeamOrder order);
+
+}  // namespace strata::scenes

@@ -1,0 +1,144 @@
+// Model: the peel as Everitt 2001 tells it, fragment by fragment: what is nearest of all that lies behind the depth peeled last.
+#include "peeling/audit/safe_range.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "tests/support/random_numbers.h"
+
+using namespace strata::peeling;
+using strata::testing::Random;
+using strata::testing::random_int;
+
+namespace {
+
+enum class Moved { compare, stored };
+
+struct Errors {
+    int duplicated = 0, lost = 0, hidden = 0;  // hidden: behind the opaque surface, and composited
+    [[nodiscard]] bool none() const { return duplicated == 0 && lost == 0 && hidden == 0; }
+};
+
+// One pixel, `passes` passes; n moves the compare, or the stored depth (then clamped to the format's 0 and `far`).
+Errors peel(const std::vector<PathPair>& pixel, std::int64_t opaque, std::int64_t n, Moved moved) {
+    std::set<std::int64_t> layers;
+    for (const PathPair& f : pixel)
+        if (f.stored < opaque) layers.insert(f.stored);
+    std::map<std::int64_t, int> times;
+    std::optional<std::int64_t> peeled;
+    for (std::size_t pass = 0; pass < 2 * layers.size() + 2; ++pass) {
+        const PathPair* nearest = nullptr;
+        const auto depth = [&](const PathPair& f) {
+            return moved == Moved::stored ? std::max<std::int64_t>(0, f.stored + n) : std::int64_t{f.stored};
+        };
+        for (const PathPair& f : pixel) {
+            const std::int64_t limit = moved == Moved::compare ? n : 0;
+            if (peeled && !(std::int64_t{f.reference} > *peeled + limit)) continue;
+            if (depth(f) < opaque && (nearest == nullptr || depth(f) < depth(*nearest))) nearest = &f;
+        }
+        if (nearest == nullptr) break;
+        peeled = depth(*nearest);
+        ++times[nearest->stored];
+    }
+    Errors errors;
+    for (const auto& [stored, count] : times)
+        if (stored >= opaque) errors.hidden += count;
+    for (const std::int64_t layer : layers) {
+        if (times[layer] > 1) ++errors.duplicated;
+        if (times[layer] == 0) ++errors.lost;
+    }
+    return errors;
+}
+
+struct Field {
+    std::vector<PathPair> pairs;
+    std::vector<std::uint32_t> opaque;
+};
+
+// Few codes, so that ties, neighbours and exclusions all occur; differences of up to `noise`.
+Field random_field(Random& random, int codes, int noise) {
+    Field field;
+    const int pixels = random_int(random, 1, 3);
+    for (int p = 0; p < pixels; ++p) {
+        field.opaque.push_back(static_cast<std::uint32_t>(random_int(random, codes / 2, codes)));
+        const int fragments = random_int(random, 0, 5);
+        for (int i = 0; i < fragments; ++i) {
+            const int stored = random_int(random, 0, codes - 1);
+            const int reference = std::max(1, stored + random_int(random, -noise, noise));
+            field.pairs.push_back({static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(i),
+                                   static_cast<std::uint32_t>(stored), static_cast<std::uint32_t>(reference)});
+        }
+    }
+    return field;
+}
+
+Errors peel(const Field& field, std::int64_t n, Moved moved) {
+    Errors all;
+    for (std::uint32_t p = 0; p < field.opaque.size(); ++p) {
+        std::vector<PathPair> pixel;
+        for (const PathPair& pair : field.pairs)
+            if (pair.pixel == p) pixel.push_back(pair);
+        const Errors errors = peel(pixel, field.opaque[p], n, moved);
+        all.duplicated += errors.duplicated;
+        all.lost += errors.lost;
+        all.hidden += errors.hidden;
+    }
+    return all;
+}
+
+// How many of 4,000 random fields have an n for which "safe" and "no error" are not the same.
+int wrong_fields(Moved moved, int codes, int noise) {
+    Random random{1};
+    int wrong = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Field field = random_field(random, codes, noise);
+        const SafeRange range =
+            moved == Moved::stored ? safe_bias(field.pairs, field.opaque) : safe_epsilon(field.pairs, field.opaque);
+        bool agrees = true;
+        for (int n = -codes - noise - 2; n <= codes + noise + 2; ++n)
+            agrees = agrees && range.contains(n) == peel(field, n, moved).none();
+        wrong += agrees ? 0 : 1;
+    }
+    return wrong;
+}
+
+}  // namespace
+
+TEST_CASE("an epsilon peels without duplicate and loss exactly if the adviser calls it safe") {
+    CHECK(wrong_fields(Moved::compare, 12, 2) == 0);
+    CHECK(wrong_fields(Moved::compare, 200, 9) == 0);
+}
+
+TEST_CASE("a bias of the stored depth peels without duplicate and loss exactly if the adviser calls it safe") {
+    CHECK(wrong_fields(Moved::stored, 12, 2) == 0);
+    CHECK(wrong_fields(Moved::stored, 200, 9) == 0);
+}
+
+TEST_CASE("where no epsilon is safe, the named fragments alone exclude each other") {
+    Random random{2};
+    int empty = 0, wrong = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Field field = random_field(random, 40, 6);
+        const SafeRange range = safe_epsilon(field.pairs, field.opaque);
+        if (!range.is_empty()) continue;
+        ++empty;
+        std::vector<PathPair> named{range.repeated, range.front, range.behind};
+        named[0].pixel = 0;
+        named[1].pixel = named[2].pixel = 1;  // even if they share a pixel
+        const std::vector<std::uint32_t> opaque(2, 40u);
+        if (!safe_epsilon(named, opaque).is_empty()) ++wrong;
+    }
+    CHECK(empty > 100);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("without fragments every epsilon is safe, with one layer every one from its difference on") {
+    const std::vector<std::uint32_t> opaque{100};
+    CHECK(safe_epsilon({}, opaque) == SafeRange{});
+    const std::vector<PathPair> one{{0, 0, 10, 13}};
+    CHECK(safe_epsilon(one, opaque).lowest == 3);
+    CHECK_FALSE(safe_epsilon(one, opaque).highest);
+    CHECK(safe_bias(one, opaque).highest == 89);
+    CHECK(safe_bias(one, opaque).behind_opaque);
+}

@@ -1,0 +1,105 @@
+#include "pipeline/formats/half.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/pipeline/exhaustive.h"
+#include "tests/pipeline/format_models.h"
+#include "tests/pipeline/stage_values.h"
+
+using namespace strata::pipeline;
+
+namespace {
+
+std::uint16_t nearest(std::uint32_t bits) { return to_half<HalfRounding::nearest_even>(float_of(bits)); }
+std::uint16_t toward_zero(std::uint32_t bits) { return to_half<HalfRounding::toward_zero>(float_of(bits)); }
+
+// Each half's neighbourhood, and every 4,099th pattern (a prime).
+template <class Body>
+void for_many_floats(Body&& body) {
+    for (std::uint32_t half = 0; half < 0x10000; ++half)
+        for (std::uint32_t offset = 0; offset < 5; ++offset)
+            for (const std::uint32_t middle : {0u, 0x1000u})
+                body(bits_of(half_to_float(static_cast<std::uint16_t>(half))) + middle + offset - 2);
+    for (std::uint64_t bits = 0; bits < (std::uint64_t{1} << 32); bits += 4099) body(static_cast<std::uint32_t>(bits));
+    for (const std::uint32_t bits : hard_bits) body(bits);
+}
+
+}  // namespace
+
+TEST_CASE("every half becomes the binary32 value of its definition, and a NaN keeps sign and payload") {
+    int wrong = 0;
+    for (std::uint32_t half = 0; half < 0x10000; ++half) {
+        const float value = half_to_float(static_cast<std::uint16_t>(half));
+        const auto e = static_cast<int>(half >> 10 & 0x1f), m = static_cast<int>(half & 0x3ff);
+        const double sign = (half & 0x8000) != 0 ? -1.0 : 1.0;
+        bool holds = false;
+        if (e == 31) {
+            holds = bits_of(value) == ((half & 0x8000) << 16 | 0x7f800000u | static_cast<std::uint32_t>(m) << 13);
+        } else {
+            const double expected = sign * (e == 0 ? std::ldexp(m, -24) : std::ldexp(1024 + m, e - 25));
+            holds = double{value} == expected && std::signbit(value) == std::signbit(expected);
+        }
+        wrong += holds ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a half survives binary32 and both ways back, save that a signalling NaN becomes quiet") {
+    int wrong = 0;
+    for (std::uint32_t half = 0; half < 0x10000; ++half) {
+        const bool is_nan_code = (half & 0x7fff) > 0x7c00;
+        const std::uint32_t expected = is_nan_code ? half | 0x200 : half;
+        const std::uint32_t bits = bits_of(half_to_float(static_cast<std::uint16_t>(half)));
+        wrong += nearest(bits) == expected && toward_zero(bits) == expected ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a float becomes the half nearest to it, the even one at a midpoint") {
+    Tally tally;
+    for_many_floats([&](std::uint32_t bits) {
+        tally.expect(model::is_nearest_half(bits, nearest(bits)),
+                     [&] { return fmt::format("{:08x} -> {:04x}", bits, nearest(bits)); });
+    });
+    INFO("first wrong: " << tally.first());
+    CHECK(tally.wrong() == 0);
+}
+
+TEST_CASE("toward zero a float becomes the largest half not above its magnitude, and overflow stays at 65504") {
+    Tally tally;
+    for_many_floats([&](std::uint32_t bits) {
+        tally.expect(model::is_half_toward_zero(bits, toward_zero(bits)),
+                     [&] { return fmt::format("{:08x} -> {:04x}", bits, toward_zero(bits)); });
+    });
+    INFO("first wrong: " << tally.first());
+    CHECK(tally.wrong() == 0);
+}
+
+TEST_CASE("nearest overflows to infinity from 65520 on") {
+    CHECK(nearest(bits_of(65519.996f)) == 0x7bff);
+    CHECK(nearest(bits_of(65520.0f)) == 0x7c00);
+    CHECK(nearest(bits_of(-65520.0f)) == 0xfc00);
+    CHECK(toward_zero(bits_of(65520.0f)) == 0x7bff);
+    CHECK(toward_zero(bits_of(3e38f)) == 0x7bff);
+    CHECK(toward_zero(0xff800000) == 0xfc00);
+}
+
+TEST_CASE("a fragment counter in fp16 sticks at 2048 under both roundings") {
+    for (const HalfRounding rounding : {HalfRounding::nearest_even, HalfRounding::toward_zero}) {
+        std::uint16_t count = 0;
+        for (int i = 0; i < 3000; ++i) count = to_half(half_to_float(count) + 1.0f, rounding);
+        CHECK(half_to_float(count) == 2048.0f);
+    }
+}
+
+TEST_CASE("every one of the 2^32 floats becomes the right half under both roundings", "[exhaustive]") {
+    const Exhausted even =
+        over_all_floats([](std::uint32_t bits) { return model::is_nearest_half(bits, nearest(bits)); });
+    INFO("first wrong: " << fmt::format("{:08x}", even.first));
+    CHECK(even.wrong == 0);
+    const Exhausted zero =
+        over_all_floats([](std::uint32_t bits) { return model::is_half_toward_zero(bits, toward_zero(bits)); });
+    INFO("first wrong: " << fmt::format("{:08x}", zero.first));
+    CHECK(zero.wrong == 0);
+}

@@ -1,0 +1,49 @@
+#include "pipeline/formats/unorm8.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/exhaustive.h"
+#include "tests/pipeline/format_models.h"
+#include "tests/pipeline/stage_values.h"
+
+using namespace strata::pipeline;
+
+TEST_CASE("every UNORM8 code is k/255 correctly rounded, and comes back as itself") {
+    int wrong = 0;
+    for (int k = 0; k < 256; ++k) {
+        const float value = from_unorm8(static_cast<std::uint8_t>(k));
+        // |value - k/255| <= half a step to either neighbour, over 2^-150: 255 (2 v -+ ulp) against 510 k
+        const model::Binary v = model::magnitude(bits_of(value));
+        const model::Wide twice = model::Wide{2} * 255 * v.mantissa;
+        const model::Wide target = k == 0 ? 0 : (model::Wide{2} * k) << -v.exponent;
+        const model::Wide distance = twice > target ? twice - target : target - twice;
+        const bool is_rounded = k == 0 ? bits_of(value) == 0 : distance <= 255;
+        wrong +=
+            is_rounded && to_unorm8(value) == k && bits_of(unorm8_table[static_cast<std::size_t>(k)]) == bits_of(value)
+                ? 0
+                : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a float becomes the UNORM8 code nearest to it: a half goes up, NaN is 0, the rest clamps") {
+    Tally tally;
+    const auto check = [&](std::uint32_t bits) {
+        const int code = to_unorm8(float_of(bits));
+        tally.expect(model::is_unorm8(bits, code), [&] { return fmt::format("{:08x} -> {}", bits, code); });
+    };
+    for (const std::uint32_t bits : hard_bits) check(bits);
+    for (int k = 0; k < 256; ++k)
+        for (std::uint32_t i = 0; i < 9; ++i) check(bits_of(static_cast<float>(2 * k + 1) / 510.0f) + i - 4);
+    for (std::uint64_t bits = 0; bits < (std::uint64_t{1} << 32); bits += 4099) check(static_cast<std::uint32_t>(bits));
+    INFO("first wrong: " << tally.first());
+    CHECK(tally.wrong() == 0);
+    CHECK(to_unorm8(0.5f) == 128);  // 127.5
+}
+
+TEST_CASE("every one of the 2^32 floats becomes the right UNORM8 code", "[exhaustive]") {
+    const Exhausted result =
+        over_all_floats([](std::uint32_t bits) { return model::is_unorm8(bits, to_unorm8(float_of(bits))); });
+    INFO("first wrong: " << fmt::format("{:08x}", result.first));
+    CHECK(result.wrong == 0);
+}

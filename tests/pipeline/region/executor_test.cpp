@@ -1,0 +1,280 @@
+// Bodies that a careless executor gets wrong: literal execution is the definition, and what each must show is worked
+// out beside it.
+#include "pipeline/region/executor.h"
+
+#include <bit>
+#include <catch2/catch.hpp>
+
+#include "pipeline/device/check.h"
+#include "tests/pipeline/frames.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+
+constexpr int slots = 12;
+
+float slot_depth(int slot) { return static_cast<float>(slot + 1) / 16.0f; }
+
+// The fragments that lie at the depth of `slot`, optionally those of alpha 1 alone.
+Count count_slot(Region& region, int slot, bool opaque_only = false) {
+    const std::uint32_t code = std::bit_cast<std::uint32_t>(slot_depth(slot));
+    return region
+        .draw(PassState{},
+              [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+                  for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+                      if (in.code[i] != code || (opaque_only && in.color[3][i] != 1.0f)) out.alive[i] = 0;
+              })
+        .passed;
+}
+
+// One code more in `channel` of every pixel.
+void add_one(Region& region, Target sum, std::size_t channel) {
+    PassState state;
+    state.color[0] = sum;
+    state.blend[0] = blend_mode::sum;
+    static_cast<void>(region.full_screen(state, [&](const FragmentBatch&, const Loads&, Outputs& out) {
+        for (std::size_t c = 0; c < 4; ++c) out.color[0][c].fill(c == channel ? 1.0f / 255.0f : 0.0f);
+    }));
+}
+
+struct Spot {
+    std::size_t pixel;
+    std::vector<int> slots;  // a fragment in each
+    float alpha = 0.5f;
+};
+
+FragmentScene spots(const std::vector<Spot>& all) {
+    FragmentScene scene{32, 16};  // eight tiles of 8 x 8
+    for (const Spot& spot : all)
+        for (const int slot : spot.slots)
+            scene.pixels[spot.pixel].fragments.push_back({slot_depth(slot), {1, 1, 1, spot.alpha}});
+    return scene;
+}
+
+// (a) and (d): red counts the frame's iterations at every pixel, whatever the pixel itself has left.
+void count_iterations(Region& region) {
+    const Target sum = region.make_color();
+    for (int slot = 0; slot < slots && !region.limit_reached(); ++slot) {
+        region.begin_iteration();
+        const Count found = count_slot(region, slot);
+        add_one(region, sum, 0);
+        if (!region.any(found, Idle::no)) break;
+    }
+    region.publish(sum);
+}
+
+// (c): two questions an iteration; green counts the iterations that found alpha 1, blue those that did not.
+template <Idle promise>
+void branch(Region& region) {
+    const Target sum = region.make_color();
+    for (int slot = 0; slot < slots && !region.limit_reached(); ++slot) {
+        region.begin_iteration();
+        const bool opaque = region.any(count_slot(region, slot, true), Idle::no);
+        if (opaque || promise == Idle::no) add_one(region, sum, opaque ? 1 : 2);
+        if (!opaque) static_cast<void>(count_slot(region, slots));  // a pass that finds nothing, but costs
+        if (!region.any(count_slot(region, slot), promise)) break;
+    }
+    static_cast<void>(count_slot(region, 0));  // what follows the loop
+    region.publish(sum);
+}
+
+FrameResult execute(const TestFrame& test, const Body& body, Execution execution) {
+    return run(test.frame, body, execution, 2);
+}
+
+// Tiled execution of the test's tiles, and replay with memory for every fragment and for none, equal literal; literal is what
+// is returned.
+FrameResult both(const TestFrame& test, const Body& body) {
+    FrameResult literal = execute(test, body, Execution::literal);
+    constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
+    for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1}, megabyte}) {  // 0: tiled
+        Frame frame = test.frame;
+        frame.replay.bytes = memory;
+        const FrameResult found = run(frame, body, memory > 0 ? Execution::replay : Execution::tiled, 2);
+        INFO(memory << " bytes of fragments a region");
+        CHECK(found.color == literal.color);
+        CHECK(found.iterations == literal.iterations);
+        CHECK(found.passes == literal.passes);
+        CHECK(found.counters == literal.counters);
+        CHECK(found.diagnostics == literal.diagnostics);
+    }
+    return literal;
+}
+
+// Two codes that tell every pixel of these frames from every other.
+void write_place(Region& region, Target target) {
+    PassState state;
+    state.color[0] = target;
+    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            out.color[0][0][i] = static_cast<float>(in.x[i]) / 255.0f;
+            out.color[0][1][i] = static_cast<float>(in.y[i]) / 255.0f;
+            out.color[0][2][i] = out.color[0][3][i] = 0;
+        }
+    }));
+}
+
+// Loads must be of the fragment's own place: red counts the fragments and the screen's pixels of which they are.
+void read_place(Region& region) {
+    const Target places = region.make(Format::rgba8), sum = region.make_color();
+    write_place(region, places);
+    PassState state;
+    state.reads[0] = places;
+    state.color[0] = sum;
+    state.blend[0] = blend_mode::sum;
+    const auto program = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            const bool same = own.color(0)[0][i] == static_cast<float>(in.x[i]) / 255.0f &&
+                              own.color(0)[1][i] == static_cast<float>(in.y[i]) / 255.0f;
+            out.color[0][0][i] = same ? 1.0f / 255.0f : 0.0f;
+            for (std::size_t c = 1; c < 4; ++c) out.color[0][c][i] = 0;
+        }
+    };
+    for (int pass = 0; pass < 2; ++pass) static_cast<void>(region.draw(state, program));  // the second may be recalled
+    static_cast<void>(region.full_screen(state, program));
+    region.publish(sum);
+}
+
+// Every pixel's code in `channel`, if they are all the same; else -1.
+int everywhere(const FrameResult& result, std::size_t channel) {
+    const auto& codes = result.color.codes;
+    for (std::size_t i = channel; i < codes.size(); i += 4)
+        if (codes[i] != codes[channel]) return -1;
+    return static_cast<int>(codes[channel]);
+}
+
+}  // namespace
+
+TEST_CASE("a body that changes finished pixels runs every tile to the frame's end") {
+    const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0}}}), "geforce8"};  // most tiles are empty
+    const FrameResult result = both(test, count_iterations);
+    CHECK(result.iterations == 5);
+    CHECK(everywhere(result, 0) == 5);
+    CHECK(result.passes == PassCount{5, 5, 0});
+    CHECK(result.counters.fragments_rasterized == 5 * 5);
+    CHECK(result.counters.blended == 5);
+}
+
+TEST_CASE("a tile whose count is zero and later is not goes on with the frame") {
+    // Tile 0 has nothing in slots 1 and 3, tile 2 fills these gaps; slot 4 is empty everywhere, so slot 5 is never
+    // reached.
+    const TestFrame test{spots({{5, {0, 2, 5}}, {20, {1}}, {300, {3}}}), "geforce8"};
+    const FrameResult result = both(test, count_iterations);
+    CHECK(result.iterations == 5);
+    CHECK(everywhere(result, 0) == 5);
+    CHECK(result.counters.blended == 4);
+}
+
+TEST_CASE("a ratio is of the frame's pixels, and stops tiles that would go on by their own count") {
+    TestFrame test{spots({{0, {0, 1, 2, 3, 4, 5}}, {1, {0, 1, 2}}, {40, {0, 1}}, {100, {0}}, {500, {0, 1, 2, 3}}}),
+                   "geforce8"};
+    // Counts 5, 4, 3, 2, 1 and 1 of 512 pixels.
+    for (const auto& [count, iterations] : {std::pair{6, 1}, {5, 2}, {4, 3}, {3, 4}, {2, 5}, {1, 7}}) {
+        test.frame.termination = {.rule = TerminationRule::ratio, .ratio = count / 512.0};
+        const FrameResult result = both(test, count_iterations);
+        CHECK(result.iterations == iterations);
+        CHECK(everywhere(result, 0) == iterations);
+    }
+}
+
+TEST_CASE("two queries an iteration, one for a branch, are answered by the whole frame") {
+    // Alpha 1 is found in slots 0 (tile 0), 2 (tile 3) and 3 (tile 7); no fragment at all in slot 5.
+    const TestFrame test{spots({{1, {0}, 1}, {2, {1, 2, 3, 4}}, {28, {2}, 1}, {511, {3}, 1}, {260, {0, 4, 6}}}),
+                         "geforce8"};
+    const FrameResult result = both(test, branch<Idle::no>);
+    CHECK(result.iterations == 6);
+    CHECK(everywhere(result, 1) == 3);
+    CHECK(everywhere(result, 2) == 3);
+    CHECK(result.passes == PassCount{2 * 6 + 3 + 1, 6, 0});
+}
+
+TEST_CASE("counters of idle iterations hold what follows a branch's answer") {
+    const auto scene = [](int first, float alpha) {
+        return spots({{static_cast<std::size_t>(first), {0}, alpha}, {3, {0, 1, 2, 3, 4}}, {28, {0, 1}}, {300, {0}}});
+    };
+    for (const int first : {1, 255}) {
+        // Alpha 1 in slot 0 alone, so that every later iteration of every tile takes the same branch: when_zero is
+        // honest.
+        const TestFrame once{scene(first, 1), "geforce8"};
+        const FrameResult probed = both(once, branch<Idle::when_zero>);
+        CHECK(probed.iterations == 6);
+        CHECK(everywhere(probed, 1) == 1);
+        CHECK(probed.passes == PassCount{2 * 6 + 5 + 1, 1, 0});
+        // No alpha 1 at all: every iteration is like the one before, which steady promises.
+        const TestFrame never{scene(first, 0.5f), "geforce8"};
+        CHECK(both(never, branch<Idle::steady>).passes == PassCount{2 * 6 + 6 + 1, 0, 0});
+    }
+}
+
+TEST_CASE("what a program loads is its own pixel's, wherever its region lies and wherever its fragments come from") {
+    std::vector<Spot> everywhere_once;
+    for (std::size_t pixel = 0; pixel < 32 * 16; ++pixel)
+        everywhere_once.push_back({pixel, {static_cast<int>(pixel % slots)}});
+    const TestFrame test{spots(everywhere_once), "geforce8"};
+    CHECK(everywhere(both(test, read_place), 0) == 3);  // two draws and one screen
+}
+
+TEST_CASE("max_passes and fixed:N count geometry passes in every region alike") {
+    TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0}}}), "geforce8"};
+    for (int passes = 1; passes <= 8; ++passes) {
+        test.frame.termination = {};
+        test.frame.max_passes = passes;
+        CHECK(everywhere(both(test, count_iterations), 0) == std::min(passes, 5));
+        test.frame.max_passes = 0;
+        test.frame.termination = {.rule = TerminationRule::fixed, .passes = passes};
+        const FrameResult result = both(test, count_iterations);
+        CHECK(result.iterations == passes);
+        CHECK(everywhere(result, 0) == passes);
+    }
+}
+
+TEST_CASE("a body without a query runs once, and its fragments are counted once") {
+    const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0}}, {511, {2}}}), "geforce8", 16};
+    const FrameResult result = both(test, [](Region& region) {
+        const Target color = region.make_color();
+        static_cast<void>(count_slot(region, 0));
+        region.publish(color);
+    });
+    CHECK(result.iterations == 0);
+    CHECK(result.passes == PassCount{1, 0, 0});
+    CHECK(result.counters.fragments_rasterized == 6);
+    CHECK(result.counters.discarded == 4);
+}
+
+TEST_CASE("a pass that the profile lacks is refused out of every execution") {
+    const TestFrame test{spots({{5, {0}}}), "geforce8"};
+    const Body body = [](Region& region) {
+        const Target color = region.make_color();
+        PassState state;
+        state.color[0] = color;
+        state.reads[0] = color;
+        state.ordered_rmw = true;
+        static_cast<void>(region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+    };
+    for (const Execution execution : {Execution::literal, Execution::tiled}) {
+        std::string sentence;
+        try {
+            static_cast<void>(execute(test, body, execution));
+        } catch (const Refused& refused) {
+            sentence = refused.what();
+        }
+        CHECK(sentence ==
+              "profile geforce8 has no ordered read-modify-write of render targets (STRATA_ordered_rmw); use ideal");
+    }
+}
+
+TEST_CASE("faults of tiles add up to the frame's, the first pixel in row-major order") {
+    const TestFrame test{spots({{5, {0}}, {300, {0}}, {14, {0}}}), "geforce8"};
+    const FrameResult result = both(test, [](Region& region) {
+        std::uint64_t pixels = 0;
+        std::uint32_t first = ~0u;
+        for (const CapturedFragment& f : region.capture(Bookkeeping::silent))
+            ++pixels, first = std::min(first, f.pixel);
+        region.report(Fault::half_saturated, pixels, first, "a test's");
+        region.publish(region.opaque_color());
+    });
+    REQUIRE(result.diagnostics.size() == 1);
+    CHECK(result.diagnostics[0] == Diagnostic{Fault::half_saturated, 3, 5, 0, "a test's"});
+}

@@ -1,0 +1,320 @@
+// Passes through one region: stencil, samples, alpha test, several targets, clears and copies, and passes that no
+// machine runs.
+#include "pipeline/region/region.h"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <stdexcept>
+
+#include "pipeline/device/check.h"
+#include "tests/pipeline/frames.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+
+// A frame and the region that covers it.
+struct Machine {
+    TestFrame test;
+    Region region;
+    Machine(const FragmentScene& scene, const char* profile)
+        : test{scene, profile}, region{test.frame, test.frame.rect(), 0, Extent::frame} {}
+};
+
+// Pixel p gets counts[p] fragments; the i-th has depth 1/2 and red i.
+FragmentScene stacks(const std::vector<int>& counts) {
+    FragmentScene scene{8, 4};
+    for (std::size_t p = 0; p < counts.size(); ++p)
+        for (int i = 0; i < counts[p]; ++i)
+            scene.pixels[p].fragments.push_back(
+                {0.5f, {static_cast<float>(i), 0, 0, static_cast<float>(i % 4) / 4.0f}});
+    return scene;
+}
+
+void pass_color(const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; }
+void write_nothing(const FragmentBatch&, const Loads&, Outputs&) {}
+
+StencilTest every_fragment(StencilOp op) {
+    StencilTest stencil;
+    stencil.enabled = true;
+    stencil.front = {.func = CompareFunc::always, .fail = op, .depth_fail = op, .pass = op};
+    return stencil;
+}
+
+std::uint32_t stencil_of(const Region& region, Target target, std::size_t pixel, int sample = 0) {
+    return region.storage(target).stencil(sample)[pixel];
+}
+
+}  // namespace
+
+TEST_CASE("INCR counts depth complexity up to 255, and pixels that saturate are counted once") {
+    Machine m{stacks({0, 1, 7, 255, 256, 300, 0, 3}), "geforce8"};
+    const Target stencil = m.region.make(Format::s8);
+    PassState state;
+    state.stencil = every_fragment(StencilOp::incr);
+    state.stencil_target = stencil;
+    static_cast<void>(m.region.draw(state, write_nothing));
+    const std::vector<std::uint32_t> expected{0, 1, 7, 255, 255, 255, 0, 3};
+    for (std::size_t p = 0; p < expected.size(); ++p) CHECK(stencil_of(m.region, stencil, p) == expected[p]);
+    REQUIRE(m.region.diagnostics().size() == 1);
+    CHECK(m.region.diagnostics()[0].fault == Fault::stencil_saturated);
+    CHECK(m.region.diagnostics()[0].pixels == 2);  // those of 256 and of 300 fragments
+    CHECK(m.region.diagnostics()[0].first_x == 4);
+    CHECK(m.region.diagnostics()[0].first_y == 0);
+}
+
+TEST_CASE("stencil-routed capture keeps the first k fragments of a pixel in k samples and tells an overflow") {
+    constexpr int k = 8;
+    const std::vector<int> counts{0, 1, 2, 7, 8, 9, 20};
+    Machine m{stacks(counts), "geforce8"};
+    const Target color = m.region.make(Format::rgba32f, k), stencil = m.region.make(Format::s8, k);
+    m.region.clear(color, {.color = {-1, -1, -1, -1}});
+    for (int s = 0; s < k; ++s)  // algorithms.md 13
+        m.region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2)}, static_cast<std::uint8_t>(1u << s));
+    PassState state;
+    state.color[0] = color;
+    state.stencil = every_fragment(StencilOp::decr);
+    state.stencil.front.func = CompareFunc::equal;
+    state.stencil.front.ref = 2;
+    state.stencil_target = stencil;
+    static_cast<void>(m.region.draw(state, pass_color));
+    for (std::size_t p = 0; p < counts.size(); ++p)
+        for (int s = 0; s < k; ++s) {
+            INFO(counts[p] << " fragments, sample " << s);
+            const float red = std::bit_cast<float>(m.region.storage(color).code(p, 0, s));
+            CHECK(red == (s < counts[p] ? static_cast<float>(s) : -1.0f));
+            CHECK(stencil_of(m.region, stencil, p, s) == static_cast<std::uint32_t>(std::max(0, s + 2 - counts[p])));
+        }
+    CHECK(stencil_of(m.region, stencil, 4, k - 1) == 1);  // exactly k: no overflow
+    CHECK(stencil_of(m.region, stencil, 5, k - 1) == 0);
+}
+
+TEST_CASE("a sample mask restricts writes, clears and the query to its samples") {
+    Machine m{stacks({0, 0, 3}), "geforce8"};
+    const Target color = m.region.make(Format::rgba32f, 4);
+    m.region.clear(color, {.color = {5, 5, 5, 5}});
+    m.region.clear(color, {.color = {6, 6, 6, 6}}, 0b1000);
+    PassState state;
+    state.color[0] = color;
+    state.sample_mask = 0b0101;
+    const Drawn drawn = m.region.draw(state, pass_color);
+    const std::array<float, 4> expected{2, 5, 2, 6};
+    for (int s = 0; s < 4; ++s)
+        CHECK(std::bit_cast<float>(m.region.storage(color).code(2, 0, s)) == expected[static_cast<std::size_t>(s)]);
+    CHECK(m.region.any(drawn.passed, Idle::no));
+    state.sample_mask = 0;
+    CHECK_FALSE(m.region.any(m.region.draw(state, pass_color).passed, Idle::no));
+}
+
+TEST_CASE("depth and stencil are tested for each sample on its own") {
+    Machine m{stacks({1}), "geforce8"};
+    const Target depth = m.region.make(Format::d32f, 2), color = m.region.make(Format::rgba32f, 2);
+    m.region.clear(depth, {.depth = 0.25f}, 0b01);
+    m.region.clear(depth, {.depth = 0.75f}, 0b10);
+    m.region.clear(color, {.color = {9, 9, 9, 9}});
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = depth;
+    state.color[0] = color;
+    static_cast<void>(m.region.draw(state, pass_color));
+    CHECK(std::bit_cast<float>(m.region.storage(color).code(0, 0, 0)) == 9.0f);
+    CHECK(std::bit_cast<float>(m.region.storage(color).code(0, 0, 1)) == 0.0f);
+    CHECK(m.region.storage(depth).depth(0)[0] == std::bit_cast<std::uint32_t>(0.25f));
+    CHECK(m.region.storage(depth).depth(1)[0] == std::bit_cast<std::uint32_t>(0.5f));
+}
+
+TEST_CASE("a target that is read and written at once is a broken program, and runs with ordered_rmw alone") {
+    Machine device{stacks({4}), "geforce8"}, ideal{stacks({0, 4, 2}), "ideal"};
+    const auto add_red = [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        out.color[0] = own.color(0);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) out.color[0][0][i] += 1.0f;
+    };
+    const auto loop = [](Region& region, bool ordered) {
+        PassState state;
+        state.color[0] = region.make(Format::rgba32f);
+        state.reads[0] = state.color[0];
+        state.ordered_rmw = ordered;
+        return state;
+    };
+    CHECK_THROWS_AS(device.region.draw(loop(device.region, false), add_red), std::logic_error);
+    CHECK_THROWS_AS(device.region.full_screen(loop(device.region, false), add_red), std::logic_error);
+    CHECK_THROWS_AS(device.region.draw(loop(device.region, true), add_red), Refused);
+    const PassState ordered = loop(ideal.region, true);
+    static_cast<void>(ideal.region.draw(ordered, add_red));
+    CHECK(ideal.region.color(ordered.color[0], 1)[0] == 4.0f);  // four fragments, one after another
+    CHECK(ideal.region.color(ordered.color[0], 2)[0] == 2.0f);
+}
+
+TEST_CASE("a depth target that is tested and loaded is a feedback loop only while it is written") {
+    Machine m{stacks({2}), "geforce8"};
+    PassState state;
+    state.depth_target = m.region.make_depth();
+    state.reads[0] = state.depth_target;
+    state.depth = {.enabled = true, .func = CompareFunc::lequal, .write = true};
+    CHECK_THROWS_AS(m.region.draw(state, write_nothing), std::logic_error);
+    state.depth.write = false;
+    CHECK_NOTHROW(m.region.draw(state, write_nothing));
+}
+
+TEST_CASE("passes that no machine could run are broken programs, not refusals") {
+    Machine m{stacks({2}), "geforce8"};
+    const Target color = m.region.make(Format::rgba8), depth = m.region.make(Format::d24),
+                 stencil = m.region.make(Format::s8);
+    PassState tests_nothing;
+    tests_nothing.depth.enabled = true;
+    CHECK_THROWS_AS(m.region.draw(tests_nothing, write_nothing), std::logic_error);
+    PassState wrong_kind;
+    wrong_kind.color[0] = stencil;
+    CHECK_THROWS_AS(m.region.draw(wrong_kind, write_nothing), std::logic_error);
+    PassState unequal_samples;
+    unequal_samples.color = {color, m.region.make(Format::rgba8, 4)};
+    CHECK_THROWS_AS(m.region.draw(unequal_samples, write_nothing), std::logic_error);
+    PassState other_codes;  // the frame's depth codes are binary32
+    other_codes.depth = {.enabled = true};
+    other_codes.depth_target = depth;
+    CHECK_THROWS_AS(m.region.draw(other_codes, write_nothing), std::logic_error);
+    CHECK_THROWS_AS(m.region.make(Format::rgba8, 16), Refused);
+}
+
+TEST_CASE("the alpha test kills by the program's alpha, before depth and stencil") {
+    Machine m{stacks({9}), "geforce8"};  // alphas 0, 1/4, 1/2, 3/4, 0, ...
+    PassState state;
+    state.alpha = {.enabled = true, .func = CompareFunc::greater, .ref = 0.25f};
+    state.color[0] = m.region.make(Format::rgba32f);
+    state.stencil = every_fragment(StencilOp::incr);
+    state.stencil_target = m.region.make(Format::s8);
+    static_cast<void>(m.region.draw(state, pass_color));
+    CHECK(stencil_of(m.region, state.stencil_target, 0) == 4);
+    CHECK(m.region.color(state.color[0], 0)[0] == 7.0f);
+    const Counters& counted = m.region.records().front().counters;
+    CHECK(counted.fragments_rasterized == 9);
+    CHECK(counted.alpha_killed == 5);
+    CHECK(counted.blended == 4);
+}
+
+TEST_CASE("several targets take their own outputs, formats, blends and write masks from one pass") {
+    Machine m{stacks({0, 3}), "geforce8_dx101"};
+    PassState state;
+    state.color = {m.region.make(Format::rgba8), m.region.make(Format::rg32f), m.region.make(Format::r16f)};
+    state.blend = {blend_mode::replace, blend_mode::max, blend_mode::sum};
+    state.blend[0].write_mask = 0b0101;
+    m.region.clear(state.color[0], {.color = {1, 1, 1, 1}});
+    m.region.clear(state.color[1], {.color = {-8, -8, 0, 0}});
+    static_cast<void>(m.region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            const float number = in.color[0][i];
+            for (std::size_t c = 0; c < 4; ++c) {
+                out.color[0][c][i] = 0.2f;
+                out.color[1][c][i] = c == 0 ? -number : number;
+                out.color[2][c][i] = 0.5f;
+            }
+        }
+    }));
+    const auto code = [&](std::size_t k, int c) { return m.region.storage(state.color[k]).code(1, c, 0); };
+    CHECK(std::array{code(0, 0), code(0, 1), code(0, 2), code(0, 3)} == std::array{51u, 255u, 51u, 255u});
+    CHECK(std::bit_cast<float>(code(1, 0)) == 0.0f);  // max of -0, -1, -2
+    CHECK(std::bit_cast<float>(code(1, 1)) == 2.0f);
+    CHECK(code(2, 0) == 0x3e00u);  // 1.5 as a half
+}
+
+TEST_CASE("a pass draws the named primitives alone, in order, and an empty range draws nothing") {
+    Machine m{stacks({4}), "geforce8"};  // primitives 0 to 3, reds 0 to 3
+    const auto drawn_reds = [&](std::vector<PrimitiveRange> ranges) {
+        std::vector<float> reds;
+        PassState state;
+        state.primitives = ranges;
+        static_cast<void>(m.region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs&) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) reds.push_back(in.color[0][i]);
+        }));
+        return reds;
+    };
+    CHECK(drawn_reds({}) == std::vector<float>{0, 1, 2, 3});
+    CHECK(drawn_reds({{1, 3}}) == std::vector<float>{1, 2});
+    CHECK(drawn_reds({{0, 1}, {3, 9}}) == std::vector<float>{0, 3});
+    CHECK(drawn_reds({{2, 2}}).empty());
+}
+
+TEST_CASE("a full-screen program that replaces depths has them compared and written, lane by lane") {
+    Machine m{stacks({}), "geforce8"};
+    const Target depth = m.region.make(Format::d32f);
+    m.region.clear(depth, {.depth = 0.5f});
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::greater, .write = true};
+    state.depth_target = depth;
+    const Drawn drawn = m.region.full_screen(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+        out.replaces_depth = true;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+            out.depth[i] = std::bit_cast<std::uint32_t>(in.pixel[i] == 3 ? 0.75f : 0.25f);
+    });
+    CHECK(m.region.any(drawn.passed, Idle::no));
+    for (std::size_t p = 0; p < 32; ++p)
+        CHECK(m.region.storage(depth).depth(0)[p] == std::bit_cast<std::uint32_t>(p == 3 ? 0.75f : 0.5f));
+}
+
+TEST_CASE("a stencil count that stops by design is no fault") {
+    Machine m{stacks({300}), "geforce8"};
+    PassState state;
+    state.stencil = every_fragment(StencilOp::incr);
+    state.stencil_target = m.region.make(Format::s8);
+    state.saturates_by_design = true;
+    static_cast<void>(m.region.draw(state, write_nothing));
+    CHECK(stencil_of(m.region, state.stencil_target, 0) == 255);
+    CHECK(m.region.diagnostics().empty());
+}
+
+TEST_CASE("a limit is reached when fewer passes are left than an iteration needs") {
+    TestFrame test{stacks({1}), "geforce8"};
+    test.frame.max_passes = 3;
+    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    CHECK_FALSE(region.limit_reached(3));
+    CHECK(region.limit_reached(4));
+    static_cast<void>(region.draw({}, write_nothing));
+    CHECK_FALSE(region.limit_reached(2));
+    CHECK(region.limit_reached(3));
+}
+
+TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere else") {
+    const auto cleared = [](const char* profile, Format format, float value) {
+        Machine m{FragmentScene{1, 1}, profile};
+        const Target depth = m.region.make(format);
+        m.region.clear(depth, {.depth = value});
+        return m.region.storage(depth).depth(0)[0];
+    };
+    CHECK(cleared("geforce8", Format::d32f, -1.0f) == std::bit_cast<std::uint32_t>(-1.0f));
+    CHECK(cleared("geforce8", Format::d32f, 2.0f) == std::bit_cast<std::uint32_t>(2.0f));
+    CHECK(cleared("geforce8", Format::d24, -1.0f) == 0u);
+    CHECK(cleared("geforce8", Format::d24, 2.0f) == 0xffffffu);
+    CHECK(cleared("geforce3", Format::d16, 0.5f) == 0x7fffu);      // floor of 32767.5
+    CHECK(cleared("geforce8", Format::d24s8, 0.5f) == 0x800000u);  // 8388607.5 goes up
+    DeviceProfile clamping = *find_profile("geforce8");
+    clamping.has_unclamped_depth_clear = false;
+    TestFrame test{FragmentScene{1, 1}, "geforce8"};
+    test.frame.profile = &clamping;
+    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    const Target depth = region.make(Format::d32f);
+    region.clear(depth, {.depth = -1.0f});
+    CHECK(region.storage(depth).depth(0)[0] == 0u);
+}
+
+TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
+    Machine m{FragmentScene{2, 1}, "geforce8"};
+    const Target from = m.region.make(Format::rgba32f), to = m.region.make(Format::rgba32f);
+    m.region.store_pixel(from, 1,
+                         {std::bit_cast<float>(0x7fc12345u), std::bit_cast<float>(0xff800001u), -0.0f, 0x1p-149f});
+    m.region.copy(from, to);
+    CHECK(m.region.image(to) == m.region.image(from));
+    CHECK(m.region.image(to).codes[4] == 0x7fc12345u);
+    CHECK(m.region.image(to).codes[5] == 0xff800001u);
+    CHECK(m.region.records().front().passes.copies == 1);
+}
+
+TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {
+    FragmentScene scene{2, 1};
+    scene.pixels[1].opaque = GivenFragment{0.25f, {1, 0, 1, 0}};
+    Machine m{scene, "geforce8"};
+    CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[0] == std::bit_cast<std::uint32_t>(1.0f));
+    CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[1] == std::bit_cast<std::uint32_t>(0.25f));
+    CHECK(m.region.color(m.region.opaque_color(), 1) == Rgba{1, 0, 1, 1});  // alphaMode OPAQUE ignores alpha
+    CHECK(m.region.records().front().counters == Counters{});
+}

@@ -1,0 +1,85 @@
+// The model is an inequality over integers: k is right for z exactly if k <= z (2^n - 1) < k + 1 (floor) or
+// k - 1/2 <= z (2^n - 1) < k + 1/2 (nearest), z = mantissa / 2^shift.
+#include "rasterizer/rules/depth_code.h"
+
+#include <array>
+#include <atomic>
+#include <catch2/catch.hpp>
+
+#include "rasterizer/base/parallel.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+__extension__ using Wide = __int128;
+
+[[nodiscard]] bool is_right_inside(std::uint32_t code, std::uint32_t bits, Wide max, DepthRounding rounding) {
+    const std::uint32_t field = bits >> 23;
+    const Wide mantissa = (bits & 0x7fffffu) | (field == 0 ? 0u : 0x800000u);
+    const int shift = 150 - static_cast<int>(field == 0 ? 1 : field);  // at least 24 below 1.0
+    if (shift >= 60) return code == 0;                                 // z (2^24 - 1) < 2^(24 - 60 + 24) < 1/2
+    const Wide doubled = 2 * mantissa * max, low = 2 * Wide{code} - (rounding == DepthRounding::nearest ? 1 : 0);
+    return (low << shift) <= doubled && doubled < ((low + 2) << shift);
+}
+
+[[nodiscard]] bool is_right(std::uint32_t bits, DepthFormat format, DepthRounding rounding) {
+    const std::uint32_t code = to_depth_code(std::bit_cast<float>(bits), format, rounding);
+    const std::uint32_t max = format == DepthFormat::d16 ? 65535 : 16777215;
+    const bool is_nan = (bits & 0x7fffffffu) > 0x7f800000u;
+    if (is_nan || (bits >> 31) != 0) return code == 0;
+    if (bits >= 0x3f800000u) return code == max;
+    return is_right_inside(code, bits, max, rounding);
+}
+
+[[nodiscard]] std::uint64_t wrong_among(std::uint32_t first, std::uint32_t step, std::uint64_t count) {
+    std::uint64_t wrong = 0;
+    std::uint32_t bits = first;
+    for (std::uint64_t i = 0; i < count; ++i, bits += step)
+        for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24})
+            for (const DepthRounding rounding : {DepthRounding::floor, DepthRounding::nearest})
+                wrong += is_right(bits, format, rounding) ? 0 : 1;
+    return wrong;
+}
+
+}  // namespace
+
+TEST_CASE("sampled floats of all kinds become the D16 and D24 codes of the rule, and a half goes up") {
+    CHECK(wrong_among(0, 9973, 0x100000000ull / 9973) == 0);
+    CHECK(wrong_among(0x3f000000u - 5000, 1, 10000) == 0);
+    CHECK(wrong_among(0x3f800000u - 100000, 1, 100010) == 0);
+}
+
+TEST_CASE("all 2^32 floats become the D16 and D24 codes of the rule", "[exhaustive]") {
+    std::atomic<std::uint64_t> wrong{0};
+    strata::parallel_for(
+        256, 0, [&](std::size_t block) { wrong += wrong_among(static_cast<std::uint32_t>(block << 24), 1, 1u << 24); });
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a D32F code is the clamped float itself, zeros are +0, and codes order like the floats") {
+    std::uint64_t wrong = 0;
+    std::uint32_t last = 0;
+    for (std::uint64_t wide = 0; wide < 0x100000000ull; wide += 4099) {
+        const auto bits = static_cast<std::uint32_t>(wide);
+        const auto z = std::bit_cast<float>(bits);
+        const std::uint32_t code = to_depth_code(z, DepthFormat::d32f, DepthRounding::nearest);
+        const float clamped = !(z > 0) ? 0.0f : (z > 1 ? 1.0f : z);
+        wrong += code != std::bit_cast<std::uint32_t>(clamped) ? 1 : 0;
+        if (bits <= 0x3f800000u) {
+            wrong += code < last ? 1 : 0;
+            last = code;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(to_depth_code(-0.0f, DepthFormat::d32f, DepthRounding::nearest) == 0);
+}
+
+TEST_CASE("depth 1 is the largest code and a code read back gives itself") {
+    std::uint64_t wrong = 0;
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
+        CHECK(to_depth_code(1.0f, format, DepthRounding::floor) == max_code(format));
+    for (std::uint32_t k = 0; k <= 0xffff; ++k)
+        wrong += to_depth_code(static_cast<float>(depth_value(k, DepthFormat::d16)), DepthFormat::d16,
+                               DepthRounding::nearest) != k;
+    CHECK(wrong == 0);
+}

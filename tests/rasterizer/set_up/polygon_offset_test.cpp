@@ -1,0 +1,103 @@
+// The model: o = m factor + r units over rationals, m the larger slope of the plane per pixel.
+#include "rasterizer/set_up/polygon_offset.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/rasterizer/rational.h"
+#include "tests/rasterizer/scene.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+
+[[nodiscard]] Rational model_slope(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z, int bits) {
+    std::array<Rational, 3> x, y;
+    for (std::size_t i = 0; i < 3; ++i) {
+        x[i] = Rational{p[i].x} * power(-bits);
+        y[i] = Rational{p[i].y} * power(-bits);
+    }
+    // Cramer's rule for z = a x + b y + c
+    const Rational det = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+    const Rational z1 = Rational{z[1]} - Rational{z[0]}, z2 = Rational{z[2]} - Rational{z[0]};
+    const Rational a = (z1 * (y[2] - y[0]) - z2 * (y[1] - y[0])) / det;
+    const Rational b = ((x[1] - x[0]) * z2 - (x[2] - x[0]) * z1) / det;
+    return std::max(Rational{abs(a)}, Rational{abs(b)});
+}
+
+[[nodiscard]] double only_offset(const RasterState& state, const RasterRules& rules, const std::array<float, 3>& z) {
+    return polygon_offset({{{0, 0}, {4096, 0}, {0, 4096}}}, z, state, rules);
+}
+
+}  // namespace
+
+TEST_CASE("the slope of polygon offset is the larger window slope, within 2^-49 of the rational one") {
+    constexpr std::uint64_t seed = 81;
+    Random random{seed};
+    std::uint64_t wrong = 0;
+    for (int n = 0; n < 2000; ++n) {
+        const int bits = std::array{4, 8, 12}[static_cast<std::size_t>(n % 3)];
+        const std::array p{random_point(random, 40, 40, bits, 100), random_point(random, 40, 40, bits, 100),
+                           random_point(random, 40, 40, bits, 100)};
+        if (doubled_area(p[0], p[1], p[2]) == 0) continue;
+        const std::array z{random_float(random, 0, 1), random_float(random, 0, 1), random_float(random, 0, 1)};
+        const Rational exact = model_slope(p, z, bits);
+        const Rational found{largest_slope(p, z, bits)};
+        // relative to the two products of a component, which may cancel
+        Rational reach = 0;
+        for (std::size_t i = 1; i < 3; ++i)
+            for (std::size_t k = 1; k < 3; ++k)
+                reach = std::max(reach, Rational{abs(Rational{z[i]} - Rational{z[0]})} *
+                                            std::max(std::abs(p[k].x - p[0].x), std::abs(p[k].y - p[0].y)));
+        reach = reach * power(bits) / Rational{abs(doubled_area(p[0], p[1], p[2]))};
+        wrong += abs(found - exact) > reach * power(-49) ? 1 : 0;
+    }
+    INFO("seed " << seed);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a unit is one code of a fixed-point format and 2^(e - 23) of a float one") {
+    RasterState state;
+    state.polygon_offset = {true, 0.0f, 3.0f};
+    state.depth_format = DepthFormat::d16;
+    CHECK(only_offset(state, {}, {0, .5f, 1}) == 3 * (1.0 / 65535));
+    state.depth_format = DepthFormat::d24;
+    CHECK(only_offset(state, {}, {0, .5f, 1}) == 3 * (1.0 / 16777215));
+    CHECK(only_offset(state, {.window_z = WindowZ::buffer_units}, {0, 5, 1000}) == 3.0);
+    state.depth_format = DepthFormat::d32f;
+    CHECK(only_offset(state, {}, {0, .5f, .25f}) == 3 * 0x1p-24);
+    CHECK(only_offset(state, {}, {0, -.5f, .25f}) == 3 * 0x1p-24);
+    CHECK(only_offset(state, {}, {0, .5f, 1}) == 3 * 0x1p-23);
+    CHECK(only_offset(state, {}, {0, 0x1p-149f, 0}) == 3 * 0x1p-149);
+    CHECK(only_offset(state, {}, {0, 0, 0}) == 3 * 0x1p-149);
+    state.depth_format = DepthFormat::d24;
+    CHECK(only_offset(state, {.offset_unit = OffsetUnit::float_exponent}, {0, .5f, .25f}) == 3 * 0x1p-24);
+}
+
+TEST_CASE("a zero factor leaves out a slope that is not finite") {
+    RasterState state;
+    state.depth_format = DepthFormat::d24;
+    state.polygon_offset = {true, 0.0f, 1.0f};
+    const std::array<SubpixelPoint, 3> sliver{{{0, 0}, {1 << 27, 0}, {1 << 26, 1}}};
+    CHECK(polygon_offset(sliver, {-3e38f, 3e38f, 3e38f}, state, {.subpixel_bits = 12}) == 1.0 / 16777215);
+}
+
+TEST_CASE("polygon offset moves every fragment's depth by the same amount, and only its depth") {
+    Random random{82};
+    const TriangleSoup soup = random_soup(83, 40, SoupKind::perspective);
+    RasterState state = scene_state(32, 32);
+    state.depth_format = DepthFormat::d24;
+    const auto plain = draw(set_up(soup, state, {}, 1), {DepthPath::exact, DepthFormat::d24}, everything).fragments;
+    state.polygon_offset = {true, 0.0f, 100.0f};
+    const auto moved = draw(set_up(soup, state, {}, 1), {DepthPath::exact, DepthFormat::d24}, everything).fragments;
+    REQUIRE(plain.size() == moved.size());
+    std::uint64_t wrong = 0, compared = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+        wrong += plain[i].x != moved[i].x || plain[i].y != moved[i].y || plain[i].color != moved[i].color ? 1 : 0;
+        if (plain[i].code > 16777000) continue;
+        ++compared;
+        const std::uint32_t step = moved[i].code - plain[i].code;
+        wrong += step < 99 || step > 101 ? 1 : 0;  // a boundary may lie between the two roundings
+    }
+    CHECK(compared > 1000);
+    CHECK(wrong == 0);
+}

@@ -1,0 +1,128 @@
+#include "rasterizer/set_up/window.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/rasterizer/rational.h"
+#include "tests/rasterizer/support.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+
+[[nodiscard]] RasterState state_of(Rect viewport) {
+    RasterState state;
+    state.viewport = viewport;
+    return state;
+}
+
+// Division by w and the viewport by definition: a rational, rounded where the rule says so.
+[[nodiscard]] float model_map(float c, float w, float scale, float offset, const RasterRules& rules) {
+    const float divided = rules.w_divide == WDivide::quotient
+                              ? nearest_float(Rational{c} / Rational{w})
+                              : nearest_float(Rational{c} * Rational{nearest_float(Rational{1} / Rational{w})});
+    const Rational product = Rational{scale} * Rational{divided};
+    if (rules.viewport == ViewportArithmetic::fused) return nearest_float(product + Rational{offset});
+    return nearest_float(Rational{nearest_float(product)} + Rational{offset});
+}
+
+}  // namespace
+
+TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, ties to even") {
+    CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // the hardware's own cases: hardware.md 1
+    CHECK(snap(.5625f, 4, Snap::toward_zero) == 9);
+    CHECK(snap(-.0624f, 4, Snap::toward_zero) == 0);
+    CHECK(snap(2.5f / 16, 4, Snap::nearest_even) == 2);
+    CHECK(snap(3.5f / 16, 4, Snap::nearest_even) == 4);
+    CHECK(snap(-2.5f / 16, 4, Snap::nearest_even) == -2);
+    CHECK(snap(-32768.0f, 12, Snap::nearest_even) == -(1 << 27));
+    Random random{31};
+    std::uint64_t wrong = 0;
+    for (int n = 0; n < 20000; ++n) {
+        const float v = random_float(random, -1, 1) * (n % 2 == 0 ? 3.0f : 32768.0f);
+        for (const int bits : {4, 8, 12}) {
+            const Rational scaled = Rational{v} * power(bits);
+            const Rational cut = snap(v, bits, Snap::toward_zero), near = snap(v, bits, Snap::nearest_even);
+            wrong += abs(cut) > abs(scaled) || abs(scaled) - abs(cut) >= 1 ? 1 : 0;
+            wrong += abs(near - scaled) > Rational{1, 2} ? 1 : 0;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("window positions are the rounded operations of the rule, for every divide and viewport arithmetic") {
+    constexpr std::uint64_t seed = 32;
+    Random random{seed};
+    std::uint64_t wrong = 0, differences = 0;
+    for (const WDivide divide : {WDivide::quotient, WDivide::reciprocal})
+        for (const ViewportArithmetic arithmetic : {ViewportArithmetic::separate, ViewportArithmetic::fused})
+            for (int n = 0; n < 3000; ++n) {
+                const RasterRules rules{.w_divide = divide, .viewport = arithmetic};
+                RasterState state = state_of({17, 5, 17 + 641, 5 + 479});
+                state.depth_near = random_float(random, 0, 1);
+                state.depth_far = random_float(random, 0, 1);
+                ClipVertex v;
+                v.w = random_float(random, 0.01f, 40);
+                v.x = random_float(random, -1.2f, 1.2f) * v.w;
+                v.y = random_float(random, -1.2f, 1.2f) * v.w;
+                v.z = random_float(random, -1, 1) * v.w;
+                const WindowVertex found = WindowTransform{state, rules}.project(v);
+                const Rational near{state.depth_near}, far{state.depth_far};
+                wrong += found.x != model_map(v.x, v.w, 320.5f, 337.5f, rules) ? 1 : 0;
+                wrong += found.y != model_map(v.y, v.w, -239.5f, 244.5f, rules) ? 1 : 0;
+                wrong += found.z != model_map(v.z, v.w, nearest_float((far - near) / 2),
+                                              nearest_float((far + near) / 2), rules)
+                             ? 1
+                             : 0;
+                wrong += found.inverse_w != nearest_float(Rational{1} / Rational{v.w}) ? 1 : 0;
+                const RasterRules other{.w_divide = WDivide::quotient, .viewport = ViewportArithmetic::separate};
+                differences += found.x != WindowTransform{state, other}.project(v).x ? 1 : 0;
+            }
+    INFO("seed " << seed);
+    CHECK(wrong == 0);
+    CHECK(differences > 1000);  // the knobs matter
+}
+
+TEST_CASE("fused viewport arithmetic rounds once, where two roundings would meet a tie") {
+    Random random{33};
+    std::uint64_t wrong = 0, twice = 0;
+    for (int n = 0; n < 20000; ++n) {
+        const auto few_bits = [&](int bits) { return static_cast<float>(random_int(random, 1, (1 << bits) - 1)); };
+        const float a = few_bits(12), b = few_bits(13) + 0x1p-10f;
+        const float c = few_bits(24) * (n % 2 == 0 ? 0x1p-34f : -0x1p-30f);
+        const float found = fused_multiply_add(a, b, c);
+        wrong += found != nearest_float(Rational{a} * Rational{b} + Rational{c}) ? 1 : 0;
+        twice += found != a * b + c ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(twice > 0);
+}
+
+TEST_CASE("y up puts clip-space +1 on the first row, y down on the last") {
+    RasterState state = state_of({0, 0, 64, 32});
+    const ClipVertex top{0, 1, 0, 1, {}, {}, {}};
+    CHECK(WindowTransform{state, {}}.project(top).y == 0.0f);
+    state.y_direction = YDirection::down;
+    CHECK(WindowTransform{state, {}}.project(top).y == 32.0f);
+}
+
+TEST_CASE("depth ranges map clip depth as written, reversed and in buffer units too") {
+    for (const ClipDepth convention : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one}) {
+        RasterState state = state_of({0, 0, 8, 8});
+        state.clip_depth = convention;
+        state.depth_format = DepthFormat::d24;
+        const float lowest = convention == ClipDepth::minus_one_to_one ? -2.0f : 0.0f;
+        const auto z = [&](float clip_z, const RasterRules& rules) {
+            return WindowTransform{state, rules}.project({0, 0, clip_z, 2, {}, {}, {}}).z;
+        };
+        const RasterRules units{.window_z = WindowZ::buffer_units};
+        CHECK(z(lowest, {}) == 0.0f);
+        CHECK(z(2.0f, {}) == 1.0f);
+        CHECK(z(2.0f, units) == 16777215.0f);
+        state.depth_near = 0.75f;
+        state.depth_far = 0.25f;
+        CHECK(z(lowest, {}) == 0.75f);
+        CHECK(z(2.0f, {}) == 0.25f);
+        state.depth_format = DepthFormat::d32f;
+        CHECK(z(2.0f, units) == 0.25f);  // a float buffer has no units
+    }
+}

@@ -1,0 +1,101 @@
+// Texture units at fragments, against the rational plane: u (1/w) rounded, plane rounded, quotient rounded.
+#include <catch2/catch.hpp>
+
+#include "rasterizer/values/depth_paths.h"
+#include "tests/rasterizer/rational.h"
+#include "tests/rasterizer/support.h"
+
+using namespace strata::rasterizer;
+
+namespace {
+
+constexpr std::size_t stride = 4 * texture_units;
+
+// Triangles inside a viewport of 32 x 32 with any w and coordinates; unit 3's q is constant.
+TriangleSoup soup_of(Random& random, int triangles, bool has_rq) {
+    TriangleSoup soup;
+    soup.extras = {.stride = stride + (has_rq ? 2 : 0), .has_rq = has_rq, .has_units = true, .values = {}};
+    for (int i = 0; i < 3 * triangles; ++i) {
+        const float w = random_float(random, 0.5f, 4.0f);
+        soup.vertices.push_back(
+            {.x = random_float(random, -1, 1) * w, .y = random_float(random, -1, 1) * w, .z = 0, .w = w});
+        soup.indices.push_back(static_cast<std::uint32_t>(i));
+        for (std::size_t e = 0; e < soup.extras.stride; ++e)
+            soup.extras.values.push_back(random_float(random, -100, 100));
+        soup.extras.values.back() = 2.5f;
+    }
+    soup.runs.push_back({.index_count = static_cast<std::uint32_t>(soup.indices.size())});
+    return soup;
+}
+
+// u at a pixel of a triangle: edge weights in integers, then the three roundings.
+float expected(const Geometry& g, const TriangleRecord& t, const std::array<float, 3>& u, int x, int y) {
+    const TriangleEdges edges{g.points(t), g.rules.tie_rule};
+    const EdgeValues e = edges.at(pixel_centre(x, y, g.rules.subpixel_bits));
+    if (u[0] == u[1] && u[0] == u[2]) return u[0];
+    Rational dividend = 0, divisor = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float w = g.corners[t.vertex[i]].inverse_w;
+        dividend += Rational{e[i]} * Rational{nearest_float(Rational{u[i]} * Rational{w})} / Rational{edges.area()};
+        divisor += Rational{e[i]} * Rational{w} / Rational{edges.area()};
+    }
+    return nearest_float(Rational{nearest_float(dividend)} / Rational{nearest_float(divisor)});
+}
+
+}  // namespace
+
+TEST_CASE("texture units are interpolated by perspective with three roundings, those that are asked for") {
+    Random random{501};
+    for (const bool has_rq : {false, true}) {
+        RasterState state;
+        state.viewport = {0, 0, 32, 32};
+        const Geometry g = set_up(soup_of(random, 12, has_rq), state, {}, 1);
+        constexpr FragmentNeeds needs{.shader_z = false, .code = false, .color = false, .units = 0xf041};
+        std::size_t wrong = 0, fragments = 0;
+        TileRasterizer rasterizer{state.viewport};
+        auto sink = [&](FragmentBatch& batch) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) {
+                const TriangleRecord& t = g.triangles[batch.primitive[i]];
+                for (const auto& [unit, c] : {std::pair{0u, 0u}, {1u, 2u}, {3u, 0u}, {3u, 1u}, {3u, 2u}, {3u, 3u}}) {
+                    std::array<float, 3> u;
+                    for (std::size_t k = 0; k < 3; ++k) u[k] = g.extras.units_of(t.vertex[k])[4 * unit + c];
+                    wrong += batch.unit[unit][c][i] != expected(g, t, u, batch.x[i], batch.y[i]);
+                }
+                ++fragments;
+            }
+        };
+        REQUIRE(g.triangles.size() == 12);  // nothing was clipped: primitives are indices
+        rasterizer.draw(g, g.all_triangles, {}, needs, BatchSink{sink});
+        CHECK(fragments > 400);
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("under another hypothesis texture units are interpolated as r and q are") {
+    Random random{502};
+    RasterState state;
+    state.viewport = {0, 0, 32, 32};
+    RasterRules rules;
+    rules.hypothesis.interpolant_bits = 18;
+    rules.hypothesis.divide = DivideRule::cut_reciprocal;
+    TriangleSoup soup = soup_of(random, 12, true);
+    for (std::size_t v = 0; v < soup.vertices.size(); ++v)  // unit 2's r and q are those of depth
+        for (std::size_t c : {0u, 1u}) {
+            soup.extras.values[v * soup.extras.stride + c] =
+                c == 1 ? 3.0f + static_cast<float>(v % 5) : static_cast<float>(v % 7);
+            soup.extras.values[v * soup.extras.stride + 2 + 8 + 2 + c] = soup.extras.values[v * soup.extras.stride + c];
+        }
+    const Geometry g = set_up(std::move(soup), state, rules, 1);
+    FragmentNeeds needs{.shader_z = false, .code = true, .color = false, .reference = true, .units = 0x0c00};
+    std::size_t wrong = 0, fragments = 0;
+    TileRasterizer rasterizer{state.viewport};
+    auto sink = [&](FragmentBatch& batch) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i, ++fragments)
+            wrong += double{divide(batch.unit[2][2][i], batch.unit[2][3][i], rules.hypothesis.divide)} !=
+                     batch.reference_z[i];
+    };
+    rasterizer.draw(g, g.all_triangles, {DepthPath::float32, DepthFormat::d32f, DepthPath::perspective_rq}, needs,
+                    BatchSink{sink});
+    CHECK(fragments > 400);
+    CHECK(wrong == 0);
+}

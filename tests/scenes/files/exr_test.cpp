@@ -1,0 +1,180 @@
+// The model of what a file shows to others is OpenImageIO's own reader; codes must come back with every bit.
+#include <OpenImageIO/imageio.h>
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
+
+#include "pipeline/formats/half.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/image_io.h"
+#include "scenes/files/system_error.h"
+#include "tests/scenes/image_support.h"
+#include "tests/scenes/scenes_support.h"
+
+using namespace strata::scenes;
+using strata::pipeline::Format;
+using strata::pipeline::Image;
+using strata::test::TemporaryFolder;
+using strata::test::wild_image;
+
+namespace {
+
+constexpr Format colors[] = {Format::rgba8, Format::rgba16f, Format::rgba32f,
+                             Format::r16f,  Format::r32f,    Format::rg32f};
+constexpr Format depths[] = {Format::d16, Format::d24, Format::d24s8, Format::d32f};
+
+std::vector<float> channel(OIIO::ImageInput& input, const std::string& name) {
+    const OIIO::ImageSpec spec = input.spec();
+    const int index = spec.channelindex(name);
+    REQUIRE(index >= 0);
+    std::vector<float> values(std::size_t(spec.width) * std::size_t(spec.height));
+    REQUIRE(input.read_image(0, 0, index, index + 1, OIIO::TypeDesc::FLOAT, values.data()));
+    return values;
+}
+
+}  // namespace
+
+TEST_CASE("targets full of NaN payloads and extreme codes have the same digest after an EXR as before") {
+    const TemporaryFolder folder;
+    for (const Format color : colors) {
+        for (const Format depth : depths) {
+            for (const bool premultiplied : {false, true}) {
+                const OutputColor output{.color = wild_image(color, 131, 67, 5),
+                                         .depth = wild_image(depth, 131, 67, 6),
+                                         .premultiplied = premultiplied};
+                write_image(folder / "a.exr", output);
+                const auto images = read_images(folder / "a.exr");
+                INFO(info(color).name << " " << info(depth).name << (premultiplied ? " premultiplied" : " straight"));
+                REQUIRE(images.size() == 2);
+                CHECK(images[0].target == "color");
+                CHECK(images[0].image == output.color);
+                CHECK(digest(images[0].image) == digest(output.color));
+                CHECK(images[1].target == "depth");
+                CHECK(digest(images[1].image) == digest(output.depth));
+            }
+        }
+    }
+}
+
+TEST_CASE("all 65,536 halves survive an EXR as native channels and as codes") {
+    const TemporaryFolder folder;
+    OutputColor output{.color = Image{Format::rgba16f, 128, 128}, .premultiplied = true};
+    for (std::uint32_t i = 0; i < 65536; ++i) output.color.codes[i] = i;
+    write_image(folder / "a.exr", output);
+    CHECK(read_images(folder / "a.exr")[0].image == output.color);
+    output.premultiplied = false;
+    write_image(folder / "b.exr", output);
+    CHECK(read_images(folder / "b.exr")[0].image == output.color);
+}
+
+TEST_CASE("what others see in an EXR are premultiplied colours and the depth's value") {
+    const TemporaryFolder folder;
+    OutputColor output{.color = Image{Format::rgba8, 2, 1}, .depth = Image{Format::d24, 2, 1}};
+    output.color.codes = {255, 51, 0, 102, 255, 255, 255, 255};
+    output.depth.codes = {0x7fffff, 0xffffff};
+    write_image(folder / "a.exr", output);
+    const auto input = OIIO::ImageInput::open(folder / "a.exr");
+    REQUIRE(input);
+    CHECK(channel(*input, "R") == std::vector<float>{102.0f / 255, 1});
+    CHECK(channel(*input, "G")[0] == Approx(0.2 * 0.4));
+    CHECK(channel(*input, "A") == std::vector<float>{102.0f / 255, 1});
+    CHECK(channel(*input, "Z")[0] == Approx(8388607.0 / 16777215));
+    CHECK(input->spec().channelformat(input->spec().channelindex("Zbits")) == OIIO::TypeDesc::UINT32);
+}
+
+TEST_CASE("an EXR carries command, formats, colour space and digests, and neither time nor host nor path") {
+    const TemporaryFolder folder;
+    const OutputColor output{.color = wild_image(Format::rgba8, 9, 9, 1),
+                             .depth = wild_image(Format::d24, 9, 9, 2),
+                             .attributes = {{"command", "strata render teapot"}, {"profile", "geforce8"}}};
+    write_image(folder / "a.exr", output);
+    const auto input = OIIO::ImageInput::open(folder / "a.exr");
+    REQUIRE(input);
+    const auto text = [&](const char* name) { return std::string{input->spec().get_string_attribute(name)}; };
+    CHECK(text("strata:command") == "strata render teapot");
+    CHECK(text("strata:profile") == "geforce8");
+    CHECK(text("strata:colour") == "encoded");
+    CHECK(text("strata:format.color") == "rgba8");
+    CHECK(text("strata:format.depth") == "d24");
+    CHECK(text("strata:digest.color") == digest(output.color));
+    CHECK(text("strata:digest.depth") == digest(output.depth));
+    CHECK(text("DateTime").empty());
+    CHECK(strata::test::bytes_of(folder / "a.exr").find(folder.path) == std::string::npos);
+}
+
+TEST_CASE("the same image written twice, a second later, gives the same EXR bytes, in parts and deep too") {
+    const TemporaryFolder folder;
+    const OutputColor output{.color = wild_image(Format::rgba16f, 70, 133, 1),
+                             .depth = wild_image(Format::d32f, 70, 133, 2)};
+    const std::vector<OutputColor> layers(3, output);
+    DeepFragments deep{.width = 1,
+                       .height = 1,
+                       .count = {1},
+                       .depth_code = {7},
+                       .z = {0.5f},
+                       .rgba = {{1, 1, 1, 1}},
+                       .primitive = {3}};
+    for (const char* run : {"1", "2"}) {
+        write_image(folder / (run + std::string{"a.exr"}), output);
+        write_layers(folder / (run + std::string{"b.exr"}), layers);
+        write_deep(folder / (run + std::string{"c.exr"}), deep, {});
+        std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    }
+    for (const char* name : {"a.exr", "b.exr", "c.exr"})
+        CHECK(strata::test::bytes_of(folder / ("1" + std::string{name})) ==
+              strata::test::bytes_of(folder / ("2" + std::string{name})));
+}
+
+TEST_CASE("layers are the parts layer.000, layer.001 and so on, each with its own codes and attributes") {
+    const TemporaryFolder folder;
+    std::vector<OutputColor> layers;
+    for (unsigned i = 0; i < 12; ++i) {
+        layers.push_back({.color = wild_image(Format::rgba8, 33, 21, i),
+                          .depth = wild_image(Format::d32f, 33, 21, 100 + i),
+                          .attributes = {{"layer", std::to_string(i)}}});
+    }
+    write_layers(folder / "layers.exr", layers);
+    const auto images = read_images(folder / "layers.exr");
+    REQUIRE(images.size() == 24);
+    for (std::size_t i = 0; i < 12; ++i) {
+        const std::string name = (i < 10 ? "layer.00" : "layer.0") + std::to_string(i);
+        CHECK(images[2 * i].part == name);
+        CHECK(images[2 * i].image == layers[i].color);
+        CHECK(images[2 * i + 1].part == name);
+        CHECK(images[2 * i + 1].image == layers[i].depth);
+    }
+    CHECK_THROWS_AS(write_layers(folder / "layers.png", layers), strata::InputError);
+}
+
+TEST_CASE("an EXR by another program is digested by its own types, and refused if it has no colours") {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& name, std::vector<std::string> channels, OIIO::TypeDesc type) {
+        OIIO::ImageSpec spec{2, 1, static_cast<int>(channels.size()), type};
+        spec.channelnames = std::move(channels);
+        const auto output = OIIO::ImageOutput::create("openexr");
+        const std::vector<std::byte> zeros(spec.image_bytes());
+        REQUIRE((output->open(folder / name, spec) && output->write_image(type, zeros.data()) && output->close()));
+    };
+    write("half.exr", {"R", "G", "B", "A"}, OIIO::TypeDesc::HALF);
+    write("float.exr", {"R", "G", "B", "A"}, OIIO::TypeDesc::FLOAT);
+    write("opaque.exr", {"R", "G", "B"}, OIIO::TypeDesc::FLOAT);
+    write("luminance.exr", {"Y"}, OIIO::TypeDesc::FLOAT);
+    CHECK(read_images(folder / "half.exr")[0].image == Image{Format::rgba16f, 2, 1});
+    CHECK(read_images(folder / "float.exr")[0].image == Image{Format::rgba32f, 2, 1});
+    CHECK_THROWS_AS(read_images(folder / "opaque.exr"), strata::InputError);
+    CHECK_THROWS_AS(read_images(folder / "luminance.exr"), strata::InputError);
+}
+
+TEST_CASE("a truncated EXR is an input error at every length tried") {
+    const TemporaryFolder folder;
+    write_image(folder / "a.exr", {.color = wild_image(Format::rgba8, 64, 64, 2)});
+    const std::string bytes = strata::test::bytes_of(folder / "a.exr");
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{3}, std::size_t{100}, std::size_t{500}, bytes.size() / 2, bytes.size() - 9}) {
+        std::ofstream(folder / "cut.exr", std::ios::binary) << bytes.substr(0, size);
+        INFO("cut after " << size << " of " << bytes.size());
+        CHECK_THROWS_AS(read_images(folder / "cut.exr"), strata::InputError);
+    }
+}

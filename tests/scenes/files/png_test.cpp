@@ -1,0 +1,129 @@
+#include <OpenImageIO/imageio.h>
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/image_io.h"
+#include "scenes/files/system_error.h"
+#include "tests/scenes/image_support.h"
+#include "tests/scenes/scenes_support.h"
+
+using namespace strata::scenes;
+using strata::pipeline::ColorSpace;
+using strata::pipeline::Format;
+using strata::pipeline::Image;
+using strata::pipeline::ImageCodes;
+using strata::test::TemporaryFolder;
+
+namespace {
+
+OutputColor one_pixel(Format format, ImageCodes codes) {
+    OutputColor output{.color = Image{format, 1, 1}};
+    output.color.codes = std::move(codes);
+    return output;
+}
+
+ImageCodes floats(float r, float g, float b, float a) {
+    return {std::bit_cast<std::uint32_t>(r), std::bit_cast<std::uint32_t>(g), std::bit_cast<std::uint32_t>(b),
+            std::bit_cast<std::uint32_t>(a)};
+}
+
+}  // namespace
+
+TEST_CASE("all 65,536 pairs of colour and alpha come back from a PNG as they were written") {
+    const TemporaryFolder folder;
+    OutputColor output{.color = Image{Format::rgba8, 256, 256}};
+    for (std::uint32_t i = 0; i < 65536; ++i) {
+        const std::uint32_t pixel[4] = {i % 256, 255 - i % 256, i % 256 ^ 0x5a, i / 256};
+        std::copy(pixel, pixel + 4, &output.color.codes[4 * i]);
+    }
+    write_image(folder / "a.png", output);
+    const auto images = read_images(folder / "a.png");
+    REQUIRE(images.size() == 1);
+    CHECK(images[0].target == "color");
+    CHECK(images[0].image == output.color);
+    CHECK(digest(images[0].image) == digest(output.color));
+}
+
+TEST_CASE("the same image written twice, a second later, gives the same PNG bytes") {
+    const TemporaryFolder folder;
+    const OutputColor output{.color = strata::test::wild_image(Format::rgba8, 70, 33, 1),
+                             .attributes = {{"command", "strata"}}};
+    write_image(folder / "a.png", output);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    write_image(folder / "b.png", output);
+    CHECK(strata::test::bytes_of(folder / "a.png") == strata::test::bytes_of(folder / "b.png"));
+}
+
+TEST_CASE("a float target becomes 8 bits by clamping and rounding the exact product with 255 half up") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(-1, 2, nan, 0.5f))).codes == ImageCodes{0, 255, 0, 128});
+    const float half_code = 100.5f / 255;  // whichever side of the half the float lies
+    const auto expected = static_cast<std::uint32_t>(std::floor(double{half_code} * 255 + 0.5));
+    CHECK(as_straight_rgba8(one_pixel(Format::rgba32f, floats(half_code, 0, 1, 1))).codes ==
+          ImageCodes{expected, 0, 255, 255});
+    CHECK(as_straight_rgba8(one_pixel(Format::rgba16f, {0x3800, 0x3c00, 0xbc00, 0x7c00})).codes ==
+          ImageCodes{128, 255, 0, 255});  // 0.5, 1, -1, infinity
+}
+
+TEST_CASE("a premultiplied target is divided by its alpha, and is black where alpha is 0") {
+    OutputColor float_target = one_pixel(Format::rgba32f, floats(0.25f, 0.5f, 0.75f, 0.5f));
+    float_target.premultiplied = true;
+    CHECK(as_straight_rgba8(float_target).codes == ImageCodes{128, 255, 255, 128});
+    int wrong = 0;
+    for (std::uint32_t a = 0; a < 256; ++a) {
+        for (std::uint32_t c = 0; c < 256; ++c) {
+            OutputColor output = one_pixel(Format::rgba8, {c, c, c, a});
+            output.premultiplied = true;
+            const double expected = a == 0 ? 0 : std::min(255.0, std::floor(255.0 * c / a + 0.5));
+            wrong += as_straight_rgba8(output).codes[0] == static_cast<std::uint32_t>(expected) ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a linear target is encoded as sRGB, and its alpha is not") {
+    OutputColor output = one_pixel(Format::rgba32f, floats(0.5f, 0.0f, 1.0f, 0.5f));
+    output.space = ColorSpace::linear;
+    CHECK(as_straight_rgba8(output).codes == ImageCodes{188, 0, 255, 128});  // the textbook's middle grey
+    OutputColor codes = one_pixel(Format::rgba8, {55, 0, 255, 7});
+    codes.space = ColorSpace::linear;
+    CHECK(as_straight_rgba8(codes).codes == ImageCodes{128, 0, 255, 7});  // 55/255 = 0.2157 encodes to 0.5018
+}
+
+TEST_CASE("another ending, a missing file and a damaged one are input errors; a missing folder is the system's") {
+    const TemporaryFolder folder;
+    const OutputColor output = one_pixel(Format::rgba8, {1, 2, 3, 4});
+    CHECK_THROWS_WITH(write_image(folder / "a.jpg", output), Catch::Contains("a file name that ends in .png or .exr"));
+    CHECK_THROWS_AS(read_images(folder / "none.png"), strata::InputError);
+    CHECK_THROWS_AS(write_image(folder / "no/a.png", output), strata::SystemError);
+    CHECK(image_file("A.PNG") == ImageFile::png);
+    write_image(folder / "a.png", {.color = strata::test::wild_image(Format::rgba8, 64, 64, 2)});
+    const std::string bytes = strata::test::bytes_of(folder / "a.png");
+    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{40}, bytes.size() / 2}) {
+        std::ofstream(folder / "cut.png", std::ios::binary) << bytes.substr(0, size);
+        INFO("cut after " << size);
+        CHECK_THROWS_AS(read_images(folder / "cut.png"), strata::InputError);
+    }
+}
+
+TEST_CASE("a PNG without alpha is digested as opaque, and one that is grey or has 16 bits is refused") {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& name, int channels, OIIO::TypeDesc type) {
+        const OIIO::ImageSpec spec{2, 1, channels, type};
+        const auto output = OIIO::ImageOutput::create("png");
+        const std::vector<std::byte> bytes(spec.image_bytes(), std::byte{77});
+        REQUIRE((output->open(folder / name, spec) && output->write_image(type, bytes.data()) && output->close()));
+    };
+    write("rgb.png", 3, OIIO::TypeDesc::UINT8);
+    write("grey.png", 1, OIIO::TypeDesc::UINT8);
+    write("wide.png", 4, OIIO::TypeDesc::UINT16);
+    CHECK(read_images(folder / "rgb.png")[0].image.codes == ImageCodes{77, 77, 77, 255, 77, 77, 77, 255});
+    CHECK_THROWS_AS(read_images(folder / "grey.png"), strata::InputError);
+    CHECK_THROWS_AS(read_images(folder / "wide.png"), strata::InputError);
+}

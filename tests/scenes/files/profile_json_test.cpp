@@ -1,0 +1,114 @@
+#include "scenes/files/profile_json.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "pipeline/device/profile_fields.h"
+#include "rasterizer/base/input_error.h"
+
+using namespace strata::pipeline;
+using strata::InputError;
+using strata::scenes::load_profile;
+using strata::scenes::parse_profile;
+using strata::scenes::to_json;
+
+namespace {
+
+std::string error_of(const std::string& text) {
+    try {
+        (void)parse_profile(text, "my.json");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+// A profile that differs from geforce8 by one line.
+std::string changed(const std::string& line) { return R"({"name": "mine", "base": "geforce8", )" + line + "}"; }
+
+}  // namespace
+
+TEST_CASE("every built-in profile reads back from its JSON as it was") {
+    for (const DeviceProfile& profile : builtin_profiles()) CHECK(parse_profile(to_json(profile), "x.json") == profile);
+}
+
+TEST_CASE("a profile with every field at its other end reads back from its JSON as it was") {
+    DeviceProfile profile;
+    profile.name = "odd \"name\"";
+    profile.description = "tabs\tand \xc3\xa4";
+    for (const bool highest : {false, true}) {
+        for (const ProfileField& field : profile_fields()) field.set(profile, highest ? field.highest : field.lowest);
+        CHECK(parse_profile(to_json(profile), "x.json") == profile);
+    }
+}
+
+TEST_CASE("a profile that names a base says only what differs from it") {
+    const DeviceProfile mine = parse_profile(
+        R"({"base": "geforce8", "name": "mine", "has_d16": true, "raster": {"snap": "toward_zero", "subpixel_bits": 12}})",
+        "my.json");
+    DeviceProfile expected = *find_profile("geforce8");
+    expected.name = "mine";
+    expected.has_d16 = true;
+    expected.raster.snap = strata::rasterizer::Snap::toward_zero;
+    expected.raster.subpixel_bits = 12;
+    CHECK(mine == expected);
+}
+
+TEST_CASE("an unknown key or name suggests the nearest") {
+    CHECK(error_of(changed(R"("has_d61": true)")) ==
+          "my.json: /: expected a key of a profile, found 'has_d61' (did you mean 'has_d16'?)");
+    CHECK(error_of(changed(R"("raster": {"snapp": "toward_zero"})")) ==
+          "my.json: /raster: expected a key of a profile, found 'snapp' (did you mean 'snap'?)");
+    CHECK(error_of(changed(R"("denormals": "flsh")")) ==
+          "my.json: /denormals: expected one of flush, keep, found 'flsh' (did you mean 'flush'?)");
+    CHECK(error_of(R"({"name": "mine", "base": "geforce9"})") ==
+          "my.json: /base: expected one of geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, found 'geforce9' (did "
+          "you mean "
+          "'geforce3'?)");
+}
+
+TEST_CASE("a value of the wrong type or outside its range names file, pointer, range and value") {
+    CHECK(error_of(changed(R"("max_samples": 9)")) ==
+          "my.json: /max_samples: expected a whole number from 1 to 8, found 9");
+    CHECK(error_of(changed(R"("max_samples": -1)")) ==
+          "my.json: /max_samples: expected a whole number from 1 to 8, found -1");
+    CHECK(error_of(changed(R"("max_samples": 2.0)")) ==
+          "my.json: /max_samples: expected a whole number from 1 to 8, found 2.0");
+    CHECK(error_of(changed(R"("max_samples": 99999999999999999999)"))
+              .starts_with("my.json: /max_samples: expected a whole number"));
+    CHECK(error_of(changed(R"("has_d16": 1)")) == "my.json: /has_d16: expected true or false, found 1");
+    CHECK(error_of(changed(R"("has_d16": null)")) == "my.json: /has_d16: expected true or false, found null");
+    CHECK(error_of(changed(R"("raster": {"subpixel_bits": 6})")) ==
+          "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found 6");
+    CHECK(error_of(changed(R"("raster": [])")) == "my.json: /raster: expected an object, found array");
+    CHECK(error_of(changed(R"("denormals": 1)")) == "my.json: /denormals: expected one of flush, keep, found 1");
+}
+
+TEST_CASE("without a base every key must be there") {
+    CHECK(error_of(R"({"name": "mine", "description": ""})") ==
+          "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found nothing, and no "
+          "\"base\" to take it from");
+    CHECK(error_of(R"({"base": "ideal"})") == "my.json: /name: expected a string of at most 64 bytes, found nothing");
+    CHECK(error_of(R"({"base": "ideal", "name": ""})") == "my.json: /name: expected a name, found \"\"");
+}
+
+TEST_CASE("text that is no JSON object is refused with its place") {
+    CHECK(error_of("") == "my.json: byte 1: expected a profile in JSON, found a syntax error");
+    CHECK(error_of("{\"name\": }") == "my.json: byte 10: expected a profile in JSON, found a syntax error");
+    CHECK(error_of("[1]") == "my.json: /: expected an object, found array");
+    CHECK(error_of("{\"name\": 1e999}") == "my.json: /: expected a profile in JSON, found a number out of range");
+    CHECK(error_of(std::string(100000, '[')).starts_with("my.json: byte "));
+}
+
+TEST_CASE("a profile is loaded by name or from a file, and a name that is neither suggests the nearest") {
+    CHECK(load_profile("ideal") == *find_profile("ideal"));
+    const auto path = std::filesystem::temp_directory_path() / "strata_profile_json_test.json";
+    std::ofstream{path} << changed(R"("max_samples": 2)");
+    CHECK(load_profile(path.string()).max_samples == 2);
+    std::filesystem::remove(path);
+    CHECK_THROWS_WITH(load_profile("gefroce8"),
+                      "--profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, "
+                      "found 'gefroce8' (did you mean 'geforce8'?)");
+    CHECK_THROWS_WITH(load_profile("missing.json"), Catch::Contains("missing.json"));
+}

@@ -1,0 +1,115 @@
+// Model: glTF 2.0, 4.4, and JSON's grammar. Each file is a sound one with bytes changed or cut off.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/scenes/gltf/gltf_file.h"
+
+namespace {
+
+using namespace strata::scenes::test;
+
+ByteVector with_word(ByteVector bytes, std::size_t at, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i) & 0xff);
+    return bytes;
+}
+
+ByteVector with_length(ByteVector bytes) { return with_word(bytes, 8, static_cast<std::uint32_t>(bytes.size())); }
+
+ByteVector joined(ByteVector bytes, const ByteVector& more) {
+    bytes.insert(bytes.end(), more.begin(), more.end());
+    return bytes;
+}
+
+void check_refused(const ByteVector& bytes, const std::string& code) {
+    INFO(code);
+    CHECK(refusal(bytes).ends_with(" [" + code + "]"));
+}
+
+std::string nested(std::size_t depth, const std::string& open, const std::string& close) {
+    std::string text = "{\"asset\":{\"version\":\"2.0\"},\"extras\":";
+    for (std::size_t i = 0; i < depth; ++i) text += open;
+    text += "1";
+    for (std::size_t i = 0; i < depth; ++i) text += close;
+    return text + "}";
+}
+
+}  // namespace
+
+TEST_CASE("a .glb cut off after any byte is refused, and the whole one is not") {
+    GltfFile file;
+    file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
+    const ByteVector whole = file.as_glb();
+    REQUIRE(refusal(whole) == "");
+    std::size_t accepted = 0;
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        accepted += refusal(std::span(whole).first(length)).empty() ? 1u : 0u;
+        ByteVector relabelled(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+        if (length >= 12) accepted += refusal(with_length(relabelled)).empty() ? 1u : 0u;
+    }
+    CHECK(accepted == 0);
+}
+
+TEST_CASE("a .gltf cut off after any byte is refused, and one with any byte changed is refused or loads") {
+    const ByteVector whole = to_bytes(everything().document().dump());
+    std::size_t accepted = 0;
+    for (std::size_t length = 0; length < whole.size(); ++length)
+        accepted += refusal(std::span(whole).first(length)).empty() ? 1u : 0u;
+    CHECK(accepted == 0);
+    for (std::size_t at = 0; at < whole.size(); ++at)
+        for (const char replacement : {'9', '"', ']'}) {
+            ByteVector changed = whole;
+            changed[at] = static_cast<std::byte>(replacement);
+            (void)refusal(changed);  // anything but InputError fails the test
+        }
+}
+
+TEST_CASE("each fault of a .glb's header and chunks has the validator's code") {
+    GltfFile file;
+    file.show({{"attributes", {{"POSITION", file.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}}}});
+    const ByteVector whole = file.as_glb();
+    check_refused(with_word(whole, 0, 0x46546c68), "GLB_INVALID_MAGIC");
+    check_refused(with_word(whole, 4, 1), "GLB_INVALID_VERSION");
+    check_refused(with_word(whole, 8, 12), "GLB_LENGTH_TOO_SMALL");
+    check_refused(with_word(whole, 8, 0xffffffff), "GLB_LENGTH_MISMATCH");
+    check_refused(with_word(whole, 12, 0xfffffffc), "GLB_CHUNK_TOO_BIG");
+    check_refused(with_word(whole, 12, 0xffffffff), "GLB_CHUNK_TOO_BIG");
+    check_refused(with_word(whole, 12, 21), "GLB_CHUNK_LENGTH_UNALIGNED");
+    check_refused(with_word(whole, 12, 0), "GLB_EMPTY_CHUNK");
+    check_refused(with_word(whole, 16, bin_chunk), "GLB_UNEXPECTED_FIRST_CHUNK");
+    check_refused(ByteVector(whole.begin(), whole.begin() + 11), "GLB_UNEXPECTED_END_OF_HEADER");
+    const ByteVector rest{std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}};
+    check_refused(with_length(joined(whole, rest)), "GLB_UNEXPECTED_END_OF_CHUNK_HEADER");
+    check_refused(with_length(joined(whole, chunk(bin_chunk, rest))), "GLB_DUPLICATE_CHUNK");
+    check_refused(with_length(joined(whole, chunk(json_chunk, rest))), "GLB_DUPLICATE_CHUNK");
+    CHECK(refusal(with_length(joined(whole, chunk(0x12345678, rest)))) == "");
+    Json longer = file.json;
+    longer["buffers"] = Json::array({{{"byteLength", 37}}});
+    check_refused(glb(longer, file.bin), "BUFFER_EMBEDDED_BYTELENGTH_MISMATCH");
+    longer["buffers"] = Json::array({{{"byteLength", 36}, {"uri", data_uri(file.bin)}}, {{"byteLength", 36}}});
+    longer["bufferViews"][0]["buffer"] = 1;
+    check_refused(glb(longer, file.bin), "BUFFER_NON_FIRST_GLB");
+}
+
+TEST_CASE("JSON that is none, nests too deep, repeats a key or leaves the numbers is refused") {
+    for (const char* text :
+         {"", "{", "{}x", "[", "nil", " ", "{\"asset\":}", "{\"asset\":{\"version\":\"\xff\"}}", "{\"a\":1,\"a\":2}",
+          "{\"asset\":{\"version\":\"2.0\"},\"extras\":1e999}", "{\"asset\":{\"version\":\"2.0\"},\"extras\":NaN}"}) {
+        INFO(text);
+        CHECK(refusal(to_bytes(text)) != "");
+    }
+    check_refused(to_bytes("{}"), "UNDEFINED_PROPERTY");
+    check_refused(to_bytes("\n[]"), "TYPE_MISMATCH");
+    check_refused(to_bytes("[]"), "GLB_INVALID_MAGIC");
+    CHECK(refusal(to_bytes(nested(90, "[", "]"))) == "");
+    check_refused(to_bytes(nested(101, "[", "]")), "INVALID_JSON");
+    check_refused(to_bytes(nested(20000, "[", "]")), "INVALID_JSON");
+    check_refused(to_bytes(nested(1000000, "{\"a\":", "}")), "INVALID_JSON");
+}
+
+TEST_CASE("a message is one line of printable characters, whatever the file holds") {
+    GltfFile file = everything();
+    file.json["meshes"][0]["primitives"][0]["attributes"][std::string("\x1b[31m\n\0bad", 9)] = 0;
+    const std::string message = refusal(to_bytes(file.document().dump()));
+    CHECK(message.ends_with("[MESH_PRIMITIVE_INVALID_ATTRIBUTE]"));
+    CHECK(std::all_of(message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) >= 0x20; }));
+}

@@ -1,0 +1,76 @@
+// tools/hardware_check/picture.h - pictures that a public test suite drew on a GeForce3-class chip, drawn again from their
+// names: abaire/nxdk_pgraph_tests_golden_results, CC0 1.0.
+//
+// Rule     A suite's file turns a name into draws; no picture is looked at. What the reference does not describe is not
+//          modelled, and says so. Pixels of a label (text that the test wrote over its picture) are not compared.
+// Source   nv2a-fragment.md, nv2a-geometry.md, nv2a-depth.md: scene by scene.
+// Tests    tests/tools/hardware_check/suites_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/device/profile.h"
+#include "pipeline/formats/image.h"
+#include "rasterizer/rules/raster_state.h"
+
+namespace strata::hardware_check {
+
+inline constexpr int picture_width = 640, picture_height = 480;
+
+// How a capture's bytes are read and compared.
+enum class Reading : std::uint8_t {
+    color,    // r g b a
+    drawn,    // which pixels differ from `background`, nothing else
+    depth16,  // a 16-bit word shown as R5G6B5
+    depth24   // a 24-bit word in A R G, the stencil in B
+};
+
+// What may differ; 0 and 0: nothing. A pixel that differs by more than `units` (1/255 or depth units) is always too much.
+struct Bound {
+    std::uint64_t pixels = 0;
+    std::uint32_t units = 0;
+    friend bool operator==(const Bound&, const Bound&) = default;
+};
+
+struct Picture {
+    Reading reading = Reading::color;
+    pipeline::Image image{};    // rgba8, d16, d24 or d16f
+    pipeline::Image stencil{};  // beside depth24 where the test has one, else empty
+    std::array<std::uint8_t, 4> background{};
+    std::vector<rasterizer::Rect> hidden{};  // not compared, beside label pixels: (255, 255, 255, 0) in color pictures
+    Bound bound{};
+    std::vector<std::uint64_t> reports{};  // what occlusion queries answered, in order
+};
+
+inline constexpr std::string_view unknown_name_reason = "no picture of this name is known";
+
+// A picture, or nothing and the reason why it is not modelled.
+struct Drawing {
+    std::optional<Picture> picture;
+    std::string reason;
+};
+
+using Subjects = std::uint8_t;  // a set: bit s for rasterizer::Subject s
+
+struct Suite {
+    std::string_view name;  // the folder's
+    Drawing (*draw)(std::string_view picture, const pipeline::DeviceProfile& profile);
+    Subjects tells = 0;  // whether a hypothesis on a subject is right
+    // Of a suite whose test loaded images: with `textures`, the folder that holds them. `draw` does without.
+    Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile,
+                         const std::string& textures) = nullptr;
+};
+
+[[nodiscard]] std::span<const Suite> suites();
+[[nodiscard]] const Suite* find_suite(std::string_view name);  // null if there is none
+[[nodiscard]] inline Drawing draw(const Suite& suite, std::string_view picture, const pipeline::DeviceProfile& profile,
+                                  const std::string& textures) {
+    return suite.draw_with != nullptr ? suite.draw_with(picture, profile, textures) : suite.draw(picture, profile);
+}
+
+}  // namespace strata::hardware_check

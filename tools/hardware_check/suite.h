@@ -1,0 +1,32 @@
+// tools/hardware_check/suite.h - one function a suite, each in a file of its own.
+#pragma once
+#include "tools/hardware_check/picture.h"
+
+namespace strata::hardware_check {
+
+inline const Drawing unknown_name{std::nullopt, std::string{unknown_name_reason}};
+
+Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_blend_tests(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_clear(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_color_mask_blend(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_combiner(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_depth_function(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_pixel_shader(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProfile& profile,
+                               const std::string& textures);
+Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_vertex_shader_rounding(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProfile& profile);
+
+}  // namespace strata::hardware_check

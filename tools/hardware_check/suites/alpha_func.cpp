@@ -1,0 +1,40 @@
+// Suite Alpha_func: AlphaFunc<function>_<Enabled|Disabled>. Ramps of alpha against the reference 7F, blended. nv2a-fragment.md 2.
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+namespace {
+
+using Color = std::array<float, 4>;
+
+// From `left` to `right` in x 64..576.
+TriangleSoup ramp(float top, const Color& left, const Color& right) {
+    TriangleSoup soup;
+    add_quad(soup,
+             {at(64, top, 0, left), at(576, top, 0, right), at(576, top + 64, 0, right), at(64, top + 64, 0, left)});
+    return soup;
+}
+
+}  // namespace
+
+Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& profile) {
+    if (!take(name, "AlphaFunc")) return unknown_name;
+    const bool enabled = take_last(name, "_Enabled");
+    if (!enabled && !take_last(name, "_Disabled")) return unknown_name;
+    const auto func = compare_func(name);
+    if (!func) return unknown_name;
+
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(0xff222322));
+    const pipeline::DrawState state{.alpha = {.enabled = enabled, .func = *func, .ref = 127.0f / 255.0f},
+                                    .blend = pipeline::blend_mode::over};
+    constexpr float top = 149.333f;
+    surface.draw(state, ramp(top, {1, 0, 0, 0}, {1, 0, 0, 1}));
+    surface.draw(state, ramp(top + 64, {0, 0, 1, 1}, {0, 0, 1, 0}));
+    surface.draw(state, ramp(top + 128, {0, 1, 0, 0.495f}, {0, 1, 0, 0.505f}));
+    surface.draw(state, box({0, top + 192, 640, top + 224}, 0x7fffffff));
+    return {Picture{.image = surface.color()}, {}};
+}
+
+}  // namespace strata::hardware_check

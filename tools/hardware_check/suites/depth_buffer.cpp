@@ -1,0 +1,170 @@
+// Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and Depth_buffer_fixed_function, the same without
+// DepthFmt_. Slopes of depth over small and wide quads. nv2a-geometry.md 4 and 5.7.
+#include <vector>
+
+#include "rasterizer/rules/depth_code.h"
+#include "tools/hardware_check/fixed_pipeline.h"
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+namespace {
+
+using pipeline::DepthFormat;
+
+struct Setting {
+    DepthFormat format = DepthFormat::d16;
+    std::uint32_t clear = 0;
+    bool is_float = false, shows_depth = false;
+};
+
+// z16_Cn_FZn_M00ffff; compression changes no stored value.
+std::optional<Setting> parse(std::string_view name) {
+    Setting s;
+    s.shows_depth = take_last(name, "_ZB");
+    const std::string_view format = take_until(name, "_");
+    if (format != "z16" && format != "z24") return std::nullopt;
+    if (!take(name, "Cn_") && !take(name, "Cy_")) return std::nullopt;
+    s.is_float = take(name, "FZy_");
+    if (!s.is_float && !take(name, "FZn_")) return std::nullopt;
+    const auto clear = take(name, "M") ? to_hexadecimal(name) : std::nullopt;
+    if (!clear) return std::nullopt;
+    s.clear = *clear;
+    s.format = format == "z24" ? DepthFormat::d24 : s.is_float ? DepthFormat::d16f : DepthFormat::d16;
+    if (s.clear > rasterizer::max_code(s.format)) return std::nullopt;
+    return s;
+}
+
+using Color = std::array<float, 4>;
+
+// Corners in the order upper left, upper right, lower right, lower left.
+struct Slope {
+    Box where;
+    std::array<float, 4> z;
+    std::array<Color, 4> color{};
+};
+
+[[nodiscard]] Color rgb(float r, float g, float b) { return {r, g, b, 1}; }
+[[nodiscard]] Color grey(float share) {
+    const float v = 0.25f + share * 0.75f;
+    return rgb(v, v, v);
+}
+
+// Window z of code `k`, in the buffer's own values.
+float value_of(DepthFormat format, float k) {
+    return format == DepthFormat::d16f ? rasterizer::d16f_value(static_cast<std::uint32_t>(k)) : k;
+}
+
+std::vector<Slope> window_slopes(DepthFormat format) {
+    constexpr int columns = 31, rows = 32;
+    const std::uint32_t max = rasterizer::max_code(format);
+    const float step = static_cast<float>(max) / static_cast<float>(columns * rows + 3 + 1);
+    const auto cut = [&](float k) {
+        return value_of(format, static_cast<float>(static_cast<std::int64_t>(k > 0 ? k : 0)));
+    };
+    std::vector<Slope> slopes;
+    float z_left = 0, offset = step * 0.75f;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const float x = 134.0f + 12.0f * static_cast<float>(column), y = 48.0f + 12.0f * static_cast<float>(row);
+            const float left = cut(z_left), right = cut(z_left + offset), scale = static_cast<float>(max);
+            const Color on_left = grey(z_left / scale), on_right = grey((z_left + offset) / scale);
+            slopes.push_back(
+                {{x, y, x + 8, y + 8}, {left, right, right, left}, {on_left, on_right, on_right, on_left}});
+            z_left += step;
+            offset = -offset;
+        }
+    const auto code = [&](std::uint32_t k) { return value_of(format, static_cast<float>(k)); };
+    const auto share = [&](float z) { return z / static_cast<float>(max); };
+    const float back = code((max - 1) * 3 / 4), near = code(0);
+    const Color far_left = rgb(share(back), 0.75f, share(back)), near_right = rgb(0.75f, share(near), share(near));
+    slopes.push_back({{132, 430, 492, 435}, {back, near, near, back}, {far_left, near_right, near_right, far_left}});
+    const float first = code(1), half = code(max / 2);
+    const Color upper = rgb(share(first), 0.5f, share(first)), lower = rgb(0.5f, share(half), share(half));
+    slopes.push_back({{502, 45, 510, 435}, {first, first, half, half}, {upper, upper, lower, lower}});
+    const float top = code(static_cast<std::uint32_t>(std::uint64_t{max - 1} * 2 / 3)), end = code(max - 1);
+    slopes.push_back(
+        {{128, 40, 512, 440}, {top, top, end, end}, {rgb(0, 1, 0), rgb(1, 0, 0), rgb(0.4f, 0.3f, 0), rgb(0, 0, 1)}});
+    return slopes;
+}
+
+// World z of the corners; the window's x, y were un-projected and come back, plus the viewport's offset.
+std::vector<Slope> world_slopes() {
+    constexpr float near = -6, far = 193;
+    constexpr int columns = 18, rows = 18;
+    const float step = (far - near) / static_cast<float>(columns * rows + 3 + 1);
+    std::vector<Slope> slopes;
+    float z_left = near, offset = step * 0.75f;
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const float x = 136.0f + 20.0f * static_cast<float>(column), y = 56.0f + 20.0f * static_cast<float>(row);
+            const float right = z_left + offset;
+            slopes.push_back({{x, y, x + 16, y + 16}, {z_left, right, right, z_left}});
+            z_left += step;
+            offset = -offset;
+        }
+    slopes.push_back({{132, 422, 492, 427}, {far * 0.75f, near, near, far * 0.75f}});
+    slopes.push_back({{502, 53, 510, 427}, {near, near, far * 0.5f, far * 0.5f}});
+    slopes.push_back({{128, 48, 512, 432}, {far * 2.0f / 3.0f, far * 2.0f / 3.0f, far, far}});
+    return slopes;
+}
+
+// Triangles (UL, UR, LR) and (UL, LR, LL); `turned`: (UL, LR, LL) first.
+void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
+    const Box b{s.where.left + shift, s.where.top + shift, s.where.right + shift, s.where.bottom + shift};
+    const ClipVertex ul = at(b.left, b.top, s.z[0], s.color[0]), ur = at(b.right, b.top, s.z[1], s.color[1]);
+    const ClipVertex lr = at(b.right, b.bottom, s.z[2], s.color[2]), ll = at(b.left, b.bottom, s.z[3], s.color[3]);
+    if (turned) {
+        add_triangle(soup, ul, lr, ll);
+        add_triangle(soup, ul, ur, lr);
+    } else {
+        add_quad(soup, {ul, ur, lr, ll});
+    }
+}
+
+Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, TriangleSoup soup) {
+    pipeline::Surface surface{profile, {.depth = s.format}};
+    surface.clear_color(unpack(0xff000000));
+    surface.clear_depth(s.clear);
+    surface.draw({.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}}, std::move(soup));
+    if (!s.shows_depth) return {.image = surface.color()};
+    return {.reading = s.format == DepthFormat::d24 ? Reading::depth24 : Reading::depth16, .image = surface.depth()};
+}
+
+const Drawing colors_unknown{std::nullopt,
+                             "how the chip weighs colours where w differs is not known (nv2a-fragment.md 8)"};
+const Drawing float_colors{std::nullopt,
+                           "its colours were computed from float depths; no capture was at hand to confirm how"};
+const Drawing z24_float{std::nullopt, "24-bit float depth is out of scope (nv2a-geometry.md 4)"};
+
+}  // namespace
+
+Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& profile) {
+    const auto setting = take(name, "DepthFmt_") ? parse(name) : std::nullopt;
+    if (!setting) return unknown_name;
+    if (setting->format == DepthFormat::d24 && setting->is_float) return z24_float;
+    if (setting->is_float && !setting->shows_depth) return float_colors;
+    TriangleSoup soup;
+    for (const Slope& slope : window_slopes(setting->format)) add_slope(soup, slope, 0, false);
+    return {depth_picture(profile, *setting, std::move(soup)), {}};
+}
+
+Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::DeviceProfile& profile) {
+    const auto setting = parse(name);
+    if (!setting) return unknown_name;
+    if (!setting->shows_depth) return colors_unknown;
+    if (setting->format == DepthFormat::d24 && setting->is_float) return z24_float;
+    if (setting->is_float) return {std::nullopt, "16-bit float depth behind the fixed pipeline is not described"};
+    TriangleSoup soup;
+    for (Slope slope : world_slopes()) {
+        for (float& z : slope.z) z = chip_window_z(z, static_cast<float>(rasterizer::max_code(setting->format)));
+        add_slope(soup, slope, viewport_offset, true);
+    }
+    Picture picture = depth_picture(profile, *setting, std::move(soup));
+    // 24 words of the right strip: the last bits of the reciprocal of its area are not known (nv2a-depth.md 4).
+    if (setting->format == DepthFormat::d24) picture.bound = {24, 1};
+    return {std::move(picture), {}};
+}
+
+}  // namespace strata::hardware_check

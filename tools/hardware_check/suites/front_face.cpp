@@ -1,0 +1,36 @@
+// Suite Front_face: FrontFace_[FM_|LM_]<CW|CCW|0x00|0x63>_CF_<F|B|FaB>, polygons filled or (LM) as lines. The left quad turns counter-clockwise as seen, the right one
+// clockwise; a word that names no direction leaves CW in force. nv2a-geometry.md 5.5.
+#include <algorithm>
+
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+
+Drawing draw_front_face(std::string_view name, const pipeline::DeviceProfile& profile) {
+    using rasterizer::CullFace;
+    using rasterizer::FrontFace;
+    if (!take(name, "FrontFace_")) return unknown_name;
+    const bool as_lines = take(name, "LM_");
+    if (!as_lines) take(name, "FM_");
+    const std::string_view winding = take_until(name, "_CF_");
+    constexpr std::string_view windings[] = {"CW", "CCW", "0x00", "0x63", "0", "63"};
+    if (std::find(std::begin(windings), std::end(windings), winding) == std::end(windings)) return unknown_name;
+    if (name != "F" && name != "B" && name != "FaB") return unknown_name;
+    if (as_lines) return {std::nullopt, "polygons drawn as lines are not described"};
+    pipeline::DrawState state;
+    state.front_face = winding == "CCW" ? FrontFace::counter_clockwise : FrontFace::clockwise;
+    state.cull = name == "F" ? CullFace::front : name == "B" ? CullFace::back : CullFace::front_and_back;
+
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(0xff000000));
+    constexpr Argb color = 0xffffffff;
+    TriangleSoup soup;
+    add_quad(soup, {at(138, 44, color), at(138, 430, color), at(310, 430, color), at(310, 44, color)});
+    add_box(soup, {330, 44, 502, 430}, color);
+    surface.draw(state, std::move(soup));
+    return {Picture{.reading = Reading::drawn, .image = surface.color(), .background = unpack(0xff000000)}, {}};
+}
+
+}  // namespace strata::hardware_check

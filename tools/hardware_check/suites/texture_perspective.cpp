@@ -1,0 +1,77 @@
+// Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checker, or four colours, over a quad whose w differs,
+// with perspective correction and without; two corners lie far outside of the window. nv2a-geometry.md 5.4.
+#include "tools/hardware_check/fixed_pipeline.h"
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+namespace {
+
+constexpr int texels = 256, cell = 8;
+constexpr float side = texels;
+
+pipeline::Texture checker() {
+    pipeline::Image image{pipeline::Format::rgba8, texels, texels};
+    for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < texels; ++x) {
+            const pipeline::PixelCode code = unpack((x / cell + y / cell) % 2 == 0 ? 0xff00ffff : 0xff000000);
+            for (int c = 0; c < 4; ++c) image.codes[image.index(x, y, c)] = code[static_cast<std::size_t>(c)];
+        }
+    return as_texture(image);
+}
+
+// A corner of the square of 3.5 world units, its input w other than 1.
+struct Corner {
+    double x, y, w;
+    Argb color;
+    std::array<float, 2> texel;
+};
+
+ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
+    constexpr double distance = 7.0, scale = 240.0 * cotangent;
+    const double w = distance * c.w;
+    ClipVertex v = at(static_cast<float>(320.0 + scale * c.x / w + viewport_offset),
+                      static_cast<float>(240.0 - scale * c.y / w + viewport_offset), 0,
+                      to_float(is_textured ? 0xffffffff : c.color), corrected ? static_cast<float>(w) : 1.0f);
+    v.texcoord = {c.texel[0], c.texel[1]};
+    return v;
+}
+
+// nv2a-geometry.md 5.4 has another rule for colours within 2 units everywhere, ours is as far from that one at most.
+constexpr Bound within_four{std::uint64_t{picture_width} * picture_height, 4};
+// Texels that the chip takes from the other side of a cell's edge: 1 in the corrected capture at hand, none in the other one; no
+// quad was at hand.
+constexpr Bound few_texels{8, 255};
+
+}  // namespace
+
+Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile) {
+    const bool is_textured = take(name, "tex_tex_pers_");
+    if (!is_textured && !take(name, "tex_diff_pers_")) return unknown_name;
+    const bool corrected = take(name, "y_");
+    if (!corrected && !take(name, "n_")) return unknown_name;
+    const bool is_quad = name == "quad";
+    if (!is_quad && name != "bitri") return unknown_name;
+
+    const std::array<Corner, 4> corners{{{-1.75, 1.75, 0.3, 0xffff0000, {0, 0}},
+                                         {1.75, 1.75, 1, 0xff00ff00, {side, 0}},
+                                         {1.75, -1.75, is_textured ? 3 : 0.3, 0xff0000ff, {side, side}},
+                                         {-1.75, -1.75, 1, 0xffffffff, {0, side}}}};
+    std::array<ClipVertex, 4> v;
+    for (std::size_t i = 0; i < 4; ++i) v[i] = vertex(corners[i], is_textured, corrected);
+    TriangleSoup soup;
+    if (is_quad) {
+        add_quad(soup, v);
+    } else {
+        add_triangle(soup, v[0], v[1], v[3]);
+        add_triangle(soup, v[2], v[3], v[1]);
+    }
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(0xfe251135));
+    const pipeline::Texture texture = checker();
+    surface.draw({.texture = is_textured ? &texture : nullptr}, std::move(soup));
+    return {Picture{.image = surface.color(), .bound = is_textured ? few_texels : within_four}, {}};
+}
+
+}  // namespace strata::hardware_check

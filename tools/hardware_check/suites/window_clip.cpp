@@ -1,0 +1,49 @@
+// Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, an s in front: the second region was set first. Two clip regions,
+// drawn inside or outside of; both limits of a region are inside. Writing a limit of region 0 sets all eight regions, so that
+// with an s the first region alone is left.
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+namespace {
+
+std::optional<int> take_number(std::string_view& name, std::string_view key) {
+    if (!take(name, key)) return std::nullopt;
+    int value = 0, digits = 0;
+    for (; !name.empty() && name[0] >= '0' && name[0] <= '9' && digits < 6; ++digits, name.remove_prefix(1))
+        value = 10 * value + (name[0] - '0');
+    return digits > 0 ? std::optional{value} : std::nullopt;
+}
+
+constexpr int widest = 4095;  // the limits' registers have 12 bits [A]
+
+std::optional<rasterizer::Rect> take_region(std::string_view& name) {
+    const auto x = take_number(name, "x"), y = take_number(name, "y"), w = take_number(name, "_w"),
+               h = take_number(name, "h");
+    if (!x || !y || !w || !h || *x + *w > widest || *y + *h > widest) return std::nullopt;
+    return rasterizer::Rect{*x, *y, *x + *w + 1, *y + *h + 1};
+}
+
+}  // namespace
+
+Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& profile) {
+    if (name.starts_with("r")) return {std::nullopt, "clipping in an off-screen target is not described"};
+    const bool second_is_overwritten = take(name, "s");
+    const bool exclusive = take(name, "E_");
+    if (!exclusive && !take(name, "I_")) return unknown_name;
+    const auto first = take_region(name);
+    const auto second = first && take(name, "-") ? take_region(name) : std::nullopt;
+    if (!second || !name.empty()) return unknown_name;
+
+    constexpr Argb below = 0xff337788, above = 0xffff7733;
+    const Box square{0, 0, 256, 256};
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(0xfe111213));
+    surface.draw({}, box(square, exclusive ? above : below));
+    for (const rasterizer::Rect& region : {*first, second_is_overwritten ? *first : *second})
+        surface.draw({.window_clip = region}, box(square, exclusive ? below : above));
+    return {Picture{.image = surface.color()}, {}};
+}
+
+}  // namespace strata::hardware_check

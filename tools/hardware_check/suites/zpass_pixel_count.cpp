@@ -1,0 +1,103 @@
+// Suite ZPass_pixel_count: ZPass, ZPassPointSize[VS]-0x<size>, ZPassLineWidth-0x<width>, all [_ZB], sizes in 1/8 pixel. What the
+// chip's occlusion query counts. nv2a-fragment.md 5.
+#include <algorithm>
+
+#include "tools/hardware_check/fixed_pipeline.h"
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+namespace {
+
+constexpr double units = 65535.0;
+const pipeline::DrawState counted{.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}};
+
+// A 128 x 128 square at world z, through the fixed pipeline.
+std::uint64_t draw_square(pipeline::Surface& surface, float x, float y, double z, Argb color) {
+    const float l = x + viewport_offset, t = y + viewport_offset;
+    return surface.draw(counted, box({l, t, l + 128, t + 128}, color, static_cast<float>(window_z(z, units))));
+}
+
+std::vector<std::uint64_t> draw_squares(pipeline::Surface& surface) {
+    std::uint64_t count = draw_square(surface, 32, 240, 0, 0xff773377);
+    count += draw_square(surface, 32, 240, 1, 0xff0000ff);
+    count += draw_square(surface, 224, 240, 0, 0xff337777);
+    count += draw_square(surface, 576, 240, 0, 0xffe0e0e0);
+    const std::uint64_t first = count;
+    count += draw_square(surface, 576, 176, -0.1, 0xff33cc33);
+    return {first, count};
+}
+
+constexpr Argb white = 0xffffffff;
+
+// A square of `side` pixels round (x, y): pixel centres in [c - side / 2, c + side / 2).
+std::uint64_t draw_point(pipeline::Surface& surface, float x, float y, float side, float z) {
+    const float h = side / 2;
+    return surface.draw(counted, box({x - h, y - h, x + h, y + h}, white, z));
+}
+
+// The fixed pipeline counts whole pixels, one at least.
+std::uint64_t draw_fixed_points(pipeline::Surface& surface, std::uint32_t size) {
+    const float side = static_cast<float>(std::max(1u, size >> 3));
+    const float near = static_cast<float>(window_z(0, units)), behind = static_cast<float>(window_z(1.5, units));
+    std::uint64_t count = draw_square(surface, 32, 240, 0, 0xff773377);
+    count += draw_point(surface, 96.5f, 304.5f, side, behind);
+    return count + draw_point(surface, 288.5f, 304.5f, side, near);
+}
+
+// A vertex program's size is not rounded; 0 and the end of the range are exceptions.
+std::uint64_t draw_program_points(pipeline::Surface& surface, std::uint32_t size) {
+    const bool is_zero = size == 0, wraps = size >= 512;
+    const float side = is_zero || wraps ? 1.0f : size >= 504 ? 64.0f : static_cast<float>(size) / 8.0f;
+    const float shift = is_zero ? 0.5f : 0.0f;
+    std::uint64_t count = surface.draw(counted, box({32, 240, 160, 368}, 0xff773377, 0));
+    count += draw_point(surface, 96 + shift, 304 + shift, side, 1.5f);
+    return count + draw_point(surface, 288 + shift, 304 + shift, side, 0);
+}
+
+// A horizontal line of 64 pixels: rows from 304 - width / 2 on.
+std::uint64_t draw_lines(pipeline::Surface& surface, std::uint32_t width) {
+    std::uint64_t count = draw_square(surface, 32, 240, 0, 0xff773377);
+    if (width == 0) return count;
+    const std::uint32_t rows = std::max(1u, width >> 3);
+    const float y = 304.0f - static_cast<float>(rows >> 1), z = static_cast<float>(window_z(1.5, units));
+    for (const float x : {33.0f, 289.0f})
+        count += surface.draw(counted, box({x, y, x + 64, y + static_cast<float>(rows)}, white, z));
+    return count;
+}
+
+struct Sized {
+    std::string_view prefix;
+    std::uint32_t largest;  // that is described
+    std::uint64_t (*draw)(pipeline::Surface&, std::uint32_t size);
+};
+constexpr Sized kinds[] = {{"ZPassPointSizeVS-0x", 513, draw_program_points},
+                           {"ZPassPointSize-0x", 511, draw_fixed_points},
+                           {"ZPassLineWidth-0x", 511, draw_lines}};
+
+}  // namespace
+
+Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProfile& profile) {
+    const bool shows_depth = take_last(name, "_ZB");
+    const Sized* const sized = std::find_if(std::begin(kinds), std::end(kinds),
+                                            [&](const Sized& kind) { return name.starts_with(kind.prefix); });
+    const bool is_sized = sized != std::end(kinds);
+    const auto size = is_sized ? to_hexadecimal(name.substr(sized->prefix.size())) : std::nullopt;
+    if (!size && name != "ZPass") return unknown_name;
+    if (size && *size > sized->largest)
+        return {std::nullopt, "what the chip makes of so large a size is not described"};
+    pipeline::Surface surface{profile, {.depth = pipeline::DepthFormat::d16}};
+    surface.clear_color(unpack(0xff333333));
+    surface.clear_depth(0xffff);
+    Picture picture;
+    if (size)
+        picture.reports = {sized->draw(surface, *size)};
+    else
+        picture.reports = draw_squares(surface);
+    if (shows_depth) picture.reading = Reading::depth16;
+    picture.image = shows_depth ? surface.depth() : surface.color();
+    return {std::move(picture), {}};
+}
+
+}  // namespace strata::hardware_check

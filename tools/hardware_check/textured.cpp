@@ -1,0 +1,38 @@
+#include "tools/hardware_check/textured.h"
+
+namespace strata::hardware_check {
+
+TriangleSoup textured_quad(const std::array<TexturedCorner, 4>& corner, Argb color) {
+    TriangleSoup soup;
+    soup.extras.stride = 4 * rasterizer::texture_units;
+    soup.extras.has_units = true;
+    const auto add = [&](std::size_t k) {
+        for (const Coordinate& unit : corner[k].unit)
+            soup.extras.values.insert(soup.extras.values.end(), unit.begin(), unit.end());
+        return at(corner[k].x, corner[k].y, color);
+    };
+    for (const std::array<std::size_t, 3>& triangle : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
+        const ClipVertex a = add(triangle[0]), b = add(triangle[1]), c = add(triangle[2]);
+        add_triangle(soup, a, b, c);
+    }
+    return soup;
+}
+
+pipeline::Combiners show(pipeline::CombinerRegister color, pipeline::CombinerRegister alpha) {
+    using pipeline::CombinerMapping;
+    const bool is_one = alpha == pipeline::CombinerRegister::zero;
+    pipeline::Combiners combiners;
+    combiners.final_stage.d = {.source = color};
+    combiners.final_stage.g = {
+        .source = alpha, .mapping = is_one ? CombinerMapping::unsigned_invert : CombinerMapping::unsigned_identity};
+    return combiners;
+}
+
+pipeline::ShaderStage rectangle_lookup(const pipeline::BoundTexture& texture) {
+    pipeline::ShaderStage stage;
+    stage.op = pipeline::ShaderOp::texture_rectangle;
+    stage.texture = texture;
+    return stage;
+}
+
+}  // namespace strata::hardware_check

@@ -1,0 +1,128 @@
+// tools/strata/bench/bench.cpp - strata bench: how long algorithms take, in every way of running them.
+#include <cstdio>
+#include <memory>
+
+#include "scenes/files/atomic_file.h"
+#include "tools/strata/bench/bench_report.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/choices.h"
+#include "tools/strata/options/parse.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct BenchOptions {
+    RunOptions run;
+    std::vector<std::string> scenes;
+    std::vector<const peeling::Algorithm*> algorithms;
+    std::vector<pipeline::Execution> executions{pipeline::Execution::replay};
+    std::vector<Simd> simds{Simd::best};
+    std::vector<pipeline::Effects> effects{pipeline::Effects::needed};
+    Repetitions repetitions;
+    std::string json, baseline;
+};
+
+std::vector<Choice<const peeling::Algorithm*>> job_names() {
+    std::vector<Choice<const peeling::Algorithm*>> names{{"depth", nullptr}};
+    for (const peeling::Algorithm& algorithm : peeling::algorithms()) names.push_back({algorithm.name, &algorithm});
+    return names;
+}
+
+template <class T>
+std::vector<T> values_of(const std::vector<Choice<T>>& choices) {
+    std::vector<T> values;
+    for (const auto& choice : choices) values.push_back(choice.value);
+    return values;
+}
+
+// Innermost the ways of running, so that what is compared is timed side by side.
+std::vector<BenchJob> jobs_of(const BenchOptions& options, const std::vector<BenchScene>& scenes) {
+    std::vector<Simd> simds;
+    for (Simd simd : options.simds) {
+        check_simd(simd);
+        if (simd == Simd::best) simd = available_simd().back();
+        if (std::find(simds.begin(), simds.end(), simd) == simds.end()) simds.push_back(simd);
+    }
+    std::vector<BenchJob> jobs;
+    for (const BenchScene& scene : scenes)
+        for (const auto* algorithm : options.algorithms)
+            for (const auto effects : options.effects)
+                for (const auto simd : simds)
+                    for (const auto execution : options.executions)
+                        jobs.push_back({&scene, algorithm, execution, simd, effects});
+    return jobs;
+}
+
+std::vector<BenchScene> open_scenes(const BenchOptions& options) {
+    std::vector<BenchScene> scenes;
+    for (const std::string& name : options.scenes) {
+        BenchScene& scene = scenes.emplace_back(BenchScene{options.run, {}});
+        scene.options.scene = name;
+        scene.session = open_session(scene.options);
+    }
+    return scenes;
+}
+
+// 1 if a way of running changed a bit, 2 if every job was refused.
+int exit_status(const std::vector<BenchResult>& results) {
+    const auto wrong = differing(results);
+    for (const std::string& name : wrong) std::fprintf(stderr, "strata: %s: the picture differs\n", name.c_str());
+    if (!wrong.empty()) return 1;
+    return std::all_of(results.begin(), results.end(), [](const BenchResult& r) { return r.is_refused(); }) ? 2 : 0;
+}
+
+int bench(BenchOptions& options) {
+    complete(options.run);
+    check_output("--json", options.json == "-" ? "" : options.json, {".json"});
+    const Baseline baseline = options.baseline.empty() ? Baseline{} : load_baseline(options.baseline);
+    const std::vector<BenchScene> scenes = open_scenes(options);
+    const auto results = measure(jobs_of(options, scenes), options.repetitions);
+    const std::string document = to_json(results, baseline).dump(2) + '\n';
+    if (options.json == "-") {
+        print(document);
+    } else {
+        if (!options.json.empty()) scenes::write_file(options.json, document);
+        print(to_table(results) + (options.baseline.empty() ? "" : to_ratios(results, baseline)));
+    }
+    return exit_status(results);
+}
+
+}  // namespace
+
+Command add_bench(CLI::App& root) {
+    auto* app = root.add_subcommand("bench", "time algorithms from a loaded scene to finished pixels in memory");
+    const auto options = std::make_shared<BenchOptions>();
+    const auto names = job_names();
+    options->algorithms = values_of(names);
+    app->add_option("SCENE", options->scenes, "one or more scenes: .gltf or .glb files, or built-in ones")
+        ->required()
+        ->type_name("...");
+    add_reading_options(*app, options->run.scene_options);
+    add_choices(*app, options->algorithms, "--algorithm", names, values_of(names),
+                "algorithms with commas between; depth is one opaque depth pass (default all)");
+    add_profile_option(*app, options->run.profile);
+    add_machine_options(*app, options->run.render);
+    add_view_options(*app, options->run);
+    add_choices(*app, options->executions, "--execution", executions, values_of(executions),
+                "ways of running (default replay)");
+    add_choices(*app, options->simds, "--simd", simds, available_simd(), "instruction sets (default best)");
+    add_choices(*app, options->effects, "--effects", effects, values_of(effects),
+                "needed, all, or needed,all (default needed)");
+    add_resource_options(*app, options->run);
+    add_option(*app, options->repetitions.timed,
+               {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_positive);
+    add_option(*app, options->repetitions.warm_up,
+               {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds, from 0"},
+               to_seconds);
+    app->add_option("--json", options->json, "the times as JSON; - is standard output instead of the table")
+        ->type_name("FILE|-");
+    app->add_option("--baseline", options->baseline, "what --json wrote before: also print old/new")->type_name("FILE");
+    app->footer(
+        footer("  strata bench teapot --size 200x150 --algorithm depth,dual --execution all --repeat 3\n"
+               "  strata bench volume-beam:slices=4 random:triangles=300 --size 64x64 --repeat 1 --json times.json\n"));
+    return {app, [options] { return bench(*options); }};
+}
+
+}  // namespace strata::tools

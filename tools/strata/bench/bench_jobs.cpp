@@ -1,0 +1,116 @@
+#include "tools/strata/bench/bench_jobs.h"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+
+#include "tools/strata/progress.h"
+
+namespace strata::tools {
+
+namespace {
+
+class Collector : public benchmark::BenchmarkReporter {
+  public:
+    explicit Collector(std::vector<BenchResult>& results) : results_{results} {}
+
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs) {
+            if (run.run_type != Run::RT_Iteration || run.error_occurred) continue;
+            BenchResult& result = results_[static_cast<std::size_t>(run.family_index)];  // in order of registration
+            result.seconds.push_back(run.real_accumulated_time);                         // of its one iteration
+            result.geometry_seconds.push_back(run.counters.at("geometry_seconds").value);
+        }
+    }
+
+  private:
+    std::vector<BenchResult>& results_;
+};
+
+void warm_up(const BenchJob& job, double seconds) {
+    for (double spent = 0; spent < seconds;) {
+        const BenchRun run = run_once(job);
+        if (!run.refusal.empty()) return;
+        spent += run.seconds;
+    }
+}
+
+void run_job(benchmark::State& state, BenchResult& result) {
+    for ([[maybe_unused]] auto iteration : state) {
+        result.last = run_once(result.job);
+        if (result.is_refused()) {
+            state.SkipWithError(result.last.refusal.c_str());
+            break;
+        }
+        state.SetIterationTime(result.last.seconds);
+    }
+    state.counters["geometry_seconds"] = result.last.geometry_seconds;
+}
+
+}  // namespace
+
+std::string algorithm_name(const BenchJob& job) { return job.algorithm == nullptr ? "depth" : job.algorithm->name; }
+
+peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options) {
+    const Session& session = job.scene->session;
+    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options);
+    return job.algorithm == nullptr ? renderer.depth_pass() : renderer.render(*job.algorithm);
+}
+
+BenchRun run_once(const BenchJob& job) {
+    peeling::RenderOptions options = job.scene->options.render;
+    options.execution = job.execution;
+    options.effects = job.effects;
+    options.once_more = job.once_more;
+    options.audit = false;
+    options.nearest_depth = false;
+    choose_simd(job.simd);
+
+    const auto start = std::chrono::steady_clock::now();
+    peeling::RenderResult result = run_algorithm(job, options);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+
+    BenchRun run;
+    if (result.refusal) {
+        run.refusal = result.refusal->sentence(job.scene->session.profile);
+        return run;
+    }
+    run.seconds = taken.count();
+    run.geometry_seconds = result.seconds.geometry;
+    run.geometry_passes = result.frame.passes.geometry;
+    run.iterations = result.frame.iterations;
+    run.counters = result.frame.counters;
+    run.picture = std::move(result.frame.color.codes.empty() ? result.frame.depth : result.frame.color);
+    return run;
+}
+
+std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repetitions& repetitions) {
+    std::vector<BenchResult> results;
+    for (const BenchJob& job : jobs)
+        results.push_back({.job = job, .last = {}, .digest = {}, .seconds = {}, .geometry_seconds = {}});
+    Progress progress("bench");
+    const double runs = static_cast<double>(jobs.size()) * repetitions.timed;
+    double done = 0;
+    benchmark::ClearRegisteredBenchmarks();
+    for (BenchResult& result : results) {
+        const auto body = [&result, &progress, &done, runs, &repetitions,
+                           left = repetitions.timed](benchmark::State& state) mutable {
+            if (left == repetitions.timed) warm_up(result.job, repetitions.warm_up);
+            run_job(state, result);
+            if (--left == 0)
+                result.digest = pipeline::digest(result.last.picture);  // not before: it empties the caches
+            result.last.picture = {};
+            progress.show(++done / runs);
+        };
+        benchmark::RegisterBenchmark(algorithm_name(result.job).c_str(), body)
+            ->UseManualTime()
+            ->Iterations(1)
+            ->Repetitions(repetitions.timed);
+    }
+    Collector collector(results);
+    benchmark::RunSpecifiedBenchmarks(&collector, nullptr, ".");
+    return results;
+}
+
+}  // namespace strata::tools

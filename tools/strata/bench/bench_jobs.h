@@ -1,0 +1,61 @@
+// tools/strata/bench/bench_jobs.h - what `strata bench` times: one algorithm in one way of running it, from the scene in memory
+// to finished pixels in memory. Loading is outside, and so is whatever compares or writes. A job is timed warm: its first frames, which
+// make the process's memory grow, are not counted, as strata_mesa's are not.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/strata/render/run.h"
+
+namespace strata::tools {
+
+// A scene that is loaded once for all its jobs.
+struct BenchScene {
+    RunOptions options;
+    Session session;
+};
+
+struct BenchJob {
+    const BenchScene* scene = nullptr;
+    const peeling::Algorithm* algorithm = nullptr;  // null: the job `depth`, one opaque depth pass
+    pipeline::Execution execution = pipeline::Execution::replay;
+    Simd simd = Simd::scalar;
+    pipeline::Effects effects = pipeline::Effects::needed;
+    pipeline::Effect once_more = pipeline::Effect::none;  // of `strata effects`
+};
+
+// One repetition.
+struct BenchRun {
+    std::string refusal;                       // why the profile cannot run it; empty: it ran
+    double seconds = 0, geometry_seconds = 0;  // the second is a part of the first
+    int geometry_passes = 0, iterations = 0;
+    pipeline::Counters counters;  // literal's
+    pipeline::Image picture;      // the depths for `depth`
+};
+
+struct BenchResult {
+    BenchJob job;
+    BenchRun last;                                  // without its picture
+    std::string digest;                             // of that picture
+    std::vector<double> seconds, geometry_seconds;  // one a repetition, in the order in which they ran
+    [[nodiscard]] bool is_refused() const noexcept { return !last.refusal.empty(); }
+};
+
+[[nodiscard]] std::string algorithm_name(const BenchJob& job);
+
+// Set-up and passes with these options: what a job does between the clock's start and its stop.
+[[nodiscard]] peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options);
+
+[[nodiscard]] BenchRun run_once(const BenchJob& job);
+
+// Of each job.
+struct Repetitions {
+    int timed = 5;
+    double warm_up = 0.3;  // seconds that it runs before, at least once; 0: not at all
+};
+
+// Google Benchmark runs every job as often; progress is shown on a terminal.
+[[nodiscard]] std::vector<BenchResult> measure(const std::vector<BenchJob>& jobs, const Repetitions& repetitions);
+
+}  // namespace strata::tools

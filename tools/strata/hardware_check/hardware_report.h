@@ -1,0 +1,48 @@
+// tools/strata/hardware_check/hardware_report.h - what a hardware check found: a line a suite, a line a picture, JSON, and a page with pictures.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/hardware_check/compare.h"
+
+namespace strata::tools {
+
+struct Capture {
+    std::string suite, name, path;
+};
+
+// Beside the suites: images that tests loaded (Pixel_shader's). No suite.
+inline constexpr std::string_view textures_folder = "textures";
+
+// The picture of a known suite, or why there is none: the profile may lack what it draws on.
+[[nodiscard]] hardware_check::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile);
+
+struct CheckedPicture {
+    Capture capture;
+    bool is_known = false;   // the suite, and the name in it
+    std::string unmodelled;  // the reason; empty: it was compared
+    hardware_check::Bound bound{};
+    hardware_check::Comparison comparison{};
+    std::vector<std::uint64_t> reports{};
+    rasterizer::Rect labels{};
+    std::string digest{};  // of the capture outside its labels
+    [[nodiscard]] bool is_compared() const { return is_known && unmodelled.empty(); }
+    [[nodiscard]] bool is_accepted() const { return !is_compared() || comparison.within_bound; }
+};
+
+// rgba8. InputError for a file that holds no picture, or several.
+[[nodiscard]] pipeline::Image read_capture(const std::string& path);
+
+// Draws the picture and compares. InputError for a file that is no such capture.
+[[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile);
+
+[[nodiscard]] std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
+[[nodiscard]] std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
+// Suite, picture, label box, digest: of every capture that came out equal.
+[[nodiscard]] std::string digest_rows(const std::vector<CheckedPicture>& checked);
+// report.md, and a difference picture of whatever is not equal, in `folder`, which is made.
+void write_report(const std::string& folder, const std::vector<CheckedPicture>& checked,
+                  const pipeline::DeviceProfile& profile);
+
+}  // namespace strata::tools

@@ -1,0 +1,105 @@
+// tools/strata/invariance/invariance.cpp - strata invariance: two depths that ought to be equal, what that does to a peel, and what each
+// remedy costs.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "scenes/files/text_file.h"
+#include "tools/strata/command.h"
+#include "tools/strata/invariance/invariance_sweep.h"
+#include "tools/strata/options/choices.h"
+#include "tools/strata/options/options.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct InvarianceOptions {
+    RunOptions run;
+    KeyValues keys;
+    std::string plan;
+    Shard shard;
+    int merge = 0;
+    bool dry_run = false, images = true, hypotheses = false;
+};
+
+std::string option_of(const PlanKey& key) {
+    std::string name = "--" + key.name;
+    std::replace(name.begin() + 2, name.end(), '_', '-');
+    return name;
+}
+
+void add_key(CLI::App& app, InvarianceOptions& options, const PlanKey& key) {
+    const auto fill = [&options, key](const std::string& given) {
+        const auto values = key.is_list ? split(given, ',') : std::vector{given};
+        for (const std::string& value : values) {
+            Cell cell;
+            if (!key.set(cell, value))
+                throw CLI::ValidationError(option_of(key), "expected " + key.expected + ", found '" + value + "'");
+        }
+        options.keys[key.name] = values;
+    };
+    const std::string help = key.help + " (default " + key.fallback + ")";
+    app.add_option_function<std::string>(option_of(key), fill, help)
+        ->type_name(key.is_list ? "VALUE[,VALUE...]" : "VALUE");
+}
+
+void check_usage(const InvarianceOptions& options) {
+    if (options.run.output.empty() && !options.dry_run)
+        throw CLI::ValidationError("-o", "expected a folder for the results, found none");
+    if (options.merge > 0 && options.shard.count > 1)
+        throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
+}
+
+int invariance(InvarianceOptions& options) {
+    check_usage(options);
+    if (!options.run.scene.empty()) options.keys["scene"] = {options.run.scene};
+    if (options.hypotheses) options.keys["hypothesis"] = {"all"};
+    Sweep sweep{options.plan.empty() ? cells_of(options.keys)
+                                     : parse_plan(scenes::read_text_file(options.plan), options.plan, options.keys),
+                options.run.output, options.shard, options.images};
+    CellRunner runner(options.run.scene_options, options.run.render);
+    sweep.cells = runner.expanded(sweep.cells);
+    for (const Cell& cell : sweep.cells) runner.check(cell);
+    if (options.dry_run) return dry_run(sweep, runner), 0;
+    if (options.merge > 0) return merge_shards(sweep, runner, static_cast<std::size_t>(options.merge));
+    return run_sweep(sweep, runner);
+}
+
+void add_sweep_options(CLI::App& app, InvarianceOptions& options) {
+    app.add_option("--plan", options.plan, "a JSON plan of cells (tools/invariance/README.md)")->type_name("FILE");
+    app.add_option("-o,--output", options.run.output, "a folder: results.jsonl, results.csv, timings.jsonl, images/")
+        ->type_name("FOLDER");
+    add_option(app, options.shard,
+               {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
+    add_option(app, options.merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},
+               to_positive);
+    app.add_flag("--hypotheses", options.hypotheses, "every hypothesis about the device: the same as --hypothesis all");
+    app.add_flag("--dry-run", options.dry_run, "print the cells and how long they would take");
+    app.add_flag_callback(
+        "--no-images", [&options] { options.images = false; }, "no pictures of cells with errors");
+}
+
+}  // namespace
+
+Command add_invariance(CLI::App& root) {
+    auto* app =
+        root.add_subcommand("invariance", "peel with two depths that ought to be equal, and measure what goes wrong");
+    const auto options = std::make_shared<InvarianceOptions>();
+    app->add_option("SCENE", options->run.scene, "a .gltf or .glb file, or a built-in scene (strata scenes)")
+        ->type_name("");
+    add_reading_options(*app, options->run.scene_options);
+    for (const PlanKey& key : plan_keys())
+        if (key.name != "scene") add_key(*app, *options, key);
+    add_sweep_options(*app, *options);
+    add_resource_options(*app, options->run);
+    app->footer(
+        footer("  strata invariance teapot --size 64x48 --profile ideal --algorithm front_to_back --pair "
+               "float32:perspective_rq "
+               "--depth-format d24 --remedy none,epsilon:1ulp -o results\n"
+               "  strata invariance planes:gap=8 --size 64x48 --remedy none,bias:4 --dry-run\n"));
+    return {app, [options] { return invariance(*options); }};
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,109 @@
+#include "tools/strata/invariance/invariance_cell.h"
+
+#include "pipeline/vertices/other_splits.h"
+#include "rasterizer/base/input_error.h"
+#include "rasterizer/rules/hypotheses.h"
+#include "scenes/camera.h"
+#include "scenes/files/profile_json.h"
+#include "tools/strata/options/names.h"
+
+namespace strata::tools {
+
+namespace {
+
+peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions& resources) {
+    peeling::Experiment e;
+    e.render = resources;
+    e.render.width = cell.width;
+    e.render.height = cell.height;
+    e.render.alpha = cell.alpha;
+    e.render.depth = cell.format;
+    const bool has_bias = cell.remedy.bias_constant != 0 || cell.remedy.bias_slope != 0;
+    e.render.raster.polygon_offset = {has_bias, cell.remedy.bias_slope, cell.remedy.bias_constant};
+    e.render.compare_epsilon = cell.remedy.epsilon;
+    e.render.quantize_reference = cell.remedy.quantize_reference;
+    e.render.vertex_paths = cell.vertex_paths;
+    e.write = cell.remedy.depth_replace ? rasterizer::DepthPath::depth_replace : cell.write;
+    e.compare = cell.compare;
+    e.algorithm = cell.algorithm;
+    e.max_passes = cell.max_passes;
+    if (cell.split == Split::clamped) e.render.second_depth_clamp = true;
+    if (cell.split == Split::diagonal) e.match = peeling::Match::quad;
+    if (cell.split == Split::moved) e.moved_window = {1, 1};
+    return e;
+}
+
+}  // namespace
+
+const scenes::Scene& CellRunner::scene(const std::string& name) {
+    const auto found = scenes_.find(name);
+    return found != scenes_.end() ? found->second
+                                  : scenes_.emplace(name, scenes::load_scene(name, scene_options_)).first->second;
+}
+
+pipeline::DeviceProfile CellRunner::profile(const Cell& cell) {
+    if (!profiles_.contains(cell.profile)) profiles_[cell.profile] = scenes::load_profile(cell.profile);
+    pipeline::DeviceProfile profile = profiles_[cell.profile];
+    if (cell.subpixel_bits != 0) profile.raster.subpixel_bits = cell.subpixel_bits;
+    if (cell.hypothesis == "profile") return profile;
+    std::vector<std::string> names{"profile", "all"};
+    for (const auto& named : rasterizer::depth_hypotheses(profile.raster)) {
+        if (named.name == cell.hypothesis) return profile.raster = named.rules, profile;
+        names.push_back(named.name);
+    }
+    throw InputError(cell.profile, "hypothesis", one_of(names), found_but_near(cell.hypothesis, names));
+}
+
+std::vector<Cell> CellRunner::expanded(const std::vector<Cell>& cells) {
+    std::vector<Cell> all;
+    for (Cell cell : cells) {
+        const bool every = cell.hypothesis == "all";
+        if (every) cell.hypothesis = "profile";
+        all.push_back(cell);
+        if (!every) continue;
+        const auto named = rasterizer::depth_hypotheses(profile(cell).raster);
+        for (std::size_t i = 1; i < named.size(); ++i) {  // the first is the profile itself
+            cell.hypothesis = named[i].name;
+            all.push_back(cell);
+        }
+    }
+    return all;
+}
+
+void CellRunner::check(const Cell& cell) {
+    static_cast<void>(profile(cell));
+    static_cast<void>(scene(cell.scene));
+}
+
+const pipeline::DrawList* CellRunner::split_list(const Cell& cell) {
+    if (cell.split != Split::rotated && cell.split != Split::diagonal) return nullptr;
+    const std::string key = cell.scene + ' ' + name_of(cell.split);
+    const pipeline::DrawList& list = scene(cell.scene).list;
+    if (!splits_.contains(key))
+        splits_[key] =
+            cell.split == Split::rotated ? pipeline::rotate_vertices(list, 1) : pipeline::flip_diagonals(list).list;
+    return &splits_[key];
+}
+
+CellView CellRunner::view(const Cell& cell) {
+    const double aspect = double(cell.width) / cell.height;
+    scenes::LookAt camera = scenes::orbit_camera(scene(cell.scene).bounds, cell.azimuth, cell.elevation);
+    if (cell.range.ratio > 0) camera.near = camera.far / cell.range.ratio;
+    if (cell.range.far > 0) {
+        camera.near = cell.range.near;
+        camera.far = cell.range.far;
+    }
+    return {scenes::look_at(camera, aspect), camera.near, camera.far, profile(cell).raster.subpixel_bits};
+}
+
+CellResult CellRunner::run(const Cell& cell) {
+    const pipeline::DeviceProfile device = profile(cell);
+    CellResult result{.view = view(cell), .measured = {}, .refusal = {}};
+    peeling::Experiment experiment = experiment_of(cell, resources_);
+    experiment.render.second_list = split_list(cell);
+    result.measured = peeling::measure(scene(cell.scene).list, result.view.view, device, experiment);
+    if (result.measured.refusal) result.refusal = result.measured.refusal->sentence(device);
+    return result;
+}
+
+}  // namespace strata::tools

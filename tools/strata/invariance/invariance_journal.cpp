@@ -1,0 +1,96 @@
+#include "tools/strata/invariance/invariance_journal.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/system_error.h"
+#include "scenes/files/text_file.h"
+#include "tools/strata/options/parse.h"
+
+namespace strata::tools {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json parse_line(const std::string& path, std::size_t number, const std::string& text) {
+    auto line = ordered_json::parse(text, nullptr, false);
+    if (!line.is_object())
+        throw InputError(path, fmt::format("line {}", number + 1), "one JSON object", "'" + text.substr(0, 40) + "'");
+    return line;
+}
+
+void check_line(const std::string& path, std::size_t number, const ordered_json& line, const ordered_json& expected) {
+    for (const auto& [key, value] : expected.items()) {
+        const std::string found = line.contains(key) ? line[key].dump() : "nothing";
+        if (found != value.dump())
+            throw InputError(path, fmt::format("line {}: {}", number + 1, key),
+                             value.dump() + ", as the plan has it (another plan needs another folder)", found);
+    }
+}
+
+}  // namespace
+
+std::vector<std::size_t> Shard::cells(std::size_t all) const {
+    std::vector<std::size_t> mine;
+    for (std::size_t cell = index - 1; cell < all; cell += count) mine.push_back(cell);
+    return mine;
+}
+
+std::optional<Shard> to_shard(std::string_view text) {
+    const auto parts = split(text, '/');
+    if (parts.size() != 2) return std::nullopt;
+    const auto index = to_positive(parts[0]), count = to_positive(parts[1]);
+    if (!index || !count || *index > *count) return std::nullopt;
+    return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
+}
+
+std::string shard_file(const std::string& folder, const std::string& stem, const Shard& shard) {
+    const std::string part = shard.count == 1 ? "" : fmt::format(".{}of{}", shard.index, shard.count);
+    return (std::filesystem::path(folder) / (stem + part + ".jsonl")).string();
+}
+
+Found read_journal(const std::string& path) {
+    Found found;
+    if (!std::filesystem::exists(path)) return found;
+    const std::string text = scenes::read_text_file(path, std::size_t{1} << 31);
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = text.find('\n', begin);
+        if (end == std::string::npos) {
+            found.torn = true;
+            break;
+        }
+        found.lines.push_back(parse_line(path, found.lines.size(), text.substr(begin, end - begin)));
+        begin = found.whole_bytes = end + 1;
+    }
+    return found;
+}
+
+void check_journal(const std::string& path, const Lines& lines, const Lines& expected) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (i == expected.size())
+            throw InputError(path, fmt::format("line {}", i + 1), "no further line: the plan has no such cell",
+                             "one (another plan needs another folder)");
+        check_line(path, i, lines[i], expected[i]);
+    }
+}
+
+Journal::Journal(const std::string& path, std::size_t whole_bytes) : path_{path} {
+    if (std::filesystem::exists(path)) std::filesystem::resize_file(path, whole_bytes);
+    file_ = std::fopen(path.c_str(), "ab");
+    if (file_ == nullptr) throw SystemError(path, "write", std::strerror(errno));
+}
+
+Journal::~Journal() { std::fclose(file_); }
+
+void Journal::append(const ordered_json& line) {
+    const std::string text = line.dump() + '\n';
+    const bool written = std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0;
+    if (!written) throw SystemError(path_, "write", std::strerror(errno));
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,176 @@
+#include "tools/strata/invariance/invariance_row.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "tools/strata/options/choices.h"
+
+namespace strata::tools {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::array columns{"scene",
+                             "width",
+                             "height",
+                             "write_path",
+                             "compare_path",
+                             "depth_format",
+                             "subpixel_bits",
+                             "near",
+                             "far",
+                             "bias_constant",
+                             "bias_slope",
+                             "compare_epsilon",
+                             "vertex_path",
+                             "quantize_reference",
+                             "fragments",
+                             "differing",
+                             "ulp_max",
+                             "passes",
+                             "layers_true",
+                             "duplicated",
+                             "lost",
+                             "pixels_touched",
+                             "max_difference",
+                             "rmse",
+                             "psnr",
+                             "outcome"};
+
+ordered_json witness(const peeling::PathPair& pair, int width) {
+    return {{"x", static_cast<int>(pair.pixel) % width},
+            {"y", static_cast<int>(pair.pixel) / width},
+            {"primitive", pair.primitive},
+            {"stored", fmt::format("0x{:08x}", pair.stored)},
+            {"reference", fmt::format("0x{:08x}", pair.reference)}};
+}
+
+// Safe: the interval. Empty: the fragment that is peeled twice below `lowest` and the pair that loses one above `highest`.
+ordered_json to_json(const std::optional<peeling::SafeRange>& found, int width) {
+    if (!found) return nullptr;
+    const peeling::SafeRange& range = *found;
+    ordered_json json{{"safe", !range.is_empty()}, {"lowest", nullptr}, {"highest", nullptr}};
+    if (range.lowest) json["lowest"] = *range.lowest;
+    if (range.highest) json["highest"] = *range.highest;
+    if (range.lowest) json["repeated_below"] = witness(range.repeated, width);
+    if (range.highest) json["lost_above"] = witness(range.behind_opaque ? range.front : range.behind, width);
+    if (range.highest && !range.behind_opaque) json["lost_behind"] = witness(range.front, width);
+    return json;
+}
+
+// Shortest form: reads back to the same double.
+ordered_json to_json(const std::optional<peeling::SafeAbsolute>& range) {
+    if (!range) return nullptr;
+    ordered_json json{{"safe", !range->is_empty}, {"lowest", nullptr}, {"highest", nullptr}};
+    if (range->lowest) json["lowest"] = *range->lowest;
+    if (range->highest) json["highest"] = *range->highest;
+    return json;
+}
+
+ordered_json histogram(const peeling::PathComparison& paths) {
+    ordered_json bins = ordered_json::array();
+    for (const peeling::UlpBin& bin : paths.histogram) bins.push_back({bin.low, bin.high, bin.count});
+    return bins;
+}
+
+void add_findings(ordered_json& line, const Cell& cell, const peeling::Measurement& m) {
+    const bool ran = !m.refusal && m.peeled;
+    line["fragments"] = m.paths.fragments;
+    line["differing"] = m.paths.differing;
+    line["unmatched"] = m.paths.unmatched;
+    line["ulp_max"] = m.paths.largest < 0 ? -m.paths.largest : m.paths.largest;
+    line["ulp_max_at"] = m.paths.differing > 0 ? witness(m.paths.where, cell.width) : ordered_json(nullptr);
+    line["histogram"] = histogram(m.paths);
+    line["passes"] = m.passes;
+    line["layers_true"] = m.errors.layers_max;
+    line["layers"] = m.errors.layers;
+    line["duplicated"] = m.errors.duplicated;
+    line["lost"] = m.errors.lost;
+    line["pixels_touched"] = m.errors.touched.pixels;
+    line["first_touched"] = {m.errors.touched.first_x, m.errors.touched.first_y};
+    line["max_difference"] = m.image.max_difference;
+    line["rmse"] = m.image.rmse;
+    line["psnr"] = m.image.psnr ? ordered_json(*m.image.psnr) : ordered_json(nullptr);
+    line["digest"] = ran ? pipeline::digest(m.picture) : "";
+    line["safe_epsilon_ulps"] = to_json(m.advice.epsilon_ulps, cell.width);
+    line["safe_epsilon"] = to_json(m.advice.epsilon);
+    line["safe_bias"] = to_json(m.advice.bias, cell.width);
+}
+
+// The double that prints as the float does.
+double shortest(float value) { return *to_number<double>(fmt::format("{}", value)); }
+
+// RFC 4180: quotes only where the text needs them.
+std::string csv_field(const ordered_json& value) {
+    if (!value.is_string()) return value.dump();
+    const auto text = value.get<std::string>();
+    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+    std::string quoted(1, '"');
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    quoted += '"';
+    return quoted;
+}
+
+// Results hold no path: a file's name alone.
+std::string without_folder(const std::string& name) {
+    return scenes::is_procedural(name) ? name : std::filesystem::path(name).filename().string();
+}
+
+std::string outcome(const CellResult& result) {
+    if (!result.refusal.empty()) return "refused";
+    if (!result.measured.peeled) return "compared";
+    return result.measured.ended ? "done" : "never_ends";
+}
+
+}  // namespace
+
+ordered_json description(std::size_t number, const Cell& cell, const CellView& view) {
+    const auto write = cell.remedy.depth_replace ? rasterizer::DepthPath::depth_replace : cell.write;
+    return {{"cell", number},
+            {"scene", without_folder(cell.scene)},
+            {"width", cell.width},
+            {"height", cell.height},
+            {"profile", without_folder(cell.profile)},
+            {"algorithm", cell.algorithm->name},
+            {"orbit", {cell.azimuth, cell.elevation}},
+            {"alpha", shortest(cell.alpha)},
+            {"write_path", name_of(depth_paths(), write)},
+            {"compare_path", name_of(depth_paths(), cell.compare)},
+            {"depth_format", name_of(depth_formats, cell.format)},
+            {"subpixel_bits", view.subpixel_bits},
+            {"near", view.near},
+            {"far", view.far},
+            {"remedy", name_of(cell.remedy)},
+            {"bias_constant", shortest(cell.remedy.bias_constant)},
+            {"bias_slope", shortest(cell.remedy.bias_slope)},
+            {"compare_epsilon", cell.remedy.epsilon_text},
+            {"vertex_path", cell.vertex_path},
+            {"quantize_reference", cell.remedy.quantize_reference},
+            {"split", name_of(cell.split)},
+            {"hypothesis", cell.hypothesis},
+            {"max_passes", cell.max_passes}};
+}
+
+ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& result) {
+    ordered_json line = description(number, cell, result.view);
+    line["outcome"] = outcome(result);
+    line["refusal"] = result.refusal;
+    add_findings(line, cell, result.measured);
+    return line;
+}
+
+std::string csv_header() { return fmt::format("{}\n", fmt::join(columns, ",")); }
+
+std::string to_csv(const ordered_json& line) {
+    std::vector<std::string> fields;
+    const bool is_peeled = line.at("outcome") == "done" || line.at("outcome") == "never_ends";
+    for (const char* column : columns) {
+        const bool is_null = line.at(column).is_null();  // the PSNR of equal pictures, or of none
+        fields.push_back(is_null ? (is_peeled ? "inf" : "") : csv_field(line.at(column)));
+    }
+    return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,24 @@
+// tools/strata/invariance/invariance_row.h - one measured cell as a line of results.jsonl and as a row of results.csv.
+//
+// Rule     A line holds the cell's number, everything that says what was measured, then what was found, in one order of keys; a row
+//          holds the columns of csv_header(). Numbers are written in the shortest form that reads back to the same bits;
+//          nothing depends on time, threads or host.
+// Tests    tests/tools/invariance_test.cpp
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tools/strata/invariance/invariance_cell.h"
+
+namespace strata::tools {
+
+// What is known before the cell runs: a line that was written before must begin like this.
+[[nodiscard]] nlohmann::ordered_json description(std::size_t number, const Cell& cell, const CellView& view);
+
+// The whole line, without its end.
+[[nodiscard]] nlohmann::ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& result);
+
+[[nodiscard]] std::string csv_header();
+[[nodiscard]] std::string to_csv(const nlohmann::ordered_json& line);  // both with their newline
+
+}  // namespace strata::tools

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "tools/strata/options/choices.h"
+#include "tools/strata/options/options.h"
+
+namespace strata::tools {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+void add(Words& words, const std::string& option, const std::string& value) {
+    words.push_back(option);
+    words.push_back(value);
+}
+
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+std::string to_text(const pipeline::Termination& termination) {
+    switch (termination.rule) {
+        case pipeline::TerminationRule::exact: return "exact";
+        case pipeline::TerminationRule::paper: return "paper";
+        case pipeline::TerminationRule::any: return "any";
+        case pipeline::TerminationRule::ratio: return fmt::format("ratio:{}", termination.ratio);
+        case pipeline::TerminationRule::fixed: return fmt::format("fixed:{}", termination.passes);
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+std::string to_text(const peeling::Sort& sort) {
+    switch (sort.rule) {
+        case peeling::SortRule::none: return "none";
+        case peeling::SortRule::exact: return "exact";
+        case peeling::SortRule::reverse: return "reverse";
+        case peeling::SortRule::bucket: return fmt::format("bucket:{}", sort.buckets);
+        case peeling::SortRule::shuffle: return fmt::format("shuffle:{},{}", sort.fraction, sort.seed);
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+void add_scene(Words& words, const RunOptions& options) {
+    const scenes::SceneOptions& scene = options.scene_options;
+    if (scene.scene) add(words, "--scene", fmt::format("{}", *scene.scene));
+    if (scene.color_space != pipeline::ColorSpace::encoded)
+        add(words, "--colour", name_of(color_spaces, scene.color_space));
+    if (!scene.light) words.emplace_back("--no-light");
+}
+
+void add_view(Words& words, const RunOptions& options) {
+    const peeling::RenderOptions& render = options.render;
+    add(words, "--size", fmt::format("{}x{}", render.width, render.height));
+    const Orbit orbit = options.orbit.value_or(Orbit{});
+    if (options.camera.empty())
+        add(words, "--orbit", fmt::format("{},{}", orbit.azimuth, orbit.elevation));
+    else
+        add(words, "--camera", file_name(options.camera));
+    if (render.alpha) add(words, "--alpha", fmt::format("{}", *render.alpha));
+    const auto& b = render.background;
+    if (b != pipeline::Rgba{0, 0, 0, 1}) add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));
+}
+
+void add_comparison(Words& words, const peeling::RenderOptions& render) {
+    if (render.reference_path) add(words, "--reference-path", name_of(depth_paths(), *render.reference_path));
+    const pipeline::CompareEpsilon& epsilon = render.compare_epsilon;
+    if (epsilon.ulps != 0) add(words, "--compare-epsilon", fmt::format("{}ulp", epsilon.ulps));
+    if (epsilon.absolute != 0) add(words, "--compare-epsilon", fmt::format("{}", epsilon.absolute));
+    if (!render.quantize_reference) words.emplace_back("--no-quantize-reference");
+    if (render.vertex_paths.first) {
+        std::string paths = name_of(vertex_paths(), *render.vertex_paths.first);
+        if (render.vertex_paths.second) paths += "," + name_of(vertex_paths(), *render.vertex_paths.second);
+        add(words, "--vertex-path", paths);
+    }
+    const rasterizer::PolygonOffset& offset = render.raster.polygon_offset;
+    if (offset.enabled) add(words, "--polygon-offset", fmt::format("{},{}", offset.factor, offset.units));
+}
+
+void add_machine(Words& words, const peeling::RenderOptions& render) {
+    if (render.depth) add(words, "--depth", name_of(depth_formats, *render.depth));
+    if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
+    add_comparison(words, render);
+    if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
+    if (render.average_count != pipeline::Format::r16f)
+        add(words, "--average-count", name_of(count_formats, render.average_count));
+    if (render.termination != pipeline::Termination{}) add(words, "--termination", to_text(render.termination));
+    if (render.max_passes != 0) add(words, "--max-passes", fmt::format("{}", render.max_passes));
+}
+
+void add_order(Words& words, const peeling::RenderOptions& render) {
+    if (render.formulation != pipeline::Formulation::resolved)
+        add(words, "--formulation", name_of(formulations, render.formulation));
+    if (!render.sorted.empty()) add(words, "--sorted", fmt::format("{}", fmt::join(render.sorted, ",")));
+    if (render.sort.rule != peeling::SortRule::none) add(words, "--sort", to_text(render.sort));
+}
+
+}  // namespace
+
+std::string canonical_command(const std::string& verb, const RunOptions& options, const peeling::Algorithm& algorithm) {
+    Words words{"strata", verb, scenes::is_procedural(options.scene) ? options.scene : file_name(options.scene)};
+    add(words, "--algorithm", algorithm.name);
+    add(words, "--profile", file_name(options.profile));
+    add_scene(words, options);
+    add_view(words, options);
+    add_machine(words, options.render);
+    add_order(words, options.render);
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,60 @@
+// tools/strata/options/choices.h - the words of options that take one of a few names, and what they mean.
+#pragma once
+#include "pipeline/device/profile_fields.h"
+#include "pipeline/frame/frame.h"
+#include "pipeline/vertices/draw_list.h"
+#include "rasterizer/base/simd.h"
+#include "tools/strata/options/option.h"
+
+namespace strata::tools {
+
+inline const std::vector<Choice<pipeline::DepthFormat>> depth_formats{
+    {"d16", pipeline::DepthFormat::d16}, {"d24", pipeline::DepthFormat::d24}, {"d32f", pipeline::DepthFormat::d32f}};
+
+inline const std::vector<Choice<pipeline::Format>> color_formats{
+    {"rgba8", pipeline::Format::rgba8}, {"rgba16f", pipeline::Format::rgba16f}, {"rgba32f", pipeline::Format::rgba32f}};
+
+inline const std::vector<Choice<pipeline::Format>> count_formats{{"r16f", pipeline::Format::r16f},
+                                                                 {"r32f", pipeline::Format::r32f}};
+
+// Profiles name depth paths too: the names are theirs.
+[[nodiscard]] inline std::vector<Choice<rasterizer::DepthPath>> depth_paths() {
+    std::vector<Choice<rasterizer::DepthPath>> paths;
+    for (const pipeline::ProfileField& field : pipeline::profile_fields()) {
+        if (field.key != "raster.depth_path") continue;
+        for (std::size_t i = 0; i < field.choices.size(); ++i) {
+            paths.push_back({std::string(field.choices[i]), static_cast<rasterizer::DepthPath>(i)});
+        }
+    }
+    return paths;
+}
+
+[[nodiscard]] inline std::vector<Choice<pipeline::VertexPath>> vertex_paths() {
+    std::vector<Choice<pipeline::VertexPath>> paths;
+    for (const std::string_view name : pipeline::vertex_path_names)
+        paths.push_back({std::string(name), static_cast<pipeline::VertexPath>(paths.size())});
+    return paths;
+}
+
+inline const std::vector<Choice<pipeline::ColorSpace>> color_spaces{{"encoded", pipeline::ColorSpace::encoded},
+                                                                    {"linear", pipeline::ColorSpace::linear}};
+
+inline const std::vector<Choice<pipeline::Execution>> executions{{"literal", pipeline::Execution::literal},
+                                                                 {"tiled", pipeline::Execution::tiled},
+                                                                 {"replay", pipeline::Execution::replay}};
+
+inline const std::vector<Choice<pipeline::Formulation>> formulations{{"resolved", pipeline::Formulation::resolved},
+                                                                     {"published", pipeline::Formulation::published}};
+
+inline const std::vector<Choice<Simd>> simds{{"scalar", Simd::scalar},
+                                             {"sse4", Simd::sse4},
+                                             {"avx2", Simd::avx2},
+                                             {"avx512", Simd::avx512},
+                                             {"best", Simd::best}};
+
+inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
+                                                            {"all", pipeline::Effects::all}};
+
+inline const std::vector<Choice<int>> tile_sizes{{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
+
+}  // namespace strata::tools

@@ -1,0 +1,328 @@
+#include "tools/strata/options/options.h"
+
+#include <algorithm>
+
+#include "tools/strata/options/choices.h"
+#include "tools/strata/options/names.h"
+#include "tools/strata/options/parse.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct Size {
+    int width = 0, height = 0;
+};
+
+std::optional<Size> to_size(std::string_view text) {
+    constexpr int max_side = 16384;
+    const auto parts = split(text, 'x');
+    if (parts.size() != 2) return std::nullopt;
+    const auto width = to_int(parts[0]), height = to_int(parts[1]);
+    if (!width || !height || *width < 1 || *height < 1 || *width > max_side || *height > max_side) return std::nullopt;
+    return Size{*width, *height};
+}
+
+std::optional<Orbit> to_orbit(std::string_view text) {
+    const auto angles = to_numbers<double>(text, 2);
+    if (!angles) return std::nullopt;
+    return Orbit{(*angles)[0], (*angles)[1]};
+}
+
+std::optional<float> to_share(std::string_view text) {
+    const auto value = to_number<float>(text);
+    if (!value || *value < 0.0f || *value > 1.0f) return std::nullopt;
+    return value;
+}
+
+std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
+    pipeline::Rgba color{0, 0, 0, 1};
+    const auto parts = split(text, ',');
+    if (parts.size() != 3) return std::nullopt;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto value = to_share(parts[i]);
+        if (!value) return std::nullopt;
+        color[i] = *value;
+    }
+    return color;
+}
+
+std::optional<int> to_count(std::string_view text) {
+    const auto value = to_int(text);
+    return value && *value >= 0 ? value : std::nullopt;
+}
+
+std::optional<pipeline::Termination> to_termination(std::string_view text) {
+    using enum pipeline::TerminationRule;
+    if (text == "exact") return pipeline::Termination{.rule = exact};
+    if (text == "paper") return pipeline::Termination{.rule = paper};
+    if (text == "any") return pipeline::Termination{.rule = any};
+    if (text.starts_with("ratio:")) {
+        const auto value = to_number<double>(text.substr(6));
+        if (value && *value >= 0 && *value <= 1) return pipeline::Termination{.rule = ratio, .ratio = *value};
+    }
+    if (text.starts_with("fixed:")) {
+        const auto value = to_int(text.substr(6));
+        if (value && *value >= 1) return pipeline::Termination{.rule = fixed, .passes = *value};
+    }
+    return std::nullopt;
+}
+
+std::optional<peeling::Sort> to_sort(std::string_view text) {
+    using enum peeling::SortRule;
+    if (text == "none") return peeling::Sort{.rule = none};
+    if (text == "exact") return peeling::Sort{.rule = exact};
+    if (text == "reverse") return peeling::Sort{.rule = reverse};
+    if (text.starts_with("bucket:")) {
+        const auto buckets = to_int(text.substr(7));
+        if (buckets && *buckets >= 1) return peeling::Sort{.rule = bucket, .buckets = *buckets};
+    }
+    if (text.starts_with("shuffle:")) {
+        const auto parts = split(text.substr(8), ',');
+        if (parts.size() != 2) return std::nullopt;
+        const auto fraction = to_number<double>(parts[0]);
+        const auto seed = to_int<std::uint64_t>(parts[1]);
+        if (fraction && seed && *fraction >= 0 && *fraction <= 1)
+            return peeling::Sort{.rule = shuffle, .fraction = *fraction, .seed = *seed};
+    }
+    return std::nullopt;
+}
+
+// Bytes, or K, M and G of them.
+std::optional<std::uint64_t> to_bytes(std::string_view text) {
+    constexpr std::string_view suffixes = "KMG";
+    const std::size_t suffix = text.empty() ? suffixes.npos : suffixes.find(text.back());
+    const unsigned shift = suffix == suffixes.npos ? 0 : 10 * (static_cast<unsigned>(suffix) + 1);
+    if (shift > 0) text.remove_suffix(1);
+    const auto count = to_int<std::uint64_t>(text);
+    if (!count || *count > ~std::uint64_t{0} >> shift) return std::nullopt;
+    return *count << shift;
+}
+
+// "1e-7" of the depth range, or "2ulp".
+std::optional<pipeline::CompareEpsilon> to_epsilon(std::string_view text) {
+    constexpr std::string_view unit = "ulp";
+    if (text.ends_with(unit)) {
+        const auto ulps = to_count(text.substr(0, text.size() - unit.size()));
+        return ulps && *ulps <= 1 << 24 ? std::optional(pipeline::CompareEpsilon{0, *ulps}) : std::nullopt;
+    }
+    const auto absolute = to_number<double>(text);
+    if (!absolute || *absolute < 0 || *absolute > 1) return std::nullopt;
+    return pipeline::CompareEpsilon{*absolute, 0};
+}
+
+std::optional<peeling::VertexPaths> to_vertex_paths(std::string_view text) {
+    const auto parts = split(text, ',');
+    const auto paths = vertex_paths();
+    const auto find = [&](const std::string& name) -> std::optional<pipeline::VertexPath> {
+        for (const auto& path : paths)
+            if (path.name == name) return path.value;
+        return std::nullopt;
+    };
+    peeling::VertexPaths chosen{find(parts[0]), find(parts.back())};
+    if (parts.size() > 2 || !chosen.first || !chosen.second) return std::nullopt;
+    if (parts.size() == 1) chosen.second.reset();
+    return chosen;
+}
+
+std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text) {
+    const auto values = to_numbers<float>(text, 2);
+    if (!values) return std::nullopt;
+    return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
+}
+
+std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
+    std::vector<const peeling::Algorithm*> chosen;
+    const auto add = [&](const peeling::Algorithm& algorithm) {
+        if (std::find(chosen.begin(), chosen.end(), &algorithm) == chosen.end()) chosen.push_back(&algorithm);
+    };
+    for (const std::string& name : split(text, ',')) {
+        if (name == "all") {
+            for (const peeling::Algorithm& algorithm : peeling::algorithms()) add(algorithm);
+            continue;
+        }
+        const peeling::Algorithm* algorithm = peeling::find_algorithm(name);
+        if (algorithm == nullptr) {
+            auto names = algorithm_names();
+            names.emplace_back("all");
+            throw CLI::ValidationError("--algorithm",
+                                       "expected names of algorithms (strata algorithms lists them) or all, found " +
+                                           found_but_near(name, names));
+        }
+        add(*algorithm);
+    }
+    return chosen;
+}
+
+void add_algorithm_option(CLI::App& app, RunOptions& options) {
+    app.add_option_function<std::string>(
+           "--algorithm", [&options](const std::string& text) { options.algorithms = to_algorithms(text); },
+           "algorithms with commas between, or all (default " + options.default_algorithm + ")")
+        ->type_name("NAME[,NAME...]|all");
+}
+
+}  // namespace
+
+void add_profile_option(CLI::App& app, std::string& profile) {
+    app.add_option("--profile", profile, "a built-in profile, or a JSON file with one (default geforce8)")
+        ->type_name("NAME|FILE");
+}
+
+void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
+    add_choice(app, options.depth, "--depth", depth_formats,
+               "depth buffer (default d32f, or d24 where that is missing)");
+    add_choice(app, options.depth_path, "--depth-path", depth_paths(),
+               "how depth is computed (default: the profile's own)");
+    add_choice(app, options.reference_path, "--reference-path", depth_paths(),
+               "the depth that a peel compares with what it stored (default: the one that it stores)");
+    add_option(app, options.compare_epsilon,
+               {"--compare-epsilon", "E|Nulp", "added to a stored depth before a program compares it (default 0)",
+                "a part of the depth range from 0 to 1 such as 1e-7, or units in the last place such as 2ulp"},
+               to_epsilon);
+    app.add_flag_callback(
+        "--no-quantize-reference", [&options] { options.quantize_reference = false; },
+        "compare a depth that is not rounded like the stored one");
+    add_option(app, options.vertex_paths,
+               {"--vertex-path", "A[,B]",
+                "how positions are computed, in the first pass and in further ones (default separate): " +
+                    one_of(names_of(vertex_paths())),
+                "one or two of " + one_of(names_of(vertex_paths()))},
+               to_vertex_paths);
+    add_option(app, options.raster.polygon_offset,
+               {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
+                "two numbers such as 1,1"},
+               to_polygon_offset);
+    add_choice(app, options.color_format, "--color-format", color_formats,
+               "colour target (default rgba8; rgba32f on ideal)");
+    add_choice(app, options.average_count, "--average-count", count_formats,
+               "fragment count of weighted_average (default r16f, as in the paper)");
+    add_option(app, options.termination,
+               {"--termination", "exact|paper|any|ratio:R|fixed:N", "what ends a peel (default exact)",
+                "exact, paper, any, ratio:R with R from 0 to 1, or fixed:N with N from 1"},
+               to_termination);
+    add_option(
+        app, options.max_passes,
+        {"--max-passes", "N", "geometry passes at most (default 0: as many as it takes)", "a whole number from 0"},
+        to_count);
+}
+
+void add_order_options(CLI::App& app, peeling::RenderOptions& options) {
+    add_choice(app, options.formulation, "--formulation", formulations,
+               "the listings of Carr et al. repaired, or as printed, with what they lose (default resolved)");
+    app.add_option_function<std::string>(
+           "--sorted", [&options](const std::string& text) { options.sorted = split(text, ','); },
+           "meshes or materials that arrive front to back, for hybrid (default: those that the scene names)")
+        ->type_name("NAME[,NAME...]");
+    add_option(app, options.sort,
+               {"--sort", "bucket:N|exact|none|reverse|shuffle:F,SEED",
+                "order of triangles, by centroid (default none: as listed)",
+                "bucket:N with N from 1, exact, none, reverse, or shuffle:FRACTION,SEED with a fraction from 0 to 1"},
+               to_sort);
+}
+
+std::vector<std::string> algorithm_names() {
+    std::vector<std::string> names;
+    for (const peeling::Algorithm& algorithm : peeling::algorithms()) names.push_back(algorithm.name);
+    return names;
+}
+
+void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options) {
+    app.add_option("SCENE", scene, "a .gltf or .glb file, or a built-in scene (strata scenes)")
+        ->required()
+        ->type_name("");
+    add_reading_options(app, options);
+}
+
+void add_reading_options(CLI::App& app, scenes::SceneOptions& options) {
+    add_option(app, options.scene,
+               {"--scene", "N", "which scene of a glTF file (default: the file's own)", "a whole number from 0"},
+               to_count);
+    add_choice(app, options.color_space, "--colour", color_spaces,
+               "blend sRGB values as they are, or decoded to linear light (default encoded)");
+    app.add_flag_callback(
+        "--no-light", [&options] { options.light = false; }, "draw every material unlit");
+}
+
+void add_picture_options(CLI::App& app, RunOptions& options) {
+    add_scene_options(app, options.scene, options.scene_options);
+    add_algorithm_option(app, options);
+    add_profile_option(app, options.profile);
+    add_machine_options(app, options.render);
+    add_order_options(app, options.render);
+    add_view_options(app, options);
+}
+
+void add_view_options(CLI::App& app, RunOptions& options) {
+    const auto set_size = [&options](std::string_view text) {
+        const auto size = to_size(text);
+        if (size) options.render.height = size->height;
+        return size ? std::optional(size->width) : std::nullopt;
+    };
+    add_option(
+        app, options.render.width,
+        {"--size", "WIDTHxHEIGHT", "pixels (default 1024x1024)", "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},
+        set_size);
+    app.add_option("--camera", options.camera, "a camera of the scene, or a JSON file with one")
+        ->type_name("NAME|FILE");
+    add_option(app, options.orbit,
+               {"--orbit", "AZ,EL", "look at the scene's bounds from these degrees (default 30,20)",
+                "azimuth and elevation in degrees such as 30,20"},
+               to_orbit);
+    add_option(app, options.render.alpha,
+               {"--alpha", "A", "draw everything as transparent, its own alpha times A", "a number from 0 to 1"},
+               to_share);
+    add_option(app, options.render.background,
+               {"--background", "R,G,B", "sRGB values from 0 to 1 (default 0,0,0)",
+                "three numbers from 0 to 1 such as 0.2,0.2,0.3"},
+               to_rgb);
+}
+
+void add_execution_options(CLI::App& app, RunOptions& options) {
+    add_choice(app, options.render.execution, "--execution", executions,
+               "frame by frame, tile by tile, or with each tile's fragments kept for later passes; same bits (default "
+               "replay)");
+    add_choice(app, options.simd, "--simd", simds, "instruction set; same bits (default best: what the processor has)");
+    add_choice(app, options.render.effects, "--effects", effects,
+               "simulate the stages that are needed, or all; same bits (default needed)");
+    add_resource_options(app, options);
+}
+
+void add_resource_options(CLI::App& app, RunOptions& options) {
+    add_option(app, options.render.fragment_memory,
+               {"--fragment-memory", "SIZE", "what replay may keep of fragments, in bytes; same bits (default 256M)",
+                "bytes such as 65536, 64M or 1G"},
+               to_bytes);
+    add_choice(app, options.render.tile_size, "--tile", tile_sizes,
+               "side of a tile in pixels; same bits (default 64; 128 in large frames of one pass)");
+    add_option(
+        app, options.render.threads,
+        {"--threads", "N", "threads at most; same bits (default 0: all that there are)", "a whole number from 0"},
+        to_count);
+}
+
+void check_simd(Simd simd) {
+    const auto available = available_simd();
+    if (simd == Simd::best || std::find(available.begin(), available.end(), simd) != available.end()) return;
+    std::vector<std::string> names;
+    for (const Simd has : available) names.push_back(name_of(simds, has));
+    throw CLI::ValidationError("--simd", "expected best or what this processor has (" + one_of(names) + "), found '" +
+                                             name_of(simds, simd) + "'");
+}
+
+void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help) {
+    app.add_option("-o,--output", options.output, output_help)->type_name("FILE");
+    app.add_option("--stats", options.stats, "statistics as JSON, one object an algorithm; - is standard output")
+        ->type_name("FILE|-");
+    app.add_flag_callback(
+        "--no-audit", [&options] { options.render.audit = false; },
+        "do not compare with the exact A-buffer: faster, and those statistics are null");
+}
+
+void complete(RunOptions& options) {
+    if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
+    if (options.orbit && !options.camera.empty()) {
+        throw CLI::ValidationError("--orbit", "expected either --orbit or --camera, found both");
+    }
+}
+
+}  // namespace strata::tools

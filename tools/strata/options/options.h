@@ -1,0 +1,67 @@
+// tools/strata/options/options.h - the options that `render`, `layers` and `scene` share.
+#pragma once
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "peeling/render.h"
+#include "rasterizer/base/simd.h"
+#include "scenes/scene.h"
+
+namespace strata::tools {
+
+struct Orbit {
+    double azimuth = 30, elevation = 20;  // degrees
+};
+
+struct RunOptions {
+    std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+    std::string scene;
+    scenes::SceneOptions scene_options;
+    std::string default_algorithm = "dual";
+    std::vector<const peeling::Algorithm*> algorithms;  // at least one after parsing, none twice
+    std::string profile = "geforce8";                   // a name or a file
+    std::string camera;                                 // --camera; empty: the orbit
+    std::optional<Orbit> orbit;
+    peeling::RenderOptions render;
+    Simd simd = Simd::best;
+    std::string stats;   // --stats; empty: none, "-": standard output
+    std::string output;  // -o; empty: none
+};
+
+// SCENE, --scene, --colour, --no-light.
+void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options);
+
+// What is drawn: SCENE and all options that a result bit depends on.
+void add_picture_options(CLI::App& app, RunOptions& options);
+
+// How it is run: options that no bit depends on (--execution, --fragment-memory, --simd, --effects, --tile, --threads).
+void add_execution_options(CLI::App& app, RunOptions& options);
+
+// Parts of both, for a command that takes lists of the rest.
+void add_reading_options(CLI::App& app, scenes::SceneOptions& options);    // --scene, --colour, --no-light
+void add_machine_options(CLI::App& app, peeling::RenderOptions& options);  // --depth ... --max-passes
+void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --formulation, --sorted, --sort
+void add_profile_option(CLI::App& app, std::string& profile);
+void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
+void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
+
+// Throws CLI::ValidationError where this processor lacks the set.
+void check_simd(Simd simd);
+
+// Where results go: --stats, -o, --no-audit.
+void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);
+
+// What only all options together can say: exclusions, defaults that are lists. Throws CLI::ValidationError.
+void complete(RunOptions& options);
+
+// The command that makes the same picture of one algorithm again, in one spelling: every option that a bit depends on
+// and that was given or differs from its default; files without their folder; neither outputs nor threads, tiles and
+// execution.
+[[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
+                                            const peeling::Algorithm& algorithm);
+
+[[nodiscard]] std::vector<std::string> algorithm_names();
+
+}  // namespace strata::tools

@@ -1,0 +1,65 @@
+// tools/strata/options/parse.h - text from the command line into numbers. Independent of the locale; the whole text counts.
+#pragma once
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strata::tools {
+
+template <std::integral T = int>
+[[nodiscard]] std::optional<T> to_int(std::string_view text) {
+    T value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+[[nodiscard]] inline std::optional<int> to_positive(std::string_view text) {
+    const auto value = to_int(text);
+    return value && *value >= 1 ? value : std::nullopt;
+}
+
+// Nearest to the decimal; neither infinite nor NaN.
+template <std::floating_point T>
+[[nodiscard]] std::optional<T> to_number(std::string_view text) {
+    T value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+[[nodiscard]] inline std::optional<double> to_seconds(std::string_view text) {
+    const auto value = to_number<double>(text);
+    return value && *value >= 0 ? value : std::nullopt;
+}
+
+// "a,b," is three parts, the last one empty.
+[[nodiscard]] inline std::vector<std::string> split(std::string_view text, char separator) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) {
+        if (c == separator)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+// Exactly `count` numbers with commas between.
+template <std::floating_point T>
+[[nodiscard]] std::optional<std::vector<T>> to_numbers(std::string_view text, std::size_t count) {
+    std::vector<T> values;
+    for (const std::string& part : split(text, ',')) {
+        const auto value = to_number<T>(part);
+        if (!value) return std::nullopt;
+        values.push_back(*value);
+    }
+    if (values.size() != count) return std::nullopt;
+    return values;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,85 @@
+// tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the frame.
+#include <algorithm>
+#include <memory>
+
+#include "scenes/files/image_io.h"
+#include "tools/strata/command.h"
+#include "tools/strata/render/run.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct LayersOptions {
+    RunOptions run;
+    std::string deep;
+};
+
+scenes::DeepFragments as_deep(std::vector<pipeline::CapturedFragment> fragments, const RunOptions& options) {
+    const auto in_front = [](const auto& a, const auto& b) { return a.pixel < b.pixel; };
+    std::stable_sort(fragments.begin(), fragments.end(), in_front);  // submission order stays within a pixel
+    scenes::DeepFragments deep{.width = options.render.width, .height = options.render.height};
+    deep.count.assign(static_cast<std::size_t>(deep.width) * static_cast<std::size_t>(deep.height), 0);
+    for (const auto& fragment : fragments) {
+        ++deep.count[fragment.pixel];
+        deep.depth_code.push_back(fragment.code);
+        deep.z.push_back(fragment.shader_z);
+        deep.rgba.push_back(fragment.color);
+        deep.primitive.push_back(fragment.primitive);
+    }
+    return deep;
+}
+
+void write_layers(const LayersOptions& options, const Finished& finished) {
+    const scenes::Attributes attributes = attributes_of("layers", options.run, finished);
+    if (!options.run.output.empty()) {
+        std::vector<scenes::OutputColor> layers;
+        for (const auto& layer : finished.result.frame.layers) {
+            layers.push_back({.color = layer.color,
+                              .depth = layer.depth,
+                              .premultiplied = finished.algorithm.premultiplied_layers,
+                              .space = options.run.scene_options.color_space,
+                              .attributes = attributes});
+        }
+        if (layers.empty()) {  // nothing to peel: one layer without a fragment
+            layers.push_back(
+                {.color = {finished.result.frame.color.format, options.run.render.width, options.run.render.height},
+                 .attributes = attributes});
+        }
+        scenes::write_layers(path_for(options.run.output, options.run, finished.algorithm), layers);
+    }
+    if (!options.deep.empty()) {
+        scenes::write_deep(path_for(options.deep, options.run, finished.algorithm),
+                           as_deep(finished.renderer.fragments(finished.algorithm).all, options.run), attributes);
+    }
+}
+
+int layers(LayersOptions& options) {
+    check_output("-o", options.run.output, {".exr"});
+    check_output("--deep", options.deep, {".exr"});
+    if (options.run.output.empty() && options.deep.empty()) {
+        throw CLI::ValidationError("-o",
+                                   "expected a file for the layers, or --deep one for the fragments, found neither");
+    }
+    options.run.render.keep_layers = true;
+    return run_algorithms(options.run, [&](const Finished& finished) { write_layers(options, finished); });
+}
+
+}  // namespace
+
+Command add_layers(CLI::App& root) {
+    auto* app = root.add_subcommand("layers", "write the layers that an algorithm peels, and every fragment");
+    const auto options = std::make_shared<LayersOptions>();
+    options->run.default_algorithm = "front_to_back";  // dual composites on the fly and keeps none
+    add_picture_options(*app, options->run);
+    add_execution_options(*app, options->run);
+    add_output_options(*app, options->run, "the layers, .exr: part layer.000 is the nearest");
+    app->add_option("--deep", options->deep, "every fragment as a deep EXR, in submission order")->type_name("FILE");
+    app->footer(
+        footer("  strata layers teapot --size 200x150 -o layers.exr\n"
+               "  strata layers volume-beam:slices=4 --algorithm depth_units --size 64x64 -o beam.exr --deep "
+               "fragments.exr\n"));
+    return {app, [options] { return layers(*options); }};
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,160 @@
+#include "tools/strata/render/run.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "scenes/camera.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/profile_json.h"
+#include "scenes/numbers/srgb_encode.h"
+#include "tools/strata/options/names.h"
+#include "tools/strata/progress.h"
+#include "tools/strata/render/stats.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) {
+    const double aspect = double(options.render.width) / options.render.height;
+    if (options.camera.empty()) {
+        const Orbit orbit = options.orbit.value_or(Orbit{});
+        return scenes::orbit_view(scene.bounds, orbit.azimuth, orbit.elevation, aspect);
+    }
+    std::vector<std::string> names;
+    for (const auto& camera : scene.cameras) {
+        if (camera.name == options.camera) return scenes::camera_view(camera, aspect);
+        names.push_back(camera.name);
+    }
+    const bool is_file = options.camera.ends_with(".json") || std::filesystem::exists(options.camera);
+    if (is_file) return scenes::load_camera(options.camera, aspect);
+    const std::string cameras =
+        names.empty() ? "a .json file (the scene has no camera)" : one_of(names) + ", or a .json file";
+    throw CLI::ValidationError("--camera", "expected " + cameras + ", found " + found_but_near(options.camera, names));
+}
+
+// --sorted names what the scene has.
+void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
+    std::vector<std::string> names;
+    const auto add = [&](const std::string& name) {
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    };
+    for (const auto& mesh : scene.list.meshes) add(mesh.name);
+    for (const auto& material : scene.list.materials) add(material.name);
+    for (const std::string& name : options.render.sorted)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw CLI::ValidationError("--sorted",
+                                       "expected a mesh or a material of the scene (strata scene lists them), found " +
+                                           found_but_near(name, names));
+}
+
+}  // namespace
+
+Session open_session(RunOptions& options) {
+    check_simd(options.simd);
+    choose_simd(options.simd);
+    Session session;
+    session.profile = scenes::load_profile(options.profile);
+    session.scene = scenes::load_scene(options.scene, options.scene_options);
+    for (const std::string& warning : session.scene.warnings)
+        std::fprintf(stderr, "strata: warning: %s\n", warning.c_str());
+    session.view = find_view(options, session.scene);
+    check_sorted(options, session.scene);
+    options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
+    return session;
+}
+
+namespace {
+
+// Keeps the numbers, lets the pixels go.
+RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&& result) {
+    const auto digest_of = [](const pipeline::Image& image) {
+        return image.codes.empty() ? "" : pipeline::digest(image);
+    };
+    RunSummary summary{&algorithm, {}, digest_of(result.frame.color), digest_of(result.frame.depth)};
+    result.frame.color = {};
+    result.frame.depth = {};
+    result.frame.layers.clear();
+    result.frame.traces.clear();
+    summary.result = std::move(result);
+    return summary;
+}
+
+RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::Renderer& renderer,
+                   const Writer& write) {
+    Progress progress(algorithm.name);
+    peeling::RenderResult result = renderer.render(algorithm, [&](double share) { progress.show(share); });
+    if (result.outcome == peeling::Outcome::done) write({session, algorithm, renderer, result});
+    return summarize(algorithm, std::move(result));
+}
+
+void report(const RunOptions& options, const std::vector<RunSummary>& runs, const std::string& profile) {
+    const std::chrono::duration<double> total = std::chrono::steady_clock::now() - options.started;
+    const RunContext context{.profile = profile,
+                             .width = options.render.width,
+                             .height = options.render.height,
+                             .execution = options.render.execution,
+                             .simd = options.simd,
+                             .fragment_memory = options.render.fragment_memory,
+                             .audited = options.render.audit,
+                             .total_seconds = total.count()};
+    if (options.stats == "-") return print(to_json(runs, context));
+    if (!options.stats.empty()) scenes::write_file(options.stats, to_json(runs, context));
+    print(to_table(runs, context));
+}
+
+// 2 if no algorithm ran. Every refusal is told on standard error.
+int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfile& profile) {
+    int status = 2;
+    for (const RunSummary& run : runs) {
+        if (run.result.outcome == peeling::Outcome::done)
+            status = 0;
+        else
+            std::fprintf(stderr, "strata: %s: %s\n", run.algorithm->name.c_str(),
+                         run.result.refusal->sentence(profile).c_str());
+    }
+    return status;
+}
+
+}  // namespace
+
+int run_algorithms(RunOptions& options, const Writer& write) {
+    complete(options);
+    check_output("--stats", options.stats == "-" ? "" : options.stats, {".json"});
+    const Session session = open_session(options);
+    peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
+    std::vector<RunSummary> runs;
+    for (const peeling::Algorithm* algorithm : options.algorithms)
+        runs.push_back(run_one(session, *algorithm, renderer, write));
+    report(options, runs, session.profile.name);
+    return exit_status(runs, session.profile);
+}
+
+std::string path_for(const std::string& path, const RunOptions& options, const peeling::Algorithm& algorithm) {
+    if (options.algorithms.size() == 1) return path;
+    const std::size_t dot = path.rfind('.');  // check_output has seen an ending
+    return path.substr(0, dot) + "." + algorithm.name + path.substr(dot);
+}
+
+scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options, const Finished& finished) {
+    const auto one_line = [](const std::string& json) { return nlohmann::ordered_json::parse(json).dump(); };
+    return {{"command", canonical_command(verb, options, finished.algorithm)},
+            {"profile", one_line(scenes::to_json(finished.session.profile))},
+            {"camera", one_line(scenes::to_json(finished.session.view))}};
+}
+
+void check_output(const std::string& option, const std::string& path, const std::vector<std::string>& endings) {
+    if (path.empty()) return;
+    const auto fits = [&](const std::string& ending) { return path.ends_with(ending); };
+    if (std::none_of(endings.begin(), endings.end(), fits)) {
+        throw CLI::ValidationError(option,
+                                   "expected a file that ends in " + one_of(endings) + ", found '" + path + "'");
+    }
+    const auto folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder)) {
+        throw CLI::ValidationError(option, "expected a file in a folder that exists, found '" + path + "'");
+    }
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,46 @@
+// tools/strata/render/run.h - what `render` and `layers` do alike: load, run each algorithm, write its files, tell the
+// statistics.
+#pragma once
+#include <functional>
+#include <string>
+
+#include "scenes/files/image_io.h"
+#include "tools/strata/options/options.h"
+
+namespace strata::tools {
+
+// Everything that the algorithms of one command share.
+struct Session {
+    scenes::Scene scene;
+    pipeline::DeviceProfile profile;
+    pipeline::View view;
+};
+
+// Loads profile and scene, warns on standard error, finds the view, and makes --simd and --background the run's.
+[[nodiscard]] Session open_session(RunOptions& options);
+
+// One algorithm that ran.
+struct Finished {
+    const Session& session;
+    const peeling::Algorithm& algorithm;
+    peeling::Renderer& renderer;
+    const peeling::RenderResult& result;
+};
+
+using Writer = std::function<void(const Finished&)>;  // writes one algorithm's files
+
+// The exit status: 0 if at least one algorithm ran, else 2 with the refusals on standard error.
+[[nodiscard]] int run_algorithms(RunOptions& options, const Writer& write);
+
+// Where one algorithm's result goes: with several, its name stands before the ending (out.dual.exr).
+[[nodiscard]] std::string path_for(const std::string& path, const RunOptions& options,
+                                   const peeling::Algorithm& algorithm);
+
+// What stands in the attributes of every file: command, profile, camera. Digests and formats are the writer's.
+[[nodiscard]] scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options,
+                                               const Finished& finished);
+
+// Throws CLI::ValidationError unless `path` is empty or names a file with one of the endings in a folder that exists.
+void check_output(const std::string& option, const std::string& path, const std::vector<std::string>& endings);
+
+}  // namespace strata::tools

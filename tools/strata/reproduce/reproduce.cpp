@@ -1,0 +1,69 @@
+// tools/strata/reproduce/reproduce.cpp - strata reproduce: a paper's own figures and tables beside what this machine finds.
+#include <filesystem>
+#include <memory>
+
+#include "rasterizer/base/input_error.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/names.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/reproduce/reproduce_page.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+const std::vector<std::string> papers{"carr2008", "everitt2001", "bavoil2008"};
+
+std::vector<Model> load_models(const ReproduceOptions& options) {
+    std::vector<Model> models;
+    for (const std::string& path : options.models)
+        models.push_back({std::filesystem::path(path).stem().string(), scenes::load_scene(path, {})});
+    return models;
+}
+
+Page page_of(const ReproduceOptions& options) {
+    if (options.paper == "everitt2001") return reproduce_everitt(options);
+    const std::vector<Model> models = load_models(options);
+    return options.paper == "carr2008" ? reproduce_carr(options, models) : reproduce_bavoil(options, models);
+}
+
+int reproduce(const ReproduceOptions& options) {
+    if (std::find(papers.begin(), papers.end(), options.paper) == papers.end())
+        throw CLI::ValidationError("PAPER",
+                                   "expected " + one_of(papers) + ", found " + found_but_near(options.paper, papers));
+    std::error_code failed;
+    std::filesystem::create_directories(options.folder, failed);
+    if (!std::filesystem::is_directory(options.folder))
+        throw CLI::ValidationError("-o",
+                                   "expected a folder that exists or can be made, found '" + options.folder + "'");
+    write_page(options.folder, page_of(options));
+    print(options.folder + "/index.html\n");
+    return 0;
+}
+
+}  // namespace
+
+Command add_reproduce(CLI::App& root) {
+    auto* app =
+        root.add_subcommand("reproduce", "a paper's figures and tables beside our own: one page, CSV and pictures");
+    const auto options = std::make_shared<ReproduceOptions>();
+    app->add_option("PAPER", options->paper, "carr2008, everitt2001 or bavoil2008")->required()->type_name("");
+    app->add_option("MODEL", options->models,
+                    "glTF files to run beside the built-in scenes (dragon.glb, sponza.glb, a car ...)")
+        ->type_name("");
+    app->add_option("-o,--output", options->folder, "the folder that takes the page; made if it is not there")
+        ->required()
+        ->type_name("DIR");
+    add_option(*app, options->size,
+               {"--size", "N", "pixels a side of the pictures (default 256)", "a whole number from 1 to 4096"},
+               [](std::string_view text) {
+                   const auto size = to_positive(text);
+                   return size && *size <= 4096 ? size : std::nullopt;
+               });
+    app->footer(footer(
+        "  strata reproduce everitt2001 -o everitt --size 128\n  strata reproduce bavoil2008 -o bavoil --size 128\n"));
+    return {app, [options] { return reproduce(*options); }};
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,115 @@
+#include "tools/strata/reproduce/reproduce_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/image_io.h"
+
+namespace strata::tools {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '<')
+            out += "&lt;";
+        else if (c == '&')
+            out += "&amp;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted{'"'};
+    for (const char c : text) {
+        if (c == '"') quoted += c;
+        quoted += c;
+    }
+    quoted += '"';
+    return quoted;
+}
+
+std::string csv(const Sheet& sheet) {
+    std::string text;
+    const auto add = [&](const std::vector<std::string>& cells) {
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (i > 0) text += ',';
+            text += csv_cell(cells[i]);
+        }
+        text += '\n';
+    };
+    add(sheet.columns);
+    for (const auto& row : sheet.rows) add(row);
+    return text;
+}
+
+std::string html(const Sheet& sheet) {
+    std::string text = "<table>\n<tr>";
+    for (const auto& column : sheet.columns) text += fmt::format("<th>{}</th>", escaped(column));
+    text += "</tr>\n";
+    for (const auto& row : sheet.rows) {
+        text += "<tr>";
+        for (const auto& cell : row) text += fmt::format("<td>{}</td>", escaped(cell));
+        text += "</tr>\n";
+    }
+    return text + fmt::format("</table>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
+}
+
+constexpr auto head = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>{0}</title><style>
+body {{ font: 15px/1.4 sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }}
+table {{ border-collapse: collapse }} th, td {{ border: 1px solid #bbb; padding: .2em .5em; text-align: left; vertical-align: top }}
+figure {{ display: inline-block; margin: .5em }} figcaption {{ font-size: 85%; max-width: 18em }} img {{ max-width: 18em }}
+</style></head><body>
+<h1>{0}</h1>
+)";
+
+}  // namespace
+
+void write_page(const std::string& folder, const Page& page) {
+    std::string text = fmt::format(head, escaped(page.title));
+    for (const Section& section : page.sections) {
+        text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(section.title), escaped(section.text));
+        if (!section.sheet.rows.empty()) {
+            text += html(section.sheet);
+            scenes::write_file(folder + '/' + section.sheet.file + ".csv", csv(section.sheet));
+        }
+        for (const Picture& picture : section.pictures)
+            text += fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
+                                picture.file, escaped(picture.caption));
+    }
+    scenes::write_file(folder + "/index.html", text + "</body></html>\n");
+}
+
+Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
+                      const pipeline::Image& color) {
+    scenes::write_image(folder + '/' + file, {.color = color, .premultiplied = true});
+    return {file, caption};
+}
+
+PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b) {
+    const auto bytes = [](const pipeline::Image& image) {
+        return scenes::as_straight_rgba8({.color = image, .premultiplied = true});
+    };
+    const pipeline::Image x = bytes(a), y = bytes(b);
+    PictureDifference found;
+    const std::size_t pixels = x.codes.size() / 4;
+    for (std::size_t p = 0; p < pixels; ++p) {
+        double largest = 0;
+        for (std::size_t c = 4 * p; c < 4 * p + 3; ++c)
+            largest = std::max(largest, std::fabs(double(x.codes[c]) - double(y.codes[c])));
+        found.largest = std::max(found.largest, largest);
+        found.mean += largest / static_cast<double>(pixels);
+        found.pixels += largest > 0 ? 1 : 0;
+    }
+    return found;
+}
+
+}  // namespace strata::tools
