@@ -65,7 +65,7 @@ void weighted_average(Region& region) {
     state.reads = {sums, count, region.opaque_color()};
     const StuckPixels stuck = resolve(region, state);
     region.report(Fault::half_saturated, stuck.pixels, stuck.first,
-                  "an fp16 sum or count has stopped growing (hardware.md 9)");
+                  "an fp16 sum or count has stopped growing");
     region.publish(result);
 }
 
