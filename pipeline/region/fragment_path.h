@@ -4,7 +4,7 @@
 //          (PrepareOptions::units) or with a TriangleSoup of one's own. A replaced depth takes the place of the
 //          rasterizer's in depth units, stencil and depth test.
 // Source   fragment-stages.md 1 (order); texture-shader.md 1; combiners.md 2 and 3.
-// Tests    tests/pipeline/region/fragment_path_test.cpp, tests/pipeline/listing2_test.cpp
+// Tests    tests/pipeline/region/fragment_path_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <memory>
 

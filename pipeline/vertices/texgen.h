@@ -6,7 +6,7 @@
 //          multiplied in binary64 and rounded once to binary32 [A: a driver may]; positions go through them by the view's
 //          vertex path, as they do on their way to clip space (vertex_transform.h).
 // Source   GL 1.2.1 2.10.2 and 2.10.4; vertices.md 4.
-// Tests    tests/pipeline/vertices/texgen_test.cpp, tests/pipeline/listing2_test.cpp
+// Tests    tests/pipeline/vertices/texgen_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <array>
 #include <vector>
