@@ -136,7 +136,7 @@ const Drawing colors_unknown{std::nullopt,
                              "how the chip weighs colours where w differs is not emulated yet (chip-float-depth.md 7)"};
 const Drawing float_colors{std::nullopt,
                            "its colours were computed from float depths; no capture was at hand to confirm how"};
-const Drawing z24_float{std::nullopt, "24-bit float depth is out of scope (chip-float-depth.md 3.3)"};
+const Drawing z24_float{std::nullopt, "24-bit float depth is not emulated yet (chip-float-depth.md 3.3)"};
 
 }  // namespace
 
