@@ -28,9 +28,9 @@ struct RowRun {
 // What `depth` makes of a plane of depth: its binary32 value, and the code of that.
 struct DepthLanes {
     DepthConversion<float> to_code;  // fixed point or D32F
-    float* shader_z;      // null: not wanted
-    std::uint32_t* code;  // null: not wanted
-    double* b1;           // null: no one looks at the weights
+    float* shader_z;                 // null: not wanted
+    std::uint32_t* code;             // null: not wanted
+    double* b1;                      // null: no one looks at the weights
     double* b2;
 };
 

@@ -129,10 +129,6 @@ class WindowZ24 {
         }
     };
 
-    [[nodiscard]] constexpr TwoTerms sum(const EdgeValues& e) const noexcept {
-        return is_narrow_ ? sum_of<std::uint64_t>(e) : sum_of<Wide>(e);
-    }
-
     template <class Integer>
     [[nodiscard]] constexpr TwoTerms sum_of(const EdgeValues& e) const noexcept {
         const std::size_t r = reference(e), j = r == 0 ? 1 : 0, k = r == 2 ? 1 : 2;
@@ -145,8 +141,12 @@ class WindowZ24 {
         return two_sum(double{z_[r]}, products);
     }
 
-    [[nodiscard]] static constexpr double floor(
-        double v) noexcept {  // |v| < 2^62; a larger one is far outside every buffer
+    [[nodiscard]] constexpr TwoTerms sum(const EdgeValues& e) const noexcept {
+        return is_narrow_ ? sum_of<std::uint64_t>(e) : sum_of<Wide>(e);
+    }
+
+    // |v| < 2^62; a larger one is far outside every buffer.
+    [[nodiscard]] static constexpr double floor(double v) noexcept {
         const double bounded = std::clamp(v, -0x1p62, 0x1p62);
         const auto toward_zero = static_cast<double>(static_cast<std::int64_t>(bounded));
         return toward_zero > bounded ? toward_zero - 1.0 : toward_zero;
