@@ -21,25 +21,25 @@ void check_options(const RenderOptions& o) {
     its.within("width", o.width, 1, 16384);
     its.within("height", o.height, 1, 16384);
     if (o.tile_size && std::find(std::begin(tile_sizes), std::end(tile_sizes), *o.tile_size) == std::end(tile_sizes))
-        its.fail("tile_size", "8, 16, 32, 64 or 128", *o.tile_size);
+        its.fail(FieldName{"tile_size"}, "8, 16, 32, 64 or 128", *o.tile_size);
     its.within("threads", o.threads, 0, 1024);
     its.within("window_origin[0]", o.window_origin[0], 0, 32768 - o.width);
     its.within("window_origin[1]", o.window_origin[1], 0, 32768 - o.height);
     its.within("compare_epsilon.ulps", o.compare_epsilon.ulps, 0, 1 << 24);
     if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
-        its.fail("compare_epsilon.absolute", "a number from 0 to 1", o.compare_epsilon.absolute);
+        its.fail(FieldName{"compare_epsilon.absolute"}, "a number from 0 to 1", o.compare_epsilon.absolute);
     its.within("max_passes", o.max_passes, 0, 1000000);
     its.listed("termination.rule", o.termination.rule);
     if (o.termination.rule == TerminationRule::fixed)
         its.within("termination.passes", o.termination.passes, 1, 1000000);
     if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
-        its.fail("termination.ratio", "a number of at least 0", o.termination.ratio);
+        its.fail(FieldName{"termination.ratio"}, "a number of at least 0", o.termination.ratio);
     if (o.alpha) its.finite("alpha", *o.alpha);
     if (o.depth) its.listed("depth", *o.depth);
     if (o.depth_path) its.listed("depth_path", *o.depth_path);
     if (o.reference_path) its.listed("reference_path", *o.reference_path);
     if (o.color_format && (!is_listed(*o.color_format) || !is_color(*o.color_format)))
-        its.fail("color_format", "a colour format", static_cast<int>(*o.color_format));
+        its.fail(FieldName{"color_format"}, "a colour format", static_cast<int>(*o.color_format));
 }
 
 // window_z is the chip's rule for vertex depths in buffer units and fixed-point codes.

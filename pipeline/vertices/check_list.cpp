@@ -12,19 +12,20 @@ namespace {
 constexpr int greatest_size_px = 16384;
 
 void check_indices(const Requirements& list, const Mesh& mesh, std::size_t number) {
-    const auto name = [number] { return item("meshes", number) + ".indices"; };
-    if (mesh.indices.size() % 3 != 0) list.fail(name(), "three a triangle", mesh.indices.size());
+    const FieldName indices{"meshes", number, "indices"};
+    if (mesh.indices.size() % 3 != 0) list.fail(indices, "three a triangle", mesh.indices.size());
     std::uint32_t greatest = 0;
     for (const std::uint32_t i : mesh.indices) greatest = std::max(greatest, i);
     if (mesh.indices.empty() || greatest < mesh.positions.size()) return;
     const auto wrong = std::ranges::find_if(mesh.indices, [&](std::uint32_t i) { return i >= mesh.positions.size(); });
-    list.below(name() + "[" + std::to_string(wrong - mesh.indices.begin()) + "]", *wrong, mesh.positions.size());
+    list.fail(indices.text() + "[" + std::to_string(wrong - mesh.indices.begin()) + "]",
+              "less than " + std::to_string(mesh.positions.size()), *wrong);
 }
 
 void check_mesh(const Requirements& list, const Mesh& mesh, std::size_t number) {
     const auto as_many = [&](const char* attribute, std::size_t size) {
         if (size == 0 || size == mesh.positions.size()) return;
-        list.fail(item("meshes", number) + "." + attribute, "none or " + std::to_string(mesh.positions.size()), size);
+        list.fail(FieldName{"meshes", number, attribute}, "none or " + std::to_string(mesh.positions.size()), size);
     };
     as_many("normals", mesh.normals.size());
     as_many("colors", mesh.colors.size());
@@ -33,23 +34,23 @@ void check_mesh(const Requirements& list, const Mesh& mesh, std::size_t number) 
 }
 
 void check_material(const Requirements& list, const Material& material, std::size_t number, std::size_t textures) {
-    const std::string name = item("materials", number);
-    list.listed(name + ".alpha_mode", material.alpha_mode);
-    list.finite(name + ".alpha_cutoff", material.alpha_cutoff);
-    list.within(name + ".texture", std::int64_t{material.texture}, -1, static_cast<std::int64_t>(textures) - 1);
+    const auto field = [number](const char* name) { return FieldName{"materials", number, name}; };
+    list.listed(field("alpha_mode"), material.alpha_mode);
+    list.finite(field("alpha_cutoff"), material.alpha_cutoff);
+    list.within(field("texture"), std::int64_t{material.texture}, -1, static_cast<std::int64_t>(textures) - 1);
 }
 
 void check_texture(const Requirements& list, const Texture& texture, std::size_t number) {
-    const std::string name = item("textures", number);
-    list.within(name + ".width", texture.width, 1, greatest_size_px);
-    list.within(name + ".height", texture.height, 1, greatest_size_px);
+    const auto field = [number](const char* name) { return FieldName{"textures", number, name}; };
+    list.within(field("width"), texture.width, 1, greatest_size_px);
+    list.within(field("height"), texture.height, 1, greatest_size_px);
     const auto bytes = 4 * static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
     if (texture.texels.size() != bytes)
-        list.fail(name + ".texels", std::to_string(bytes) + " bytes", texture.texels.size());
-    list.listed(name + ".target", texture.target);
-    list.listed(name + ".filter", texture.filter);
-    list.listed(name + ".wrap_s", texture.wrap_s);
-    list.listed(name + ".wrap_t", texture.wrap_t);
+        list.fail(field("texels"), std::to_string(bytes) + " bytes", texture.texels.size());
+    list.listed(field("target"), texture.target);
+    list.listed(field("filter"), texture.filter);
+    list.listed(field("wrap_s"), texture.wrap_s);
+    list.listed(field("wrap_t"), texture.wrap_t);
 }
 
 // The soup numbers all vertices and all indices with 32 bits.
@@ -57,10 +58,9 @@ void check_instances(const Requirements& its, const DrawList& list) {
     std::uint64_t vertices = 0, indices = 0;
     for (std::size_t i = 0; i < list.instances.size(); ++i) {
         const Instance& instance = list.instances[i];
-        if (instance.mesh >= list.meshes.size())
-            its.below(item("instances", i) + ".mesh", instance.mesh, list.meshes.size());
+        if (instance.mesh >= list.meshes.size()) its.below({"instances", i, "mesh"}, instance.mesh, list.meshes.size());
         if (instance.material >= list.materials.size())
-            its.below(item("instances", i) + ".material", instance.material, list.materials.size());
+            its.below({"instances", i, "material"}, instance.material, list.materials.size());
         vertices += list.meshes[instance.mesh].positions.size();
         indices += list.meshes[instance.mesh].indices.size();
     }

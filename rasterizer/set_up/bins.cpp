@@ -117,7 +117,7 @@ Rect tile_rect(const Geometry& geometry, std::size_t tile) {
 
 void bin_triangles(Geometry& geometry, int tile_size, int threads) {
     if (tile_size < 8 || tile_size > 128 || !std::has_single_bit(static_cast<unsigned>(tile_size)))
-        Requirements{"bins"}.fail("tile_size", "8, 16, 32, 64 or 128", tile_size);
+        Requirements{"bins"}.fail(FieldName{"tile_size"}, "8, 16, 32, 64 or 128", tile_size);
     geometry.tile_size = tile_size;
     geometry.tiles_x = (geometry.state.viewport.width() + tile_size - 1) / tile_size;
     geometry.tiles_y = (geometry.state.viewport.height() + tile_size - 1) / tile_size;

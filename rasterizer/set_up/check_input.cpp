@@ -32,14 +32,14 @@ void check_numbers(const Requirements& soup, const char* list, std::span<const s
     for (const std::uint32_t n : numbers) greatest = std::max(greatest, n);
     if (numbers.empty() || greatest < limit) return;
     const auto wrong = std::ranges::find_if(numbers, [limit](std::uint32_t n) { return n >= limit; });
-    soup.below(item(list, static_cast<std::size_t>(wrong - numbers.begin())), *wrong, limit);
+    soup.below({list, static_cast<std::size_t>(wrong - numbers.begin())}, *wrong, limit);
 }
 
 void check_extras(const Requirements& soup, const VertexExtras& extras, std::size_t vertices) {
     const std::size_t needed = (extras.has_rq ? 2 : 0) + (extras.has_units ? 4 * texture_units : 0);
     soup.within("extras.stride", extras.stride, needed, max_extras);
     if (extras.values.size() != extras.stride * vertices)
-        soup.fail("extras.values",
+        soup.fail(FieldName{"extras.values"},
                   std::to_string(extras.stride) + " numbers for each of " + std::to_string(vertices) + " vertices",
                   extras.values.size());
 }
@@ -57,7 +57,7 @@ void check(const RasterState& state) {
     its.within("clip_plane_count", state.clip_plane_count, 0, static_cast<int>(state.clip_planes.size()));
     for (std::size_t i = 0; i < static_cast<std::size_t>(state.clip_plane_count); ++i) {
         const ClipPlane& plane = state.clip_planes[i];
-        for (const float value : {plane.a, plane.b, plane.c, plane.d}) its.finite(item("clip_planes", i), value);
+        for (const float value : {plane.a, plane.b, plane.c, plane.d}) its.finite({"clip_planes", i}, value);
     }
     its.listed("clip_depth", state.clip_depth);
     its.listed("y_direction", state.y_direction);
@@ -75,9 +75,9 @@ void check(const TriangleSoup& soup) {
     std::uint64_t triangles = 0;
     for (std::size_t i = 0; i < soup.runs.size(); ++i) {
         const TriangleRun& run = soup.runs[i];
-        if (run.index_count % 3 != 0) its.fail(item("runs", i) + ".index_count", "a multiple of 3", run.index_count);
+        if (run.index_count % 3 != 0) its.fail(FieldName{"runs", i, "index_count"}, "a multiple of 3", run.index_count);
         if (std::uint64_t{run.first_index} + run.index_count > soup.indices.size())
-            its.fail(item("runs", i), "an end within " + std::to_string(soup.indices.size()) + " indices",
+            its.fail(FieldName{"runs", i}, "an end within " + std::to_string(soup.indices.size()) + " indices",
                      std::uint64_t{run.first_index} + run.index_count);
         triangles += run.index_count / 3;
     }
