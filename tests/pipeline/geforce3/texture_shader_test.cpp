@@ -386,8 +386,7 @@ TEST_CASE("a replaced depth of a 16-bit float buffer is cut to the buffer's 4 bi
     };
     CHECK(code_of(32.0f) == 0xc000);
     CHECK(code_of(511.9375f) == 0xffff);
-    CHECK(code_of(0x1p-6f) == 0x1000);
-    CHECK(code_of(0x1.fffffep-7f) == 0);
+    CHECK((code_of(0x1p-6f) == 0x1000 && code_of(0x1.fffffep-7f) == 0));
     for (std::uint32_t code = 0x1000; code < 0xffff; code += 5) {
         const float low = std::ldexp(static_cast<float>(4096 + (code & 0xfff)), static_cast<int>(code >> 12) - 19);
         const float high = std::ldexp(static_cast<float>(4097 + (code & 0xfff)), static_cast<int>(code >> 12) - 19);
