@@ -18,7 +18,7 @@ namespace strata::pipeline {
 namespace {
 
 double determinant(const Matrix& m) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+    const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
            a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
 }

@@ -12,7 +12,7 @@ using Point = std::array<double, 3>;
 
 Point transformed(const Matrix& m, const Point& p) {
     Point q{};
-    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
+    for (std::size_t r = 0; r < 3; ++r) q[r] = m[0][r] * p[0] + m[1][r] * p[1] + m[2][r] * p[2] + m[3][r];
     return q;
 }
 
@@ -31,8 +31,8 @@ GltfFile triangle(Json node) {
 }
 
 double determinant(const Matrix& m) {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-           m[8] * (m[1] * m[6] - m[2] * m[5]);
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[1][0] * (m[0][1] * m[2][2] - m[0][2] * m[2][1]) +
+           m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]);
 }
 
 const double half = 0.7071067811865476;  // sine and cosine of half a right angle
@@ -70,14 +70,14 @@ TEST_CASE("a mesh that two nodes show is stored once, and instances keep the ord
     const auto list = file.load().list;
     CHECK(list.meshes.size() == 1);
     REQUIRE(list.instances.size() == 4);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(list.instances[i].model[12] == static_cast<double>(i + 1));
+    for (std::size_t i = 0; i < 4; ++i) CHECK(list.instances[i].model[3][0] == static_cast<double>(i + 1));
 }
 
 TEST_CASE("nodes may nest 100,000 deep, and a transform that overflows is refused") {
     GltfFile file = triangle({{"translation", {1, 0, 0}}});
     for (int i = 1; i <= 100000; ++i) file.add("nodes", {{"children", {i - 1}}, {"translation", {1, 0, 0}}});
     file.json["scenes"][0]["nodes"] = {100000};
-    CHECK(file.load().list.instances.at(0).model[12] == 100001);
+    CHECK(file.load().list.instances.at(0).model[3][0] == 100001);
     GltfFile large = triangle({{"scale", {1e308, 1, 1}}});
     large.json["scenes"][0]["nodes"] = {1};
     large.add("nodes", {{"children", {0}}, {"scale", {1e308, 1, 1}}});
@@ -91,7 +91,7 @@ TEST_CASE(
     file.add("nodes", {{"mesh", 0}, {"translation", {2, 0, 0}}});
     file.add("scenes", {{"nodes", {1}}});
     const auto x = [&](const strata::scenes::SceneOptions& options) {
-        return file.load(options).list.instances.at(0).model[12];
+        return file.load(options).list.instances.at(0).model[3][0];
     };
     CHECK(x({}) == 1);
     CHECK(x({.scene = 1}) == 2);
