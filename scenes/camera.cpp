@@ -18,8 +18,22 @@ pipeline::Matrix look_at_matrix(const Vec3d& eye, const Vec3d& center, const Vec
     const Vec3d forward = normalized(minus(center, eye));
     const Vec3d side = normalized(cross_product(forward, up));
     const Vec3d top = cross_product(side, forward);
-    return {side[0], top[0], -forward[0], 0, side[1],         top[1],         -forward[1],       0,
-            side[2], top[2], -forward[2], 0, -dot_product(side, eye), -dot_product(top, eye), dot_product(forward, eye), 1};
+    return {side[0],
+            top[0],
+            -forward[0],
+            0,
+            side[1],
+            top[1],
+            -forward[1],
+            0,
+            side[2],
+            top[2],
+            -forward[2],
+            0,
+            -dot_product(side, eye),
+            -dot_product(top, eye),
+            dot_product(forward, eye),
+            1};
 }
 
 // The two entries of a perspective matrix's third row; zfar 0: at infinity.
@@ -86,7 +100,8 @@ LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevati
     const Vec3d outward{cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth)};
     const auto [center, radius] = bounding_sphere(bounds);
 
-    LookAt camera{.eye = plus(center, times(outward, 2.5 * radius)), .center = center, .near = 1.4 * radius, .far = 3.6 * radius};
+    LookAt camera{
+        .eye = plus(center, times(outward, 2.5 * radius)), .center = center, .near = 1.4 * radius, .far = 3.6 * radius};
     if (std::abs(outward[1]) > 0x1.ffffffffffp-1) {  // within 10^-6 radians of a pole: +y is the line of sight
         const double sign = outward[1] > 0 ? -1 : 1;
         camera.up = {sign * sin(azimuth), 0, sign * cos(azimuth)};

@@ -9,9 +9,7 @@
 namespace strata::pipeline {
 namespace {
 
-[[nodiscard]] Vec3d between(const Vec3& from, const Vec3& to) {
-    return minus(Vec3d{to}, Vec3d{from});
-}
+[[nodiscard]] Vec3d between(const Vec3& from, const Vec3& to) { return minus(Vec3d{to}, Vec3d{from}); }
 
 // Corners a, b, c, d in walking order, the triangles being (a, b, c) and (c, d, a).
 using Quad = std::array<std::uint32_t, 4>;
@@ -34,11 +32,13 @@ using Quad = std::array<std::uint32_t, 4>;
     };
     const Vec3d normal = cross_product(side(0, 1), side(0, 2));
     double longest = 0.0;  // squared
-    for (std::size_t i = 0; i < 4; ++i) longest = std::max(longest, dot_product(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
+    for (std::size_t i = 0; i < 4; ++i)
+        longest = std::max(longest, dot_product(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
     const double off = dot_product(normal, side(0, 3));  // times |normal|
     if (off * off > 0x1p-40 * longest * dot_product(normal, normal)) return false;
     for (std::size_t i = 0; i < 4; ++i)
-        if (!(dot_product(normal, cross_product(side(i, (i + 1) % 4), side((i + 1) % 4, (i + 2) % 4))) > 0.0)) return false;
+        if (!(dot_product(normal, cross_product(side(i, (i + 1) % 4), side((i + 1) % 4, (i + 2) % 4))) > 0.0))
+            return false;
     return true;
 }
 

@@ -8,6 +8,8 @@
 //          identity (GLM_FORCE_CTOR_INIT); a matrix of zeros is Matrix(0.0). One value in braces fills every component.
 // Tests    tests/rasterizer/base/vector_test.cpp, tests/house/glm.py
 #pragma once
+#include <array>
+#include <cstddef>
 #include <glm/ext/matrix_double4x4.hpp>
 #include <glm/ext/vector_double2.hpp>
 #include <glm/ext/vector_double3.hpp>
@@ -15,9 +17,6 @@
 #include <glm/ext/vector_float2.hpp>
 #include <glm/ext/vector_float3.hpp>
 #include <glm/ext/vector_float4.hpp>
-
-#include <array>
-#include <cstddef>
 #include <span>
 
 #if GLM_CONFIG_CTOR_INIT == GLM_CTOR_INIT_DISABLE

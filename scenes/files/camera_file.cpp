@@ -140,7 +140,8 @@ std::string hex_float(double value) {
 
 std::string to_json(const pipeline::Matrix& matrix) {
     std::string text;
-    for (const double entry : entries_of(matrix)) text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", hex_float(entry));
+    for (const double entry : entries_of(matrix))
+        text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", hex_float(entry));
     return "[" + text + "]";
 }
 

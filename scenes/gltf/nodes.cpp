@@ -71,7 +71,22 @@ Matrix view_of(const Matrix& world, const Place& place) {
     const double along = dot_product(right, z);
     const Vec3d x = unit(minus(right, times(z, along)), place);
     const Vec3d y = cross_product(z, x), eye = column(world, 3);
-    return {x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, -dot_product(x, eye), -dot_product(y, eye), -dot_product(z, eye), 1};
+    return {x[0],
+            y[0],
+            z[0],
+            0,
+            x[1],
+            y[1],
+            z[1],
+            0,
+            x[2],
+            y[2],
+            z[2],
+            0,
+            -dot_product(x, eye),
+            -dot_product(y, eye),
+            -dot_product(z, eye),
+            1};
 }
 
 }  // namespace strata::scenes

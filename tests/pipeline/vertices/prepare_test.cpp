@@ -27,8 +27,7 @@ Matrix random_matrix(Random& random) {
 double product(const View& view, const Matrix& model, std::size_t row, std::size_t column) {
     double sum = 0;
     for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t k = 0; k < 4; ++k)
-            sum += view.projection[j][row] * view.view[k][j] * model[column][k];
+        for (std::size_t k = 0; k < 4; ++k) sum += view.projection[j][row] * view.view[k][j] * model[column][k];
     return sum;
 }
 
@@ -85,8 +84,8 @@ double light_factor(const Vec3& n, const Matrix& m, const Matrix& view) {
         }
     const double length = std::sqrt(world[0] * world[0] + world[1] * world[1] + world[2] * world[2]);
     const double towards = std::sqrt(view[0][2] * view[0][2] + view[1][2] * view[1][2] + view[2][2] * view[2][2]);
-    return 0.25 +
-           0.75 * std::fabs((world[0] * view[0][2] + world[1] * view[1][2] + world[2] * view[2][2]) / (length * towards));
+    return 0.25 + 0.75 * std::fabs((world[0] * view[0][2] + world[1] * view[1][2] + world[2] * view[2][2]) /
+                                   (length * towards));
 }
 
 }  // namespace
@@ -163,7 +162,8 @@ TEST_CASE("every instruction set lights and transforms vertices to the same bits
                 infinity = std::numeric_limits<float>::infinity();
     for (Vec3& n : list.meshes[0].normals) {
         const auto one_of = std::array{0.0f, -0.0f, 1.0f, 0x1p-80f, 0x1p80f, not_a_number, infinity};
-        for (float& x : strata::components(n)) x = random() % 4 == 0 ? one_of[random() % one_of.size()] : random_float(random, -2, 2);
+        for (float& x : strata::components(n))
+            x = random() % 4 == 0 ? one_of[random() % one_of.size()] : random_float(random, -2, 2);
         if (random() % 8 == 0) n = {0.0f, -0.0f, 0.0f};
     }
     const View view{random_matrix(random), random_matrix(random)};

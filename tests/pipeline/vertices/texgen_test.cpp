@@ -102,7 +102,8 @@ TEST_CASE("a coordinate is rounded to binary32 after every operation, its matrix
     units[1] = {.enabled = true, .gen = eye_position(), .matrix = scaling(1 + 0x1p-30, 1, 1)};
     const Vec3 p{1 + 0x1p-23f, 0x1p-24f, 0x1p-24f};
     CHECK(VertexCoordinates{units, {}, identity}.at(p, {})[1][0] == p[0]);  // 1 + 2^-30 is 1 in binary32
-    units[1].matrix[1][0] = 1;  // s = x + y + z: each half of a unit in the last place is lost, though both together count
+    units[1].matrix[1][0] =
+        1;  // s = x + y + z: each half of a unit in the last place is lost, though both together count
     units[1].matrix[2][0] = 1;
     const Vec3 halves{1, 0x1p-24f, 0x1p-24f};
     CHECK(VertexCoordinates{units, {}, identity}.at(halves, {})[1][0] == 1.0f);

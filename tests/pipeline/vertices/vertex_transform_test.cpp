@@ -195,9 +195,7 @@ TEST_CASE("the rows of r and q are Listing 2's matrices multiplied out, row r ti
     state.depth_format = DepthFormat::d16;
     const View view{.view = v, .projection = p};
     const VertexTransform rows = quotient_rows(view, m, state, find_profile("geforce3")->raster);
-    const auto entry = [&](const Matrix& a, std::size_t row, std::size_t column) {
-        return Rational{a[column][row]};
-    };
+    const auto entry = [&](const Matrix& a, std::size_t row, std::size_t column) { return Rational{a[column][row]}; };
     std::array<float, 4> r{}, q{};
     for (std::size_t column = 0; column < 4; ++column) {
         Rational z{0}, w{0};

@@ -30,7 +30,7 @@ GltfFile triangle(Json node) {
     return file;
 }
 
-double determinant(const Matrix& m) {
+double determinant_of(const Matrix& m) {
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[1][0] * (m[0][1] * m[2][2] - m[0][2] * m[2][1]) +
            m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]);
 }
@@ -56,7 +56,7 @@ TEST_CASE("a matrix is taken as written, column by column, and a mirror stays on
     const Json matrix{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, -10, 0, 11, 12, 13, 1};
     CHECK(triangle({{"matrix", matrix}}).load().list.instances.at(0).model == matrix.get<Matrix>());
     const auto mirrored = triangle({{"scale", {-1, 1, 1}}}).load();
-    CHECK(determinant(mirrored.list.instances.at(0).model) == -1);
+    CHECK(determinant_of(mirrored.list.instances.at(0).model) == -1);
     CHECK(mirrored.bounds.lo == Point{-1, 0, 0});
     CHECK(mirrored.bounds.hi == Point{0, 1, 0});
 }
@@ -118,7 +118,7 @@ TEST_CASE("a camera looks along its node's -z, whatever scale or mirror the node
         CHECK(camera.name == "front");
         CHECK(
             (camera.perspective && camera.yfov == 0.5 && camera.znear == 1 && camera.zfar == 0 && camera.aspect == 2));
-        CHECK(determinant(camera.view) == Approx(1));
+        CHECK(determinant_of(camera.view) == Approx(1));
         check_near(transformed(camera.view, {1, 2, 3}), {0, 0, 0});
         // Turned by a right angle about y, -z is -x; a negative scale of x turns "right" round, and with it "up".
         const double side = scale[0] < 0 ? -1 : 1;

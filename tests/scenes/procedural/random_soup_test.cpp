@@ -20,7 +20,8 @@ TEST_CASE("a soup has as many triangles as asked for, in the unit cube, on a gri
         CHECK(mesh.indices.size() == 3 * count);
         int wrong = 0;
         for (const auto& p : mesh.positions)
-            for (const float x : strata::components(p)) wrong += x >= -1 && x <= 1 && x * 8192 == std::floor(x * 8192) ? 0 : 1;
+            for (const float x : strata::components(p))
+                wrong += x >= -1 && x <= 1 && x * 8192 == std::floor(x * 8192) ? 0 : 1;
         for (const auto& c : mesh.colors)
             wrong += c[0] >= 0 && c[0] < 1 && c[1] >= 0 && c[1] < 1 && c[2] >= 0 && c[2] < 1 && c[3] > 0 && c[3] <= 1
                          ? 0
