@@ -57,8 +57,8 @@ TEST_CASE("a matrix is taken as written, column by column, and a mirror stays on
     CHECK(triangle({{"matrix", matrix}}).load().list.instances.at(0).model == matrix.get<Matrix>());
     const auto mirrored = triangle({{"scale", {-1, 1, 1}}}).load();
     CHECK(determinant_of(mirrored.list.instances.at(0).model) == -1);
-    CHECK(mirrored.bounds.lo == Point{-1, 0, 0});
-    CHECK(mirrored.bounds.hi == Point{0, 1, 0});
+    CHECK(mirrored.bounds.lo == strata::Vec3d{-1, 0, 0});
+    CHECK(mirrored.bounds.hi == strata::Vec3d{0, 1, 0});
 }
 
 TEST_CASE("a mesh that two nodes show is stored once, and instances keep the order of the walk") {
