@@ -94,7 +94,7 @@ TEST_CASE("straight above and below the orbit's up is its limit, so that the pic
     for (const double sign : {1.0, -1.0}) {
         const View at = orbit_view(box(-1, -1, -1, 1, 1, 1), 25, sign * 90, 1);
         const View beside = orbit_view(box(-1, -1, -1, 1, 1, 1), 25, sign * 89.999, 1);
-        for (std::size_t i = 0; i < 16; ++i) CHECK(std::abs(at.view[i] - beside.view[i]) < 1e-3);
+        for (std::size_t i = 0; i < 16; ++i) CHECK(std::abs(at.view[i / 4][i % 4] - beside.view[i / 4][i % 4]) < 1e-3);
     }
 }
 

@@ -201,7 +201,7 @@ struct Fragments {
             for (std::size_t i = batch.size(); i > 1 && !in_runs; --i)
                 std::swap(batch[i - 1], batch[below(random, static_cast<std::uint32_t>(i))]);
             for (Fragment& f : batch)
-                for (float& c : strata::components(f.color)) c = random_channel(random);
+                for (float& c : f.color) c = random_channel(random);
             batches.push_back(batch);
         }
     }

@@ -54,7 +54,8 @@ TEST_CASE("a node scales, then rotates, then translates, and a parent comes last
 
 TEST_CASE("a matrix is taken as written, column by column, and a mirror stays one") {
     const Json matrix{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, -10, 0, 11, 12, 13, 1};
-    CHECK(triangle({{"matrix", matrix}}).load().list.instances.at(0).model == matrix.get<Matrix>());
+    CHECK(triangle({{"matrix", matrix}}).load().list.instances.at(0).model ==
+          strata::matrix_of(matrix.get<std::array<double, 16>>()));
     const auto mirrored = triangle({{"scale", {-1, 1, 1}}}).load();
     CHECK(determinant_of(mirrored.list.instances.at(0).model) == -1);
     CHECK(mirrored.bounds.lo == strata::Vec3d{-1, 0, 0});
