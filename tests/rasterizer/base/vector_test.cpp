@@ -17,39 +17,80 @@ namespace {
 
 using namespace strata;
 
+// clang-format off: version 14 does not know requires expressions.
 template <class A, class B>
-constexpr bool operators_exist =
-    requires(A a, B b) { a + b; } || requires(A a, B b) { a - b; } || requires(A a, B b) { a* b; } ||
-    requires(A a, B b) { a / b; } || requires(A a, B b) { b + a; } || requires(A a, B b) { b - a; } ||
-    requires(A a, B b) { b* a; } || requires(A a, B b) { b / a; };
+constexpr bool operators_exist = requires(A a, B b) {
+    a + b;
+}
+|| requires(A a, B b) { a - b; }
+|| requires(A a, B b) { a* b; }
+|| requires(A a, B b) { a / b; }
+|| requires(A a, B b) { b + a; }
+|| requires(A a, B b) { b - a; }
+|| requires(A a, B b) { b* a; }
+|| requires(A a, B b) { b / a; };
 
 template <class A, class B>
-constexpr bool assignments_exist = requires(A a, B b) { a += b; } || requires(A a, B b) { a -= b; } ||
-                                   requires(A a, B b) { a *= b; } || requires(A a, B b) { a /= b; };
+constexpr bool assignments_exist = requires(A a, B b) {
+    a += b;
+}
+|| requires(A a, B b) { a -= b; }
+|| requires(A a, B b) { a *= b; }
+|| requires(A a, B b) { a /= b; };
 
 template <class A>
-constexpr bool steps_exist = requires(A a) { +a; } || requires(A a) { -a; } || requires(A a) { ++a; } ||
-                             requires(A a) { --a; } || requires(A a) { a++; } || requires(A a) { a--; };
+constexpr bool steps_exist = requires(A a) {
+    +a;
+}
+|| requires(A a) { -a; }
+|| requires(A a) { ++a; }
+|| requires(A a) { --a; }
+|| requires(A a) { a++; }
+|| requires(A a) { a--; };
 
 template <class A, class... B>
-constexpr bool any_arithmetic =
-    steps_exist<A> || ((operators_exist<A, B> || assignments_exist<A, B>) || ...) ||
-    requires(A a) { std::plus<>{}(a, a); } || requires(A a) { std::multiplies<>{}(a, a); };
+constexpr bool any_arithmetic = steps_exist<A> || ((operators_exist<A, B> || assignments_exist<A, B>) || ...) ||
+                                requires(A a) {
+    std::plus<>{}(a, a);
+}
+|| requires(A a) { std::multiplies<>{}(a, a); };
 
 template <class V>
-constexpr bool any_of_one = requires(V v) { abs(v); } || requires(V v) { floor(v); } || requires(V v) { round(v); } ||
-                            requires(V v) { sqrt(v); } || requires(V v) { inversesqrt(v); } ||
-                            requires(V v) { length(v); } || requires(V v) { normalize(v); } ||
-                            requires(V v) { sin(v); } || requires(V v) { radians(v); } || requires(V v) { exp2(v); };
+constexpr bool any_of_one = requires(V v) {
+    abs(v);
+}
+|| requires(V v) { floor(v); }
+|| requires(V v) { round(v); }
+|| requires(V v) { sqrt(v); }
+|| requires(V v) { inversesqrt(v); }
+|| requires(V v) { length(v); }
+|| requires(V v) { normalize(v); }
+|| requires(V v) { sin(v); }
+|| requires(V v) { radians(v); }
+|| requires(V v) { exp2(v); };
 
 template <class V>
-constexpr bool any_of_more =
-    requires(V v) { dot(v, v); } || requires(V v) { cross(v, v); } || requires(V v) { distance(v, v); } ||
-    requires(V v) { min(v, v); } || requires(V v) { max(v, 1); } || requires(V v) { pow(v, v); } ||
-    requires(V v) { step(1, v); } || requires(V v) { clamp(v, 0, 1); } || requires(V v) { clamp(v, v, v); } ||
-    requires(V v) { mix(v, v, 0.5f); } || requires(V v) { mix(v, v, 0.5); } || requires(V v) { mix(v, v, true); } || requires(V v) { mix(v, v, v); } || requires(V v) { smoothstep(0, 1, v); } ||
-    requires(V v) { fma(v, v, v); } || requires(V v) { reflect(v, v); } || requires(V v) { refract(v, v, 1); } ||
-    requires(V v) { outerProduct(v, v); } || requires(V v) { lessThan(v, v); };
+constexpr bool any_of_more = requires(V v) {
+    dot(v, v);
+}
+|| requires(V v) { cross(v, v); }
+|| requires(V v) { distance(v, v); }
+|| requires(V v) { min(v, v); }
+|| requires(V v) { max(v, 1); }
+|| requires(V v) { pow(v, v); }
+|| requires(V v) { step(1, v); }
+|| requires(V v) { clamp(v, 0, 1); }
+|| requires(V v) { clamp(v, v, v); }
+|| requires(V v) { mix(v, v, 0.5f); }
+|| requires(V v) { mix(v, v, 0.5); }
+|| requires(V v) { mix(v, v, true); }
+|| requires(V v) { mix(v, v, v); }
+|| requires(V v) { smoothstep(0, 1, v); }
+|| requires(V v) { fma(v, v, v); }
+|| requires(V v) { reflect(v, v); }
+|| requires(V v) { refract(v, v, 1); }
+|| requires(V v) { outerProduct(v, v); }
+|| requires(V v) { lessThan(v, v); };
 
 template <class V>
 constexpr bool is_storage = !any_arithmetic<V, V, int, float, double> && !any_of_one<V> && !any_of_more<V>;
@@ -59,9 +100,13 @@ static_assert(!any_arithmetic<Vec3, Vec3d> && !any_arithmetic<Vec3d, Vec3> && !a
 static_assert(!any_arithmetic<Matrix, Matrix, int, float, double, Vec4, Vec4d>);
 
 template <class M>
-constexpr bool any_of_matrix =
-    requires(M m) { transpose(m); } || requires(M m) { inverse(m); } || requires(M m) { determinant(m); } ||
-    requires(M m) { matrixCompMult(m, m); };
+constexpr bool any_of_matrix = requires(M m) {
+    transpose(m);
+}
+|| requires(M m) { inverse(m); }
+|| requires(M m) { determinant(m); }
+|| requires(M m) { matrixCompMult(m, m); };
+// clang-format on
 static_assert(!any_of_matrix<Matrix>);
 
 // The tests above can fail: numbers have what the vectors lack.
