@@ -51,33 +51,32 @@
     void name(const V&, Number, Number) = delete;     \
     void name(Number, Number, const V&) = delete;
 
-// clang-format off: the tool takes the macros for the beginning of one declaration.
-#define STRATA_NO_FUNCTIONS(V, Number)                                                                                \
-    STRATA_NO_UNARY(abs, V)                                                                                           \
-    STRATA_NO_UNARY(sign, V) STRATA_NO_UNARY(floor, V) STRATA_NO_UNARY(trunc, V) STRATA_NO_UNARY(round, V)            \
-        STRATA_NO_UNARY(roundEven, V) STRATA_NO_UNARY(ceil, V) STRATA_NO_UNARY(fract, V) STRATA_NO_UNARY(isnan, V)    \
-            STRATA_NO_UNARY(isinf, V) STRATA_NO_UNARY(exp, V) STRATA_NO_UNARY(log, V) STRATA_NO_UNARY(                \
-                exp2, V) STRATA_NO_UNARY(log2, V) STRATA_NO_UNARY(sqrt, V) STRATA_NO_UNARY(inversesqrt, V)            \
-                STRATA_NO_UNARY(length, V) STRATA_NO_UNARY(normalize, V) STRATA_NO_UNARY(radians, V) STRATA_NO_UNARY( \
-                    degrees, V) STRATA_NO_UNARY(sin, V) STRATA_NO_UNARY(cos, V) STRATA_NO_UNARY(tan, V)               \
-                    STRATA_NO_UNARY(asin, V) STRATA_NO_UNARY(acos, V) STRATA_NO_UNARY(atan, V) STRATA_NO_UNARY(       \
-                        sinh, V) STRATA_NO_UNARY(cosh, V) STRATA_NO_UNARY(tanh, V) STRATA_NO_UNARY(asinh, V)          \
-                        STRATA_NO_UNARY(acosh, V) STRATA_NO_UNARY(atanh, V) STRATA_NO_UNARY(                          \
-                            floatBitsToInt, V) STRATA_NO_UNARY(floatBitsToUint, V) STRATA_NO_BINARY(mod, V, Number)   \
-                            STRATA_NO_BINARY(min, V, Number) STRATA_NO_BINARY(max, V, Number) STRATA_NO_BINARY(       \
-                                step, V, Number) STRATA_NO_BINARY(pow, V, Number) STRATA_NO_BINARY(atan, V, Number)   \
-                                STRATA_NO_BINARY(distance, V, Number) STRATA_NO_BINARY(dot, V, Number)                \
-                                    STRATA_NO_BINARY(cross, V, Number) STRATA_NO_BINARY(reflect, V, Number)           \
-                                        STRATA_NO_BINARY(lessThan, V, Number) STRATA_NO_BINARY(                       \
-                                            lessThanEqual, V, Number) STRATA_NO_BINARY(greaterThan, V, Number)        \
-                                            STRATA_NO_BINARY(greaterThanEqual, V, Number) STRATA_NO_BINARY(           \
-                                                equal, V, Number) STRATA_NO_BINARY(notEqual, V, Number)               \
-                                                STRATA_NO_BINARY(outerProduct, V, Number) STRATA_NO_TERNARY(          \
-                                                    clamp, V, Number) STRATA_NO_TERNARY(mix, V, Number)               \
-                                                    STRATA_NO_TERNARY(smoothstep, V, Number) STRATA_NO_TERNARY(       \
-                                                        fma, V, Number) STRATA_NO_TERNARY(faceforward, V, Number)     \
-                                                        STRATA_NO_TERNARY(refract, V, Number) template <class Weight> \
-                                                        void mix(const V&, const V&, Weight) = delete;                \
+// clang-format takes the macros for the beginning of one declaration.
+// clang-format off
+#define STRATA_NO_FUNCTIONS(V, Number)                                                                   \
+    STRATA_NO_UNARY(abs, V) STRATA_NO_UNARY(sign, V) STRATA_NO_UNARY(floor, V) STRATA_NO_UNARY(trunc, V) \
+    STRATA_NO_UNARY(round, V) STRATA_NO_UNARY(roundEven, V) STRATA_NO_UNARY(ceil, V)                     \
+    STRATA_NO_UNARY(fract, V) STRATA_NO_UNARY(isnan, V) STRATA_NO_UNARY(isinf, V)                        \
+    STRATA_NO_UNARY(exp, V) STRATA_NO_UNARY(log, V) STRATA_NO_UNARY(exp2, V) STRATA_NO_UNARY(log2, V)    \
+    STRATA_NO_UNARY(sqrt, V) STRATA_NO_UNARY(inversesqrt, V) STRATA_NO_UNARY(length, V)                  \
+    STRATA_NO_UNARY(normalize, V) STRATA_NO_UNARY(radians, V) STRATA_NO_UNARY(degrees, V)                \
+    STRATA_NO_UNARY(sin, V) STRATA_NO_UNARY(cos, V) STRATA_NO_UNARY(tan, V) STRATA_NO_UNARY(asin, V)     \
+    STRATA_NO_UNARY(acos, V) STRATA_NO_UNARY(atan, V) STRATA_NO_UNARY(sinh, V) STRATA_NO_UNARY(cosh, V)  \
+    STRATA_NO_UNARY(tanh, V) STRATA_NO_UNARY(asinh, V) STRATA_NO_UNARY(acosh, V)                         \
+    STRATA_NO_UNARY(atanh, V) STRATA_NO_UNARY(floatBitsToInt, V) STRATA_NO_UNARY(floatBitsToUint, V)     \
+    STRATA_NO_BINARY(mod, V, Number) STRATA_NO_BINARY(min, V, Number) STRATA_NO_BINARY(max, V, Number)   \
+    STRATA_NO_BINARY(step, V, Number) STRATA_NO_BINARY(pow, V, Number) STRATA_NO_BINARY(atan, V, Number) \
+    STRATA_NO_BINARY(distance, V, Number) STRATA_NO_BINARY(dot, V, Number)                               \
+    STRATA_NO_BINARY(cross, V, Number) STRATA_NO_BINARY(reflect, V, Number)                              \
+    STRATA_NO_BINARY(lessThan, V, Number) STRATA_NO_BINARY(lessThanEqual, V, Number)                     \
+    STRATA_NO_BINARY(greaterThan, V, Number) STRATA_NO_BINARY(greaterThanEqual, V, Number)               \
+    STRATA_NO_BINARY(equal, V, Number) STRATA_NO_BINARY(notEqual, V, Number)                             \
+    STRATA_NO_BINARY(outerProduct, V, Number)                                                            \
+    STRATA_NO_TERNARY(clamp, V, Number) STRATA_NO_TERNARY(mix, V, Number)                                \
+    STRATA_NO_TERNARY(smoothstep, V, Number) STRATA_NO_TERNARY(fma, V, Number)                           \
+    STRATA_NO_TERNARY(faceforward, V, Number) STRATA_NO_TERNARY(refract, V, Number)                      \
+    template <class Weight>                                                                              \
+    void mix(const V&, const V&, Weight) = delete;                                                       \
     void modf(const V&, V&) = delete;
 // clang-format on
 

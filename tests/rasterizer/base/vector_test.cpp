@@ -17,17 +17,18 @@ namespace {
 
 using namespace strata;
 
-// clang-format off: version 14 does not know requires expressions.
+// clang-format 14 does not know requires expressions.
+// clang-format off
 template <class A, class B>
 constexpr bool operators_exist = requires(A a, B b) {
     a + b;
 }
 || requires(A a, B b) { a - b; }
-|| requires(A a, B b) { a* b; }
+|| requires(A a, B b) { a * b; }
 || requires(A a, B b) { a / b; }
 || requires(A a, B b) { b + a; }
 || requires(A a, B b) { b - a; }
-|| requires(A a, B b) { b* a; }
+|| requires(A a, B b) { b * a; }
 || requires(A a, B b) { b / a; };
 
 template <class A, class B>
