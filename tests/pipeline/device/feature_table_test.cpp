@@ -1,4 +1,4 @@
-// The model: decisions.md 4's table of features, typed a second time: words, extension, and who has it.
+// The model: the table of features, typed a second time: words, extension, and who has it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>

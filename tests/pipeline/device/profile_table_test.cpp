@@ -1,4 +1,4 @@
-// The model: hardware.md's tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal, llvmpipe.
+// The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal, llvmpipe.
 #include <catch2/catch.hpp>
 #include <string>
 #include <string_view>
@@ -110,7 +110,7 @@ const std::vector<NamesOfField> choice_names{
 
 }  // namespace
 
-TEST_CASE("every field of every built-in device has the value of hardware.md's tables") {
+TEST_CASE("every field of every built-in device has the value of the devices' tables") {
     REQUIRE(builtin_profiles().size() == 5);
     REQUIRE(std::size(device_table) == profile_fields().size());
     std::size_t at = 0;

@@ -51,7 +51,7 @@ using Shares = std::array<Rational, 3>;
     return p;
 }
 
-// Which vertex has what is left of 1: that of the largest exponent, by the table of nv2a-depth.md 3.
+// Which vertex has what is left of 1: that of the largest exponent.
 [[nodiscard]] std::size_t vertex_of_the_rest(const Shares& b) {
     std::array<int, 3> exponent;
     for (std::size_t i = 0; i < 3; ++i) exponent[i] = b[i] == 0 ? -9999 : floor_log2(b[i]);
