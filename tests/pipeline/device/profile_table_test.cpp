@@ -194,11 +194,14 @@ TEST_CASE("a device says for every number where it is from, in its own column of
             if (entry.key == key) return entry.source;
         return std::string{};
     };
-    CHECK(source("geforce3", "max_render_targets") == "[D] 8: one colour buffer");
-    CHECK(source("geforce8", "max_render_targets") == "[D] 8: D3D 11.3 17.14");
-    CHECK(source("geforce8_dx101", "max_render_targets") == "[D] 8: D3D 11.3 17.14");
-    CHECK(source("ideal", "max_render_targets") == "ideal: no device");
-    CHECK(source("llvmpipe", "max_render_targets") == "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS");
+    const std::string_view limit = "max_render_targets";
+    for (const std::string_view device : {"geforce3", "geforce8", "llvmpipe"})
+        CHECK(source(device, limit).starts_with("["));
+    CHECK(source("geforce3", limit).find("one colour buffer") != std::string::npos);
+    CHECK(source("geforce8", limit).find("D3D 11.3") != std::string::npos);
+    CHECK(source("geforce8_dx101", limit) == source("geforce8", limit));
+    CHECK(source("llvmpipe", limit).find("GL_MAX_DRAW_BUFFERS") != std::string::npos);
+    CHECK(source("ideal", limit) == "ideal: no device");
     DeviceProfile own = *find_profile("geforce8");
     own.name = "mine";  // a file's profile of another name vouches for all of it
     for (const ProfileEntry& entry : describe(own)) CHECK(entry.source == "the profile's own file");

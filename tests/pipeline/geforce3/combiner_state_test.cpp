@@ -159,6 +159,14 @@ TEST_CASE("a negative spare0 counts as 0 in the final stage's sum, inverted as 1
     CHECK(combined_codes(state, {100, 50, 0, 0}) == std::array{0, 0, 0, 0});
     state.final_stage.inverts_spare0 = true;
     CHECK(combined_codes(state, {100, 50, 0, 0}) == std::array{255, 255, 255, 0});
+    CombinerStage lend = negate;  // and a secondary colour of 60 beside it
+    lend.rgb.c = {In::zero, CombinerMapping::unsigned_invert};
+    lend.rgb.d = {In::constant_color0};
+    lend.rgb.cd = In::secondary_color;
+    lend.constant[0] = {60 / 255.0f, 60 / 255.0f, 60 / 255.0f, 0};
+    Combiners added{{lend}, {}};
+    added.final_stage.d = {In::spare0_plus_secondary_color};
+    CHECK(combined_codes(added, {100, 50, 0, 0}) == std::array{60, 60, 60, 0});
     state.final_stage.inverts_spare0 = false;
     state.final_stage.d = {In::spare0};  // and as an input of its own
     CHECK(combined_codes(state, {100, 50, 0, 0}) == std::array{0, 0, 0, 0});
