@@ -70,18 +70,28 @@ TEST_CASE("a vertex with a coordinate that is no number or infinite does not cou
     CHECK(bounds_of(list_of({{nan, 0, 0}}, {identity})).is_empty());
 }
 
+TEST_CASE("a vertex that its instance moves beyond binary64 does not count, along whichever axis") {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Matrix huge = identity;
+        huge[5 * axis] = 1e308;
+        const Bounds bounds = bounds_of(list_of({{3, 3, 3}, {0, 0, 0}}, {huge}));
+        CHECK(bounds.lo == Corner3{0, 0, 0});
+        CHECK(bounds.hi == Corner3{0, 0, 0});
+    }
+}
+
 TEST_CASE("a vertex is transformed in binary64, from the first column to the translation") {
-    // ((1e16 + 1) - 1e16) + 1 is 1, for the first sum rounds; every other order gives 2 or 0.
+    // ((2^53 + 1) - 2^53) + 1/2 is 1/2, for the first sum is rounded; 2^53 + (1 - 2^53) would be 1, and the others' sum 0.
     Matrix m = identity;
     for (std::size_t r = 0; r < 3; ++r) {
-        m[r] = 1e16;
+        m[r] = 0x1p53;
         m[4 + r] = 1;
-        m[8 + r] = -1e16;
-        m[12 + r] = 1;
+        m[8 + r] = -0x1p53;
+        m[12 + r] = 0.5;
     }
     const Bounds bounds = bounds_of(list_of({{1, 1, 1}}, {m}));
-    CHECK(bounds.lo == Corner3{1, 1, 1});
-    CHECK(bounds.hi == Corner3{1, 1, 1});
+    CHECK(bounds.lo == Corner3{0.5, 0.5, 0.5});
+    CHECK(bounds.hi == Corner3{0.5, 0.5, 0.5});
     Matrix small = identity;
     small[12] = 1e-300;
     CHECK(bounds_of(list_of({{0, 0, 0}}, {small})).hi[0] == 1e-300);  // binary32 has no such number
