@@ -155,6 +155,6 @@ TEST_CASE("a remedy's parts each reach the machine: every one changes what is me
     cell.write = strata::rasterizer::DepthPath::window_z;
     cell.compare = strata::rasterizer::DepthPath::perspective_rq;
     const auto unbiased = measured({});
-    CHECK(measured(bias).errors.lost > unbiased.errors.lost);
-    CHECK(measured(slope).errors.lost > unbiased.errors.lost);
+    CHECK(measured(bias).errors.lost != unbiased.errors.lost);
+    CHECK(measured(slope).errors.lost != unbiased.errors.lost);
 }
