@@ -14,12 +14,19 @@
 
 namespace strata::hardware_check {
 
+// The outcome for one picture. Counts are pixels.
 struct Comparison {
     std::uint64_t compared = 0, differing = 0;
-    std::uint32_t largest = 0;                          // difference
-    std::map<std::int64_t, std::uint64_t> histogram{};  // theirs minus ours -> pixels; of colours the size alone
-    std::array<int, 2> first{};                         // x, y of the first differing pixel, and its words
+    // The greatest difference of a pixel: 1/255 of a colour, else units of depth with the stencil
+    // below.
+    std::uint32_t largest = 0;
+    // Theirs minus ours, to the number of such pixels. A colour's difference has no sign: the size
+    // of its worst channel stands for it.
+    std::map<std::int64_t, std::uint64_t> histogram{};
+    // x, y of the first differing pixel in rows from the top, and both words there.
+    std::array<int, 2> first{};
     std::uint32_t ours = 0, theirs = 0;
+    // At most as many pixels as `Picture::bound` allows, each by at most its units.
     bool within_bound = false;
 };
 

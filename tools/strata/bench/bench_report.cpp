@@ -45,6 +45,7 @@ std::string name_of_words(const ordered_json& words) {
 
 std::string name_of_job(const BenchJob& job) { return name_of_words(words_of(job)); }
 
+// The passes' fragments in literal execution: the same work for every way of running.
 double fragments(const BenchResult& r) { return static_cast<double>(r.last.counters.fragments_rasterized); }
 
 double bytes_per_fragment(const BenchResult& r) {
@@ -59,6 +60,7 @@ std::string per_fragment(const BenchResult& r, double value, int digits) {
     return fragments(r) > 0 ? fmt::format("{:.{}f}", value, digits) : "-";
 }
 
+// The keys of a job as reports.md 2 lists them, in that order.
 ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     const Spread spread = spread_of(result.seconds);
     ordered_json job = words_of(result.job);
@@ -66,6 +68,7 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     job["fragments"] = result.last.counters.fragments_rasterized;
     job["seconds"] = {
         {"median", spread.median}, {"min", spread.least}, {"max", spread.greatest}, {"all", result.seconds}};
+    // The part from transform to bins.
     job["geometry_seconds"] = spread_of(result.geometry_seconds).median;
     job["fragments_per_second"] = fragments(result) / spread.median;
     job["ns_per_fragment_pass"] = per_fragment(result, spread.median * 1e9 / fragments(result));
@@ -78,6 +81,8 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     return job;
 }
 
+// The row of to_table(): milliseconds, millions of fragments a second, nanoseconds and bytes a
+// fragment.
 std::vector<std::string> cells(const BenchResult& result) {
     const BenchJob& job = result.job;
     const Spread spread = spread_of(result.seconds);
@@ -109,12 +114,14 @@ std::string side_by_side(const std::vector<BenchResult>& results) {
         rows[name][r.job.execution] = spread_of(r.seconds).median;
         used.insert(r.job.execution);
     }
+    // One execution has nothing to stand beside.
     if (used.size() < 2) return "";
     Table table{{{"ms"}}, {}};
     for (const auto execution : used) table.columns.push_back({name_of(executions, execution), Align::right});
     table.columns.push_back({"ratio", Align::right});
     for (const std::string& name : order) {
         std::vector<std::string> row{name}, ratios;
+        // The executions are in the order of their enum: replay is the last one.
         const double last = rows[name][*used.rbegin()];
         for (const auto execution : used) {
             row.push_back(fmt::format("{:.2f}", rows[name][execution] * 1e3));
@@ -136,6 +143,7 @@ Spread spread_of(std::vector<double> values) {
 }
 
 Baseline load_baseline(const std::string& path) {
+    // 64 MiB is far more than a run of every job writes.
     const auto document = ordered_json::parse(scenes::read_text_file(path, std::size_t{64} << 20), nullptr, false);
     const InputError unusable(path, "--baseline", "what strata bench --json wrote", "something else");
     if (!document.is_object() || !document.contains("jobs")) throw unusable;
