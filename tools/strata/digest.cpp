@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// The command line.
 struct DigestOptions {
     std::vector<std::string> files;
     bool json = false;
@@ -21,6 +22,7 @@ int digest(const DigestOptions& options) {
     ordered_json document = ordered_json::array();
     Table table{{{"digest"}, {"target"}, {"part"}, {"format"}, {"size"}, {"file"}}, {}};
     for (const std::string& file : options.files) {
+        // A PNG has one image; an EXR has one for each target of each part.
         for (const auto& [part, target, image] : scenes::read_images(file)) {
             const std::string value = pipeline::digest(image);
             const std::string format(pipeline::info(image.format).name);

@@ -14,6 +14,8 @@
 
 namespace strata::tools {
 
+// Runs body(0) to body(count - 1) on all cores under a bar with this label, and returns when all
+// have ended. Every item runs, also after another one failed.
 void for_every(const std::string& label, std::size_t count, const auto& body) {
     Progress progress(label);
     std::atomic<std::size_t> done = 0;

@@ -20,6 +20,7 @@ struct InspectOptions {
     bool json = false;
 };
 
+// The words of glTF.
 constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
     switch (mode) {
         case pipeline::AlphaMode::opaque: return "OPAQUE";
@@ -34,6 +35,7 @@ struct Drawn {
     std::uint64_t instances = 0, triangles = 0;
 };
 
+// Counts the instances whose material has this mode; without a mode, all of them.
 Drawn drawn(const pipeline::DrawList& list, std::optional<pipeline::AlphaMode> mode) {
     Drawn sum;
     for (const auto& instance : list.instances) {
@@ -56,6 +58,7 @@ ordered_json to_json(const scenes::Scene& scene) {
         textures.push_back({{"name", texture.name}, {"width", texture.width}, {"height", texture.height}});
     }
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
+    // JSON has no empty box: null.
     ordered_json bounds = nullptr;
     if (!scene.bounds.is_empty()) bounds = {{"lo", components(scene.bounds.lo)}, {"hi", components(scene.bounds.hi)}};
     const Drawn all = drawn(scene.list, std::nullopt);
@@ -84,6 +87,7 @@ std::string bounds_text(const scenes::Bounds& bounds) {
                        bounds.hi[0], bounds.hi[1], bounds.hi[2]);
 }
 
+// The same for people, a fact a row.
 std::string describe(const scenes::Scene& scene) {
     const Drawn all = drawn(scene.list, std::nullopt);
     std::vector<std::string> textures, cameras;

@@ -36,7 +36,7 @@ struct BenchRun {
     int geometry_passes = 0, iterations = 0;
     // Literal execution's, whatever ran.
     pipeline::Counters counters;
-    pipeline::Image picture;      // the depths for `depth`
+    pipeline::Image picture;  // the depths for `depth`
 };
 
 struct BenchResult {

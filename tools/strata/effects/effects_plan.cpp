@@ -14,6 +14,7 @@ using pipeline::Effect;
 using pipeline::Material;
 using pipeline::PassRecord;
 
+// --alpha makes everything transparent.
 bool is_transparent(const RunOptions& options, const Material& m) {
     return options.render.alpha || m.alpha_mode == AlphaMode::blend;
 }
@@ -37,7 +38,8 @@ std::uint64_t count_passes(const pipeline::PassLog& log, int iterations, Holds h
         if (pass.is_opaque_priming || pass.iteration > 2 || !holds(pass)) continue;
         ++(pass.iteration == 0 ? found.before : pass.iteration == 1 ? found.first : found.later);
     }
-    if (!has_later) found.later = found.first;  // the small run ended after one iteration
+    // The small run ended after one iteration: later ones are taken to be like the first.
+    if (!has_later) found.later = found.first;
     return found.in(iterations);
 }
 
@@ -114,6 +116,7 @@ std::uint64_t total(const std::vector<std::uint64_t>& counts) {
     return sum;
 }
 
+// Collects the rows: the small literal run happens in the constructor, the rest in plan().
 class Planner {
   public:
     Planner(const BenchJob& job, const BenchRun& run) : job_{job}, run_{run} {
@@ -189,6 +192,8 @@ class Planner {
                 list(), session.view, raster, session.profile,
                 {.selection = selection, .tile_size = tile_size, .threads = options.render.threads});
         };
+        // Counts tiles and fragments of both lists in the whole frame, with the tiles of the run
+        // itself.
         // With --alpha nothing is opaque: the other list is then one without a triangle.
         pipeline::PreparedDraw opaque = prepared(Selection::opaque);
         if (options.render.alpha) std::fill(opaque.geometry.bin_start.begin(), opaque.geometry.bin_start.end(), 0u);

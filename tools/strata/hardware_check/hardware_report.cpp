@@ -136,7 +136,7 @@ hc::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile
     const std::filesystem::path folder = std::filesystem::path(capture.path).parent_path().parent_path();
     try {
         return hc::draw(*hc::find_suite(capture.suite), capture.name, profile, (folder / textures_folder).string());
-    // A refusal is a reason: the profile is none of a chip that could draw this.
+        // A refusal is a reason: the profile is none of a chip that could draw this.
     } catch (const pipeline::Refused& refused) {
         return {std::nullopt, refused.what()};
     }

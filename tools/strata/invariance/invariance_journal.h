@@ -13,12 +13,15 @@
 
 namespace strata::tools {
 
+// Shard `index` of `count`; the default is the whole sweep.
 struct Shard {
-    std::size_t index = 1, count = 1;  // from 1
+    // From 1 to `count`.
+    std::size_t index = 1, count = 1;
     // Cells of a sweep of `all` that are this shard's, in order.
     [[nodiscard]] std::vector<std::size_t> cells(std::size_t all) const;
 };
 
+// Nothing for a text that is not I/N with I from 1 to N.
 // "2/5".
 [[nodiscard]] std::optional<Shard> to_shard(std::string_view text);
 
@@ -27,10 +30,12 @@ struct Shard {
 
 using Lines = std::vector<nlohmann::ordered_json>;
 
+// What a journal held when it was opened.
 struct Found {
     Lines lines;
-    bool torn = false;            // the file has a last line without newline
-    std::size_t whole_bytes = 0;  // of the lines with one
+    bool torn = false;  // the file has a last line without newline
+    // The length of the file up to its last newline, where appending goes on.
+    std::size_t whole_bytes = 0;
 };
 
 // Nothing if there is no such file. Throws InputError where a whole line is no JSON object.

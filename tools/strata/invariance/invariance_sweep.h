@@ -9,6 +9,7 @@
 
 namespace strata::tools {
 
+// Cells in the plan's order, the folder of their results, and which of them are run here.
 struct Sweep {
     std::vector<Cell> cells;
     std::string folder;

@@ -13,6 +13,7 @@
 
 namespace strata::tools {
 
+// The words of an option, for --help and for its error.
 struct OptionText {
     std::string name;  // --size
     std::string type;  // WIDTHxHEIGHT
@@ -31,12 +32,14 @@ CLI::Option* add_option(CLI::App& app, T& target, const OptionText& text, Parse 
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
 }
 
+// A word and the value that it means.
 template <class T>
 struct Choice {
     std::string name;
     T value;
 };
 
+// Empty for a value that is not in the list.
 template <class T>
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<Choice<T>>& choices) {
     std::vector<std::string> names;

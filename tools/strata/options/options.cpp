@@ -15,6 +15,7 @@ struct Size {
 };
 
 std::optional<Size> to_size(std::string_view text) {
+    // 16384 pixels a side (reports.md 6).
     constexpr int max_side = 16384;
     const auto parts = split(text, 'x');
     if (parts.size() != 2) return std::nullopt;
@@ -29,6 +30,7 @@ std::optional<Orbit> to_orbit(std::string_view text) {
     return Orbit{(*angles)[0], (*angles)[1]};
 }
 
+// A number from 0 to 1.
 std::optional<float> to_share(std::string_view text) {
     const auto value = to_number<float>(text);
     if (!value || *value < 0.0f || *value > 1.0f) return std::nullopt;
@@ -47,6 +49,7 @@ std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
     return color;
 }
 
+// A whole number from 0.
 std::optional<int> to_count(std::string_view text) {
     const auto value = to_int(text);
     return value && *value >= 0 ? value : std::nullopt;

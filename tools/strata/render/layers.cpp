@@ -15,6 +15,8 @@ struct LayersOptions {
     std::string deep;
 };
 
+// All fragments of the frame as the deep EXR wants them: sorted by pixel, with the number of each
+// pixel's fragments.
 scenes::DeepFragments as_deep(std::vector<pipeline::CapturedFragment> fragments, const RunOptions& options) {
     const auto in_front = [](const auto& a, const auto& b) { return a.pixel < b.pixel; };
     std::stable_sort(fragments.begin(), fragments.end(), in_front);  // submission order stays within a pixel

@@ -20,6 +20,7 @@ struct Session {
 [[nodiscard]] Session open_session(RunOptions& options);
 
 // One algorithm that ran.
+// References hold while the Writer runs.
 struct Finished {
     const Session& session;
     const peeling::Algorithm& algorithm;
