@@ -110,7 +110,8 @@ RenderOptions peel_options(const Experiment& e, int layers) {
     options.reference_path = e.compare;
     options.max_passes = e.max_passes > 0 ? e.max_passes : 2 * (layers + 1);
     options.audit = true;                  // for its trace
-    options.execution = Execution::tiled;  // every pass is rasterized, so that seconds are the passes'
+    options.fragment_memory = 0;  // every pass is rasterized, so that seconds are the passes'
+    options.execution = Execution::replay;
     options.keep_layers = options.nearest_depth = false;
     return options;
 }

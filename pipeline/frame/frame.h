@@ -10,7 +10,8 @@
 
 namespace strata::pipeline {
 
-enum class Execution : std::uint8_t { literal, tiled, replay };
+// Over the frame, or tile by tile; replay without fragment memory rasterizes every pass (pipeline/region/executor.h).
+enum class Execution : std::uint8_t { literal, replay };
 
 // How occlusion queries end a peel (decisions.md 3).
 enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };

@@ -184,7 +184,7 @@ TEST_CASE("a peel by Listing 2's state alone is shadow_map_depth_replace, to the
         render(scene.triangles.list, scene.triangles.view, {"geforce3", "shadow_map_depth_replace"}, options);
     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
     CHECK(expected.frame.passes.geometry > 5);
-    for (const Execution execution : {Execution::literal, Execution::tiled}) {
+    for (const Execution execution : {Execution::literal, Execution::replay}) {
         const FrameResult found = run(scene.frame, peel, execution, 2);
         CHECK(found.color == expected.frame.color);
         CHECK(found.passes.geometry == expected.frame.passes.geometry);

@@ -13,6 +13,17 @@ struct Machine {
     std::string profile, algorithm;
 };
 
+// How a frame is run: replay with 0 bytes rasterizes every pass, tile by tile.
+struct Running {
+    pipeline::Execution execution = pipeline::Execution::replay;
+    std::uint64_t fragment_memory = std::uint64_t{256} << 20;
+    void apply(peeling::RenderOptions& options) const {
+        options.execution = execution;
+        options.fragment_memory = fragment_memory;
+    }
+};
+inline constexpr Running all_ways_of_running[]{{pipeline::Execution::literal}, {pipeline::Execution::replay, 0}, {}};
+
 [[nodiscard]] inline peeling::RenderOptions options_for(const FragmentScene& scene) {
     peeling::RenderOptions options;
     options.width = scene.width;

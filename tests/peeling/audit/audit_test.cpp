@@ -94,7 +94,7 @@ struct Expected {
 };
 
 void check(void (*run)(Region&), const Expected& expected) {
-    for (const Execution execution : {Execution::literal, Execution::tiled}) {
+    for (const Execution execution : {Execution::literal, Execution::replay}) {
         const RenderResult result = render(three_pixels(), algorithm(run), execution);
         CHECK(result.audit.order_errors == expected.errors);
         CHECK(result.audit.misordered == expected.misordered);
@@ -150,10 +150,10 @@ TEST_CASE("fragments of equal depth in the wrong arrival order are errors althou
     FragmentScene scene{8, 8};
     for (const float depth : {0.75f, 0.75f, 0.5f, 0.25f, 0.25f, 0.25f})  // back to front: OVER in this order is LAST
         scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});
-    CHECK(render(scene, algorithm(unsorted, TiePolicy::last), Execution::tiled).audit.order_errors == 0u);
-    CHECK(render(scene, algorithm(unsorted, TiePolicy::first), Execution::tiled).audit.order_errors ==
+    CHECK(render(scene, algorithm(unsorted, TiePolicy::last), Execution::replay).audit.order_errors == 0u);
+    CHECK(render(scene, algorithm(unsorted, TiePolicy::first), Execution::replay).audit.order_errors ==
           4u);  // 2 of 2, 2 of 3
-    const RenderResult unique = render(scene, algorithm(unsorted, TiePolicy::unique), Execution::tiled);
+    const RenderResult unique = render(scene, algorithm(unsorted, TiePolicy::unique), Execution::replay);
     CHECK(unique.audit.order_errors == 6u);  // three places differ, three are too many
     CHECK(unique.audit.lost_by_ties == 3);
     CHECK(unique.audit.ties == PixelCount{1, 2, 1});

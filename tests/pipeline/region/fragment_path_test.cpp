@@ -123,11 +123,11 @@ TEST_CASE("a lookup that leaves its region runs the frame literally, one that st
         TestFrame test = frame_of(scene, shift, 0);
         const Body body = [](Region& region) { Peel{region}; };
         const FrameResult literal = run(test.frame, body, Execution::literal, 1);
-        for (const Execution execution : {Execution::tiled, Execution::replay}) {
-            test.frame.replay = execution == Execution::replay
+        for (const bool has_memory : {false, true}) {
+            test.frame.replay = has_memory
                                     ? Replay{1 << 20, {.shader_z = false, .code = true, .color = true, .units = 0xf000}}
                                     : Replay{};
-            const FrameResult found = run(test.frame, body, execution, 2);
+            const FrameResult found = run(test.frame, body, Execution::replay, 2);
             CHECK(found.color == literal.color);
             CHECK(found.counters == literal.counters);
             CHECK(found.passes == literal.passes);
@@ -140,7 +140,7 @@ TEST_CASE("a frame that says that it needs the whole runs literally") {
     TestFrame test = frame_of(layers(343), 0, 0);
     test.frame.needs_frame = true;
     const Body body = [](Region& region) { Peel{region}; };
-    CHECK(run(test.frame, body, Execution::tiled, 1).work.regions == 1);
+    CHECK(run(test.frame, body, Execution::replay, 1).work.regions == 1);
 }
 
 TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fragment leaves nothing") {

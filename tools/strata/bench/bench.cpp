@@ -105,8 +105,9 @@ Command add_bench(CLI::App& root) {
     add_profile_option(*app, options->run.profile);
     add_machine_options(*app, options->run.render);
     add_view_options(*app, options->run);
-    add_choices(*app, options->executions, "--execution", executions, values_of(executions),
-                "ways of running (default replay)");
+    accept_tiled(*add_choices(*app, options->executions, "--execution", executions, values_of(executions),
+                              "ways of running (default replay)"),
+                 options->run);
     add_choices(*app, options->simds, "--simd", simds, available_simd(), "instruction sets (default best)");
     add_choices(*app, options->effects, "--effects", effects, values_of(effects),
                 "needed, all, or needed,all (default needed)");

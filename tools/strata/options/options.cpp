@@ -1,6 +1,7 @@
 #include "tools/strata/options/options.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
@@ -278,13 +279,33 @@ void add_view_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_execution_options(CLI::App& app, RunOptions& options) {
-    add_choice(app, options.render.execution, "--execution", executions,
-               "frame by frame, tile by tile, or with each tile's fragments kept for later passes; same bits (default "
-               "replay)");
+    accept_tiled(*add_choice(app, options.render.execution, "--execution", executions,
+                             "over the whole frame, or tile by tile with a tile's fragments kept for later passes; same "
+                             "bits (default replay)"),
+                 options);
     add_choice(app, options.simd, "--simd", simds, "instruction set; same bits (default best: what the processor has)");
     add_choice(app, options.render.effects, "--effects", effects,
                "simulate the stages that are needed, or all; same bits (default needed)");
     add_resource_options(app, options);
+}
+
+void accept_tiled(CLI::Option& execution, RunOptions& options) {
+    execution.transform([&options](const std::string& given) {
+        std::string words;
+        bool has_tiled = false, has_replay = false;
+        for (const std::string& word : split(given, ',')) {
+            has_tiled |= word == "tiled";
+            has_replay |= word == "replay" || word == "all";
+            words += (words.empty() ? "" : ",") + (word == "tiled" ? std::string("replay") : word);
+        }
+        if (has_tiled && has_replay)
+            throw CLI::ValidationError("--execution", "expected replay once, found it beside 'tiled', which is replay "
+                                                      "with --fragment-memory 0");
+        if (has_tiled)
+            std::fputs("strata: warning: --execution tiled is replay with --fragment-memory 0\n", stderr);
+        options.keeps_no_fragments = has_tiled;
+        return words;
+    });
 }
 
 void add_resource_options(CLI::App& app, RunOptions& options) {
@@ -319,6 +340,7 @@ void add_output_options(CLI::App& app, RunOptions& options, const std::string& o
 }
 
 void complete(RunOptions& options) {
+    if (options.keeps_no_fragments) options.render.fragment_memory = 0;
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
     if (options.orbit && !options.camera.empty()) {
         throw CLI::ValidationError("--orbit", "expected either --orbit or --camera, found both");

@@ -25,6 +25,7 @@ struct RunOptions {
     std::string camera;                                 // --camera; empty: the orbit
     std::optional<Orbit> orbit;
     peeling::RenderOptions render;
+    bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     Simd simd = Simd::best;
     std::string stats;   // --stats; empty: none, "-": standard output
     std::string output;  // -o; empty: none
@@ -46,6 +47,9 @@ void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --
 void add_profile_option(CLI::App& app, std::string& profile);
 void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
 void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
+
+// Lets an --execution option take the word `tiled`, with a warning: replay that keeps no fragments.
+void accept_tiled(CLI::Option& execution, RunOptions& options);
 
 // Throws CLI::ValidationError where this processor lacks the set.
 void check_simd(Simd simd);
