@@ -5,8 +5,8 @@
 #include "peeling/prepared_lists.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
-#include "pipeline/region/check_pass.h"
 #include "pipeline/frame/effects.h"
+#include "pipeline/region/check_pass.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
 
@@ -141,8 +141,7 @@ struct Renderer::State {
 
     // To simulate every effect is to rasterize in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
-        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed &&
-                             options.once_more == Effect::none;
+        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
         if (!replays || !algorithm.replayed) return {};
         rasterizer::FragmentNeeds needs = *algorithm.replayed;
         needs.reference = compares_apart;
@@ -188,13 +187,10 @@ struct Renderer::State {
         f.termination = options.termination;
         f.formulation = options.formulation;
         f.effects = options.effects;
-        f.once_more = options.once_more;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
-        f.trust_idle = options.trust_idle;
         f.trace = options.audit;
-        f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
         f.max_passes = algorithm.compares_own_codes ? options.max_passes : pass_limit(f);
         f.average_count = options.average_count;
@@ -280,15 +276,16 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
 
 Renderer::~Renderer() = default;
 
-RenderResult Renderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress) {
+RenderResult Renderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress,
+                              const Instruments& instruments) {
     RenderResult result;
     result.refusal = state_->refusal(algorithm);
     if (!result.refusal) {
         try {
             const Frame frame = state_->frame(algorithm);
             const Stopwatch watch{result.seconds.passes};
-            result.frame =
-                run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
+            result.frame = run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads,
+                               progress, instruments);
             if (!algorithm.compares_own_codes) state_->note_endless(frame, result.frame);
         } catch (const Refused& refused) {
             result.refusal = refused.refusal;
@@ -309,7 +306,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
     return result;
 }
 
-RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
+RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, const Instruments& instruments) {
     RenderResult result;
     result.refusal = check_depth(state_->profile, state_->depth);
     if (!result.refusal) result.refusal = check(state_->profile, state_->color_format);
@@ -321,7 +318,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     frame.nearest_depth = frame.trace = false;
     frame.published_format = target_format(frame.key_request().format);
     const Stopwatch watch{result.seconds.passes};
-    result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress);
+    result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress, instruments);
     std::swap(result.frame.depth, result.frame.color);
     result.seconds.geometry = state_->lists.seconds();
     return result;

@@ -46,13 +46,10 @@ struct RenderOptions {
     std::optional<int> tile_size;                              // pixels; default: tile_size_of
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;
-    pipeline::Effect once_more = pipeline::Effect::none;  // pipeline/frame/frame.h; never replayed
     pipeline::Format average_count = pipeline::Format::r16f;
     bool keep_layers = false;
-    bool trust_idle = true;                 // pipeline/frame/frame.h
-    bool audit = true;                      // order_errors and the other comparisons with the a_buffer
-    bool nearest_depth = true;              // make the Z image
-    pipeline::PassLog* pass_log = nullptr;  // pipeline/frame/frame.h
+    bool audit = true;          // order_errors and the other comparisons with the a_buffer
+    bool nearest_depth = true;  // make the Z image
     // The viewport's corner on its surface, in pixels; positions move with it exactly.
     std::array<int, 2> window_origin{0, 0};
     // Conventions; the viewport is set from width, height and window_origin.
@@ -91,10 +88,12 @@ class Renderer {
     ~Renderer();
 
     // A combination that the profile cannot run is refused: an outcome, not an exception.
-    [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {});
+    [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
+                                      const pipeline::Instruments& instruments = {});
 
     // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in frame.depth.
-    [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {});
+    [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {},
+                                          const pipeline::Instruments& instruments = {});
 
     // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);

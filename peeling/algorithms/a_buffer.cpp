@@ -7,6 +7,7 @@
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/composite.h"
 #include "peeling/programs/fragment_lists.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 
@@ -14,6 +15,7 @@ using namespace pipeline;
 
 void a_buffer(Region& region) {
     const Target result = region.make_color();
+    RegionShortcuts shortcuts{region};  // no machine has these passes
     region.begin_iteration();
     region.copy(region.opaque_color(), result);
     const FragmentLists lists = visible_fragments(region, Bookkeeping::counted);
@@ -21,11 +23,11 @@ void a_buffer(Region& region) {
         if (lists.of(pixel).empty()) continue;
         const std::vector<KeyedFragment> sorted = by_exact_depth(lists.of(pixel));
         const auto color = composite(sorted, region.color(region.opaque_color(), pixel));
-        region.store_pixel(
+        shortcuts.store_pixel(
             result, pixel,
             {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), 1.0f});
         if (!region.frame().trace) continue;
-        for (const KeyedFragment& f : sorted) region.trace().push_back({pixel, f.key, f.primitive, Side::front, true});
+        for (const KeyedFragment& f : sorted) region.trace({pixel, f.key, f.primitive, Side::front, true});
     }
     region.publish(result);
 }

@@ -68,8 +68,10 @@ class RegionAudit {
     RegionAudit(const Frame& frame, const Algorithm& algorithm, const FrameResult& result, std::size_t r)
         : algorithm_{algorithm},
           result_{result},
-          region_{frame, result.traces[r].rect, result.traces[r].tile,
-                  result.work.tile_size == 0 ? Extent::frame : Extent::tile},
+          region_{
+              frame,
+              {result.traces[r].rect, result.traces[r].tile, result.work.tile_size == 0 ? Extent::frame : Extent::tile},
+              books_},
           lists_{visible_fragments(region_, Bookkeeping::silent)},
           traces_{result.traces[r].entries, region_.rect().area()} {}
 
@@ -133,6 +135,7 @@ class RegionAudit {
 
     const Algorithm& algorithm_;
     const FrameResult& result_;
+    RegionBooks books_;
     Region region_;
     FragmentLists lists_;
     PixelTraces traces_;

@@ -10,6 +10,7 @@
 #include "peeling/closed/closed_form.h"
 #include "peeling/programs/min_max.h"
 #include "pipeline/formats/convert.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "pipeline/stages/blend.h"
 
 namespace strata::peeling {
@@ -244,23 +245,25 @@ bool dual_closed(Region& region) {
     if (!peels_to_the_end(frame) || frame.color_format != Format::rgba8) return false;
     const std::size_t area = region.rect().area();
     const Target result = region.make_color();
-    Course course{region, region.words(region.opaque_color()), region.words(result)};
+    RegionShortcuts shortcuts{region};
+    Course course{region, shortcuts.words(region.opaque_color()), shortcuts.words(result)};
     for (std::size_t pixel = 0; pixel < area; ++pixel)  // where there is no fragment
         course.result[pixel] = course.opaque[pixel] | 0xff000000u;
-    const std::size_t traced = region.trace().size();
+    const std::size_t traced = shortcuts.trace().size();
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) { course.run(block); });
     if (!fragments || has_foreign_depths(*fragments, region.profile())) {
-        region.trace().resize(traced);
+        shortcuts.trace().resize(traced);
         return false;
     }
-    region.count({.bytes_read = 4 * area, .bytes_written = (4 + 4 + 8) * area}, {.copies = 1});  // front, back, min-max
-    region.count(of_initialize(*fragments), {.geometry = 1});
+    shortcuts.count({.bytes_read = 4 * area, .bytes_written = (4 + 4 + 8) * area},
+                    {.copies = 1});  // front, back, min-max
+    shortcuts.count(of_initialize(*fragments), {.geometry = 1});
     for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
         region.begin_iteration();
-        region.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
-        if (!region.any(Region::counted(course.left(passes)), Idle::steady)) break;
+        shortcuts.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
+        if (!region.any(RegionShortcuts::counted(course.left(passes)), Idle::steady)) break;
     }
-    region.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
+    shortcuts.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
     region.publish(result);
     return true;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipeline/frame/frame.h"
+#include "pipeline/frame/instruments.h"
 #include "pipeline/frame/pass.h"
 
 namespace strata::pipeline {
@@ -40,22 +41,6 @@ namespace strata::pipeline {
     needs.facing |= effect == Effect::facing;
     return needs;
 }
-
-// One geometry pass as it was decided.
-struct PassRecord {
-    PassState state;
-    rasterizer::FragmentNeeds needs;       // what is simulated
-    rasterizer::FragmentNeeds called_for;  // what is under Effects::needed
-    bool samples_textures = false;
-    bool is_opaque_priming = false;
-    int iteration = 0;  // 0: before the first
-};
-
-// What literal execution did (one region, one thread); Frame::pass_log.
-struct PassLog {
-    std::vector<PassRecord> passes;
-    int queries = 0;  // whose answer was asked for
-};
 
 // The tiles of a frame by what their pixels hold before any test, and the fragments by material.
 struct TileCensus {

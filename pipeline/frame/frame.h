@@ -33,28 +33,12 @@ enum class Effects : std::uint8_t {
     all
 };  // all: simulate every stage even where nothing calls for it; same bits
 
-// What a pass may simulate though nobody calls for it: values of its fragments, and stages with a state that changes nothing.
-enum class Effect : std::uint8_t {
-    none,
-    color,
-    texcoord,
-    shader_z,
-    code,
-    facing,
-    loads,
-    alpha_test,
-    stencil_test,
-    depth_test,
-    blending
-};
-
 // What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
 struct Replay {
     std::uint64_t bytes = 0;          // a region; 0: every pass rasterizes
     rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
 };
 
-struct PassLog;
 struct ShadowStage;
 
 struct Frame {
@@ -73,25 +57,16 @@ struct Frame {
     Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
-    Effect once_more =
-        Effect::none;  // simulated once more than its state asks for; same bits, and what it costs can be measured
     bool alike_where_blank =
         false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
-    bool needs_frame = false;  // its texture lookups go anywhere: literal, whatever execution is asked for
-    bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
+    bool needs_frame = false;             // its texture lookups go anywhere: literal, whatever execution is asked for
     const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/textures/shadow_stage.h)
     Replay replay;
     bool keep_layers = false;
     bool trace = false;
-    bool nearest_depth = false;  // also make the frame's Z
-    PassLog* pass_log =
-        nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/frame/effects.h)
+    bool nearest_depth = false;           // also make the frame's Z
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
-    // Whether to simulate an effect that changes nothing.
-    [[nodiscard]] bool idles(Effect effect, bool is_called_for) const noexcept {
-        return once_more == effect || (effects == Effects::all && !is_called_for);
-    }
     [[nodiscard]] rasterizer::Rect rect() const noexcept { return transparent->geometry.state.viewport; }
 
     // How depths that this frame compares are computed and stored.

@@ -9,27 +9,13 @@
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/image_words.h"
-#include "pipeline/formats/narrow.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/region/region_scratch.h"
+#include "rasterizer/walk/tile_rasterizer.h"
 
 namespace strata::pipeline {
 
 namespace {
-
-std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const std::array<float, 4>& color) {
-    std::array<std::uint32_t, 4> codes{};
-    for (std::size_t c = 0; c < 4; ++c) {
-        switch (info(format).type) {
-            case ChannelType::unorm8: codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c])); break;
-            case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
-            case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
-            case ChannelType::depth:
-            case ChannelType::stencil: break;
-        }
-    }
-    return codes;
-}
 
 // Neighbouring pixels of the two commonest layouts, whose words are nearly the image's codes; false for the others.
 bool read_words(const Texels& from, std::size_t first, std::size_t count, std::uint32_t* out) {
@@ -51,26 +37,26 @@ std::uint64_t bytes(const TargetStorage& s) {
 
 }  // namespace
 
-Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script,
-               ScratchPool* pool)
+Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books, const Instruments& instruments,
+               RegionScratchPool* pool)
     : frame_{frame},
-      rect_{rect},
-      tile_{tile},
-      extent_{extent},
-      script_{std::move(script)},
-      rasterizer_{rect},
+      rect_{place.rect},
+      tile_{place.tile},
+      extent_{place.extent},
+      books_{books},
+      instruments_{instruments},
       pool_{pool},
-      scratch_{pool == nullptr ? std::make_unique<Scratch>() : pool->take()},
-      records_(1) {
+      scratch_{pool == nullptr ? std::make_unique<RegionScratch>() : pool->take()},
+      rasterizer_{std::make_unique<rasterizer::TileRasterizer>(place.rect)} {
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
-    counts_ = false;
+    books_.counts = false;
     clear(opaque_depth_, {.depth = 1.0f});
     clear(opaque_color_, {.color = frame.background});
     opaque_depth_is_cleared_ =
-        frame.opaque == nullptr || (extent == Extent::tile && frame.opaque->geometry.bin(tile).empty());
+        frame.opaque == nullptr || (extent_ == Extent::tile && frame.opaque->geometry.bin(tile_).empty());
     if (!opaque_depth_is_cleared_) draw_opaque();
-    counts_ = true;
+    books_.counts = true;
 }
 
 Region::~Region() {
@@ -134,7 +120,7 @@ void Region::copy_row(const TargetStorage& source, const rasterizer::Rect& writt
     const auto index = [&](int column, int row) {
         return static_cast<std::uint32_t>((row - rect_.y0) * rect_.width() + column - rect_.x0);
     };
-    Scratch& s = *scratch_;
+    RegionScratch& s = *scratch_;
     for (int x = written.x0; x < written.x1; x += batch_capacity) {
         const int count = std::min(written.x1 - x, batch_capacity);
         Lanes<std::uint32_t>& pixel = s.screen.pixel;
@@ -170,22 +156,8 @@ void Region::draw_opaque() {
     static_cast<void>(draw_list(state, *frame_.opaque, program));
 }
 
-Target Region::nearest_depth() {
-    counts_ = false;
-    const Target nearest = make_depth();
-    copy(opaque_depth_, nearest);
-    PassState state;
-    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
-    state.depth_target = nearest;
-    state.needs = {
-        .shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
-    static_cast<void>(draw_depth(state));
-    counts_ = true;
-    return nearest;
-}
-
 std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
-    counts_ = bookkeeping == Bookkeeping::counted;
+    books_.counts = bookkeeping == Bookkeeping::counted;
     std::vector<CapturedFragment> all;
     PassState state;
     state.needs = {
@@ -201,34 +173,8 @@ std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
                            {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}});
         }
     }));
-    counts_ = true;
+    books_.counts = true;
     return all;
-}
-
-void Region::store_pixel(Target target, std::uint32_t pixel, const Rgba& color) {
-    const auto codes = color_codes(at(target).format(), profile().half_rounding, color);
-    Scratch& s = *scratch_;
-    Lanes<std::uint32_t>& index = s.depth_stored;  // one lane of it
-    index[0] = pixel;
-    s.alive[0] = ~0u;
-    for (std::size_t c = 0; c < 4; ++c) s.codes[c][0] = codes[c];
-    at(target).scatter(index, s.alive, 1, 0, 0xfu, s.codes);
-}
-
-Arena& Region::arena() noexcept { return scratch_->arena; }
-
-void Region::count(const Counters& counters, const PassCount& passes) {
-    record().counters += counters;
-    record().passes += passes;
-    geometry_passes_ += passes.geometry;
-}
-
-// Consecutive pixels, all channels, sample 0.
-void Region::store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes) {
-    Scratch& s = *scratch_;
-    std::iota(s.screen.pixel.begin(), s.screen.pixel.begin() + pixels, first);
-    std::fill_n(s.alive.begin(), pixels, ~0u);
-    at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
 }
 
 Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
@@ -251,13 +197,6 @@ Image Region::image(Target target) const {
     for (int y = 0; y < rect_.height(); ++y) read_row(from, y, &image.codes[image.index(0, y)]);
     finish_words();
     return image;
-}
-
-void Region::write_image(Target target, Image& frame) const {
-    const rasterizer::Rect& whole = frame_.rect();
-    for (int y = 0; y < rect_.height(); ++y)
-        read_row(storage(target), y, &frame.codes[frame.index(rect_.x0 - whole.x0, rect_.y0 - whole.y0 + y)]);
-    finish_words();
 }
 
 // One row of the region as Image orders it: pixels, their samples, their channels.

@@ -4,6 +4,20 @@
 
 namespace strata::pipeline {
 
+std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const std::array<float, 4>& color) {
+    std::array<std::uint32_t, 4> codes{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        switch (info(format).type) {
+            case ChannelType::unorm8: codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c])); break;
+            case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
+            case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
+            case ChannelType::depth:
+            case ChannelType::stencil: break;
+        }
+    }
+    return codes;
+}
+
 namespace {
 
 int bits_per_channel(ChannelType type) noexcept {

@@ -73,4 +73,8 @@ class TargetStorage {
     mutable bool has_words_ = false;  // else zeros that nobody has asked for yet: most targets are cleared first
 };
 
+// What a colour target of this format holds of a colour; 0 for depth and stencil.
+[[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding,
+                                                       const std::array<float, 4>& color);
+
 }  // namespace strata::pipeline

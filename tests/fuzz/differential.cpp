@@ -17,11 +17,10 @@ peeling::RenderResult run(const FrameCase& frame, const Way& way) {
     options.execution = way.execution;
     options.tile_size = way.tile_size;
     options.effects = way.effects;
-    options.trust_idle = way.trust_idle;
     options.fragment_memory = way.fragment_memory;
     peeling::Renderer renderer{frame.list, frame.view, *pipeline::find_profile(frame.profile), options};
-    if (frame.algorithm == "depth_pass") return renderer.depth_pass();
-    return renderer.render(*peeling::find_algorithm(frame.algorithm));
+    if (frame.algorithm == "depth_pass") return renderer.depth_pass({}, {.trust_idle = way.trust_idle});
+    return renderer.render(*peeling::find_algorithm(frame.algorithm), {}, {.trust_idle = way.trust_idle});
 }
 
 // Keeps what `change` makes of the frame if it still differs.

@@ -59,7 +59,6 @@ RenderOptions with(RenderOptions options, const Way& way) {
     options.tile_size = way.tile_size;
     options.threads = way.threads;
     options.effects = way.effects;
-    options.trust_idle = way.trust_idle;
     options.fragment_memory = way.fragment_memory;
     return options;
 }
@@ -73,7 +72,8 @@ void check_all_ways(const TriangleScene& scene, const Machine& machine, RenderOp
     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
     CHECK(difference(render(scene.list, scene.view, machine, options), expected).empty());  // twice the same
     for (const Way& way : chosen) {
-        const RenderResult found = render(scene.list, scene.view, machine, with(options, way));
+        const RenderResult found =
+            render(scene.list, scene.view, machine, with(options, way), {.trust_idle = way.trust_idle});
         INFO(machine.algorithm << " on " << machine.profile << ", tile " << way.tile_size << ", threads " << way.threads
                                << ", literal " << (way.execution == Execution::literal) << ", trusts idle "
                                << way.trust_idle << ", fragment memory " << way.fragment_memory);

@@ -98,7 +98,8 @@ using Codes = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>; 
 // The codes that a pass would store if nothing lay before anything.
 template <class Program>
 Codes codes_of(const Frame& frame, PassState state, Program&& program) {
-    Region region{frame, frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{frame, {frame.rect()}, books};
     state.needs.code = true;
     Codes codes;
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
@@ -143,7 +144,8 @@ void peel(Region& region) {
 TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_replace, and compares the same bits") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         Scene scene{401, 60, format};
-        Region region{scene.frame, scene.frame.rect(), 0, Extent::frame};
+        RegionBooks books;
+        Region region{scene.frame, {scene.frame.rect()}, books};
         PassState state;
         FragmentPathProgram listing{region, stages({})};
         listing.apply(state);

@@ -33,9 +33,10 @@ inline constexpr Running all_ways_of_running[]{{pipeline::Execution::literal}, {
 }
 
 [[nodiscard]] inline peeling::RenderResult render(const pipeline::DrawList& list, const pipeline::View& view,
-                                                  const Machine& machine, const peeling::RenderOptions& options) {
+                                                  const Machine& machine, const peeling::RenderOptions& options,
+                                                  const pipeline::Instruments& instruments = {}) {
     peeling::Renderer renderer{list, view, *pipeline::find_profile(machine.profile), options};
-    return renderer.render(*peeling::find_algorithm(machine.algorithm));
+    return renderer.render(*peeling::find_algorithm(machine.algorithm), {}, instruments);
 }
 
 [[nodiscard]] inline peeling::RenderResult render(const FragmentScene& scene, const Machine& machine,

@@ -27,11 +27,12 @@ FragmentScene one_pixel(const std::vector<int>& depths, int opaque = 0) {
 // The passes of an iteration, one at a time, over the frame; depths are in units of 1/128.
 struct Passes {
     TestFrame test;
+    strata::pipeline::RegionBooks books;
     Region region;
     CoherentPeel peel;
 
     explicit Passes(const FragmentScene& scene)
-        : test{scene, "geforce8"}, region{test.frame, test.frame.rect(), 0, Extent::frame}, peel{region} {
+        : test{scene, "geforce8"}, region{test.frame, {test.frame.rect()}, books}, peel{region} {
         test.frame.trace = true;
     }
     [[nodiscard]] double depth(Target target) const {
@@ -41,9 +42,9 @@ struct Passes {
     // Depths of pixel 0 that were composited since the last call, in units.
     std::vector<double> composited() {
         std::vector<double> depths;
-        for (const TraceEntry& e : region.trace())
+        for (const TraceEntry& e : books.trace)
             if (e.pixel == 0) depths.push_back(128.0 * std::bit_cast<float>(e.key));
-        region.trace().clear();
+        books.trace.clear();
         return depths;
     }
 };

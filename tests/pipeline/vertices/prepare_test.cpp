@@ -219,7 +219,8 @@ TEST_CASE("parts keep their primitives and lie between their depths, which no fr
         REQUIRE(draw.parts.size() == 2);
         TestFrame test{FragmentScene{64, 64}, profile};
         test.frame.transparent = &draw;
-        Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+        RegionBooks books;
+        Region region{test.frame, {test.frame.rect()}, books};
         std::size_t outside = 0;
         const auto fragments = region.capture(Bookkeeping::counted);
         for (const CapturedFragment& f : fragments)
@@ -262,7 +263,8 @@ TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
             test.frame.transparent = &draw;
             for (const Format format : {Format::rgba8, Format::rgba32f}) {
                 test.frame.color_format = format;
-                Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+                RegionBooks books;
+                Region region{test.frame, {test.frame.rect()}, books};
                 const auto fragments = region.capture(Bookkeeping::counted);
                 CHECK(fragments.size() == (alpha >= 0.375f ? 1 : 0));
                 for (const CapturedFragment& f : fragments) CHECK(f.color[3] == alpha * scale);

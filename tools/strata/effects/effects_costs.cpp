@@ -65,7 +65,7 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
 
 EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     BenchJob needed = asked;
-    needed.fragment_memory = 0;  // every pass is rasterized
+    needed.is_never_replayed = true;
     needed.effects = pipeline::Effects::needed;
     BenchJob all = needed;
     all.effects = pipeline::Effects::all;

@@ -1,0 +1,37 @@
+// pipeline/region/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the instruments asked for.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/region/region_books.h"
+#include "rasterizer/rules/raster_state.h"
+
+namespace strata::pipeline {
+
+// A region after its body: what the audit looks at.
+struct RegionTrace {
+    rasterizer::Rect rect;
+    std::size_t tile = 0;
+    std::vector<TraceEntry> entries;
+};
+
+struct Work {                     // what was really done; may differ by execution
+    std::uint64_t fragments = 0;  // rasterized
+    std::uint64_t regions = 0, reruns = 0;
+    int tile_size = 0;
+};
+
+struct FrameResult {
+    Image color;
+    Image depth;  // nearest visible key, when asked for
+    std::vector<KeptLayer> layers;
+    int iterations = 0;
+    PassCount passes;
+    Counters counters;
+    Work work;
+    std::vector<Diagnostic> diagnostics;
+    std::vector<RegionTrace> traces;
+    PassLog pass_log;  // where Instruments ask for it
+};
+
+}  // namespace strata::pipeline
