@@ -4,6 +4,8 @@
 #include <bit>
 
 #include "peeling/programs/programs.h"
+#include "peeling/registry.h"
+#include "peeling/render.h"
 
 namespace strata::peeling {
 
@@ -109,7 +111,7 @@ RenderOptions peel_options(const Experiment& e, int layers) {
     options.depth_path = e.write;
     options.reference_path = e.compare;
     options.max_passes = e.max_passes > 0 ? e.max_passes : 2 * (layers + 1);
-    options.audit = true;                  // for its trace
+    options.audit = true;         // for its trace
     options.fragment_memory = 0;  // every pass is rasterized, so that seconds are the passes'
     options.execution = Execution::replay;
     options.keep_layers = options.nearest_depth = false;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "peeling/audit/audit.h"
 #include "peeling/prepared_lists.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/check_pass.h"
+#include "pipeline/region/executor.h"
+#include "pipeline/region/region.h"
+#include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
 

@@ -3,62 +3,24 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
+#include <vector>
 
-#include "peeling/audit/audit.h"
+#include "peeling/audit/audit_result.h"
 #include "peeling/registry.h"
-#include "peeling/sort.h"
-#include "pipeline/region/executor.h"
+#include "peeling/render_options.h"
+#include "pipeline/frame/captured_fragment.h"
+#include "pipeline/frame/frame_result.h"
+#include "pipeline/frame/instruments.h"
+
+namespace strata::rasterizer {
+struct SetupCounters;
+}
+namespace strata::pipeline {
+struct DrawList;
+struct View;
+}  // namespace strata::pipeline
 
 namespace strata::peeling {
-
-inline constexpr int tile_sizes[] = {8, 16, 32, 64, 128};
-
-// How the first pass of a peel computes its positions (default: as the view says), and how further ones do (default: alike).
-struct VertexPaths {
-    std::optional<pipeline::VertexPath> first{}, second{};
-    friend bool operator==(const VertexPaths&, const VertexPaths&) = default;
-};
-
-struct RenderOptions {
-    int width = 1024, height = 1024;
-    std::optional<pipeline::DepthFormat> depth;       // default: d32f where the profile has it, else d24
-    std::optional<rasterizer::DepthPath> depth_path;  // default: the profile's
-    std::optional<rasterizer::DepthPath>
-        reference_path;                        // the depth that passes compare; default: the one that they store
-    pipeline::CompareEpsilon compare_epsilon;  // added to a stored depth before it is compared
-    bool quantize_reference =
-        true;  // false: compare a depth that is not rounded like the stored one; true: as the profile
-    VertexPaths vertex_paths;
-    const pipeline::DrawList* second_list = nullptr;  // the same surfaces split otherwise, for all passes but the first
-    std::optional<bool> second_depth_clamp;           // and their depth clamp
-    std::optional<pipeline::Format> color_format;     // default: rgba8; rgba32f on a profile with exact depth ("ideal")
-    std::optional<float> alpha;                       // draws everything as transparent, its own alpha times this
-    pipeline::Rgba background{0, 0, 0, 1};
-    pipeline::Termination termination;
-    pipeline::Formulation formulation = pipeline::Formulation::resolved;
-    Sort sort;  // the order in which triangles are submitted
-    std::vector<std::string>
-        sorted;  // meshes or materials that arrive front to back, for hybrid; beside those that the scene names
-    int max_passes = 0;
-    pipeline::Execution execution = pipeline::Execution::replay;
-    std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments
-    std::optional<int> tile_size;                              // pixels; default: tile_size_of
-    int threads = 0;
-    pipeline::Effects effects = pipeline::Effects::needed;
-    pipeline::Format average_count = pipeline::Format::r16f;
-    bool keep_layers = false;
-    bool audit = true;          // order_errors and the other comparisons with the a_buffer
-    bool nearest_depth = true;  // make the Z image
-    // The viewport's corner on its surface, in pixels; positions move with it exactly.
-    std::array<int, 2> window_origin{0, 0};
-    // Conventions; the viewport is set from width, height and window_origin.
-    rasterizer::RasterState raster;
-};
-
-// The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all and the frame has many
-// tiles: triangles are divided among fewer. (More passes keep more a pixel, and want it in the caches.)
-[[nodiscard]] int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept;
 
 enum class Outcome : std::uint8_t { done, refused };
 

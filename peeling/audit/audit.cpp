@@ -7,6 +7,8 @@
 #include "peeling/audit/image_error.h"
 #include "peeling/programs/composite.h"
 #include "peeling/programs/fragment_lists.h"
+#include "peeling/programs/tie_order.h"
+#include "pipeline/region/region.h"
 #include "pipeline/stages/alpha_test.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pipeline/frame/frame_result.h"
+
 namespace strata::peeling {
 
 namespace {

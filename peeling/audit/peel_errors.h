@@ -11,8 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "peeling/audit/audit.h"
-#include "pipeline/region/executor.h"
+#include "peeling/audit/audit_result.h"
+
+namespace strata::pipeline {
+struct RegionTrace;
+}
 
 namespace strata::peeling {
 

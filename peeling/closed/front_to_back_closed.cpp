@@ -9,6 +9,7 @@
 
 #include "peeling/closed/arrivals.h"
 #include "peeling/closed/closed_form.h"
+#include "peeling/programs/region_programs.h"
 #include "pipeline/formats/convert.h"
 #include "pipeline/region/region_shortcuts.h"
 #include "pipeline/stages/blend.h"

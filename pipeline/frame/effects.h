@@ -14,6 +14,7 @@
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/instruments.h"
 #include "pipeline/frame/pass.h"
+#include "pipeline/vertices/prepare.h"
 
 namespace strata::pipeline {
 

@@ -4,34 +4,13 @@
 #include <optional>
 
 #include "pipeline/device/profile.h"
+#include "pipeline/frame/run_settings.h"
 #include "pipeline/stages/depth_compare.h"
-#include "pipeline/vertices/prepare.h"
+#include "pipeline/vertices/draw_list.h"
 #include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/rules/raster_state.h"
 
 namespace strata::pipeline {
-
-// Over the frame, or tile by tile; replay without fragment memory rasterizes every pass (pipeline/region/executor.h).
-enum class Execution : std::uint8_t { literal, replay };
-
-// How occlusion queries end a peel (decisions.md 3).
-enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
-struct Termination {
-    TerminationRule rule = TerminationRule::exact;
-    double ratio = 0;  // ratio: stop when the count is below ratio * width * height
-    int passes = 0;    // fixed: that many geometry passes, no query
-    friend bool operator==(const Termination&, const Termination&) = default;
-};
-
-// What an algorithm orders fragments by (decisions.md 3).
-enum class DepthKey : std::uint8_t { shader_z, stored_code };
-
-// Of a listing with errata: repaired as little as it takes, or as it was printed.
-enum class Formulation : std::uint8_t { resolved, published };
-
-enum class Effects : std::uint8_t {
-    needed,
-    all
-};  // all: simulate every stage even where nothing calls for it; same bits
 
 // What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
 struct Replay {
@@ -39,6 +18,7 @@ struct Replay {
     rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
 };
 
+struct PreparedDraw;
 struct ShadowStage;
 
 struct Frame {
@@ -67,7 +47,7 @@ struct Frame {
     bool nearest_depth = false;           // also make the frame's Z
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
-    [[nodiscard]] rasterizer::Rect rect() const noexcept { return transparent->geometry.state.viewport; }
+    [[nodiscard]] rasterizer::Rect rect() const noexcept;  // of its viewport
 
     // How depths that this frame compares are computed and stored.
     [[nodiscard]] rasterizer::DepthRequest key_request() const noexcept {

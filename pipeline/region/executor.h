@@ -10,14 +10,14 @@
 #pragma once
 #include <functional>
 
+#include "pipeline/frame/frame_result.h"
 #include "pipeline/frame/instruments.h"
-#include "pipeline/region/frame_result.h"
+#include "pipeline/frame/run_settings.h"
 
 namespace strata::pipeline {
 
 struct Frame;
 class Region;
-enum class Execution : std::uint8_t;
 
 using Body = std::function<void(Region&)>;  // once a region, never a fragment
 

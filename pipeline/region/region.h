@@ -15,12 +15,14 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/frame/captured_fragment.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/instruments.h"
 #include "pipeline/frame/pass.h"
-#include "pipeline/region/region_books.h"
+#include "pipeline/frame/region_books.h"
 #include "pipeline/region/target_storage.h"
 #include "pipeline/textures/depth_texels.h"
+#include "pipeline/vertices/prepare.h"
 #include "rasterizer/walk/batch_sink.h"
 #include "rasterizer/walk/depth_drawn.h"
 
@@ -33,13 +35,6 @@ namespace strata::pipeline {
 class FragmentStore;
 class RegionScratchPool;
 struct RegionScratch;  // the arrays that a batch passes through
-
-struct CapturedFragment {
-    std::uint32_t pixel = 0, primitive = 0;
-    std::uint32_t code = 0, exact_code = 0;
-    float shader_z = 0;
-    Rgba color{};
-};
 
 enum class Extent : std::uint8_t { frame, tile };
 // Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.

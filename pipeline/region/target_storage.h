@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "pipeline/formats/format.h"
+#include "pipeline/formats/half.h"
 #include "pipeline/formats/image.h"
 #include "pipeline/stages/lane_words.h"
 #include "pipeline/stages/target.h"

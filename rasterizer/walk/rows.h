@@ -10,7 +10,7 @@
 
 #include "rasterizer/coverage/fragment_batch.h"
 #include "rasterizer/set_up/geometry.h"
-#include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/plane.h"
 #include "rasterizer/walk/depth_drawn.h"
 
 namespace strata::rasterizer {

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "rasterizer/base/simd.h"
 #include "tests/golden/core_scenes.h"
 

@@ -5,6 +5,8 @@
 #include <ostream>
 #include <sstream>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "tests/support/difference.h"
 
 namespace strata::fuzz {

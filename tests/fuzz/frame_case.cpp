@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "peeling/registry.h"
 #include "tests/fuzz/scene_of_bytes.h"
 
 namespace strata::fuzz {

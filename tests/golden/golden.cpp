@@ -8,6 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
+
 namespace strata::golden {
 
 namespace {
@@ -67,8 +70,8 @@ Settings parse(int count, char** words) {
         else if (key == "check")
             settings.check = value;
         else
-            throw std::invalid_argument("expected threads=, tile=, execution=, memory=, effects=, simd= or check=, found " +
-                                        word);
+            throw std::invalid_argument(
+                "expected threads=, tile=, execution=, memory=, effects=, simd= or check=, found " + word);
     }
     return settings;
 }

@@ -5,6 +5,7 @@
 
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/programs.h"
+#include "peeling/programs/tie_order.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/composite_model.h"
 #include "tests/support/random_numbers.h"

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "peeling/registry.h"
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/bench/bench_report.h"
 #include "tools/strata/command.h"

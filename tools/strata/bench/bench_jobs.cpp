@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "peeling/render.h"
 #include "tools/strata/progress.h"
 
 namespace strata::tools {

@@ -6,7 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/formats/image.h"
+#include "pipeline/frame/counters.h"
+#include "pipeline/frame/instruments.h"
 #include "tools/strata/render/run.h"
+
+namespace strata::peeling {
+struct RenderResult;
+}
 
 namespace strata::tools {
 

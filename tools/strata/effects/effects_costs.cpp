@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "tools/strata/bench/bench_report.h"
+#include "tools/strata/effects/effects_plan.h"
 
 namespace strata::tools {
 

@@ -6,9 +6,10 @@
 //          passes that have it. Replay is a saving of its own and does not join Effects::all: effects are timed without it.
 // Tests    tests/tools/effects_test.cpp
 #pragma once
-#include "tools/strata/effects/effects_plan.h"
-
 namespace strata::tools {
+
+struct BenchJob;
+struct EffectsPlan;
 
 // Median seconds of whole runs.
 struct EffectTimes {

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
+
 namespace strata::tools {
 
 namespace {

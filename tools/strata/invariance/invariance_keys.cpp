@@ -1,6 +1,7 @@
 // tools/strata/invariance/invariance_keys.cpp - the keys of a plan: what each value means, and what is expected of it.
 #include <fmt/format.h>
 
+#include "peeling/registry.h"
 #include "tools/strata/invariance/invariance_plan.h"
 #include "tools/strata/options/choices.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "peeling/registry.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/parse.h"
@@ -279,10 +280,11 @@ void add_view_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_execution_options(CLI::App& app, RunOptions& options) {
-    accept_tiled(*add_choice(app, options.render.execution, "--execution", executions,
-                             "over the whole frame, or tile by tile with a tile's fragments kept for later passes; same "
-                             "bits (default replay)"),
-                 options);
+    accept_tiled(
+        *add_choice(app, options.render.execution, "--execution", executions,
+                    "over the whole frame, or tile by tile with a tile's fragments kept for later passes; same "
+                    "bits (default replay)"),
+        options);
     add_choice(app, options.simd, "--simd", simds, "instruction set; same bits (default best: what the processor has)");
     add_choice(app, options.render.effects, "--effects", effects,
                "simulate the stages that are needed, or all; same bits (default needed)");
@@ -299,10 +301,10 @@ void accept_tiled(CLI::Option& execution, RunOptions& options) {
             words += (words.empty() ? "" : ",") + (word == "tiled" ? std::string("replay") : word);
         }
         if (has_tiled && has_replay)
-            throw CLI::ValidationError("--execution", "expected replay once, found it beside 'tiled', which is replay "
-                                                      "with --fragment-memory 0");
-        if (has_tiled)
-            std::fputs("strata: warning: --execution tiled is replay with --fragment-memory 0\n", stderr);
+            throw CLI::ValidationError("--execution",
+                                       "expected replay once, found it beside 'tiled', which is replay "
+                                       "with --fragment-memory 0");
+        if (has_tiled) std::fputs("strata: warning: --execution tiled is replay with --fragment-memory 0\n", stderr);
         options.keeps_no_fragments = has_tiled;
         return words;
     });

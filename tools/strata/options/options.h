@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "peeling/render.h"
+#include "peeling/algorithms/algorithm.h"
+#include "peeling/render_options.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/scene.h"
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "peeling/render.h"
 #include "scenes/files/image_io.h"
 #include "tools/strata/command.h"
 #include "tools/strata/render/run.h"

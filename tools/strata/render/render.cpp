@@ -1,4 +1,6 @@
 // tools/strata/render/render.cpp - strata render: the picture of one or more algorithms.
+#include "peeling/render.h"
+
 #include <memory>
 
 #include "scenes/files/image_io.h"

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "peeling/render.h"
 #include "scenes/camera.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/profile_json.h"

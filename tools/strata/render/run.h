@@ -7,6 +7,11 @@
 #include "scenes/files/image_io.h"
 #include "tools/strata/options/options.h"
 
+namespace strata::peeling {
+class Renderer;
+struct RenderResult;
+}  // namespace strata::peeling
+
 namespace strata::tools {
 
 // Everything that the algorithms of one command share.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "peeling/render.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/table.h"
 

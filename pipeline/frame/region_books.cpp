@@ -1,4 +1,4 @@
-#include "pipeline/region/region_books.h"
+#include "pipeline/frame/region_books.h"
 
 namespace strata::pipeline {
 

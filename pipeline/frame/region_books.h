@@ -1,4 +1,4 @@
-// pipeline/region/region_books.h - what a region writes down while its body runs: all that the executor needs to put the frame together.
+// pipeline/frame/region_books.h - what a region writes down while its body runs: all that the executor needs to put the frame together.
 //
 // Rule     Counters and passes are kept by iteration, because a region that stops early counts its idle iteration again for every
 //          further one of the frame (executor.cpp). `script` comes from the executor, everything else from the region.

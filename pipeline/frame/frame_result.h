@@ -1,9 +1,9 @@
-// pipeline/region/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the instruments asked for.
+// pipeline/frame/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the instruments asked for.
 #pragma once
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/region/region_books.h"
+#include "pipeline/frame/region_books.h"
 #include "rasterizer/rules/raster_state.h"
 
 namespace strata::pipeline {
