@@ -37,6 +37,8 @@ void check_options(const RenderOptions& o) {
     if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
         throw InputError("strata", "--compare-epsilon", "a number from 0 to 1",
                          std::to_string(o.compare_epsilon.absolute));
+    if (!has_simd(o.simd))
+        throw InputError("strata", "--simd", "an instruction set that this processor has", "one that it lacks");
     in_range("--max-passes", o.max_passes, 0, 1000000);
     if (o.termination.rule == TerminationRule::fixed) in_range("--termination fixed", o.termination.passes, 1, 1000000);
     if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
@@ -251,6 +253,7 @@ struct Renderer::State {
 
 Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options) {
     check_options(options);
+    const SimdScope kernels{options.simd};
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
     rasterizer::DepthRequest depth;
     depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
@@ -282,6 +285,7 @@ Renderer::~Renderer() = default;
 
 RenderResult Renderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress,
                               const Instruments& instruments) {
+    const SimdScope kernels{state_->options.simd};
     RenderResult result;
     result.refusal = state_->refusal(algorithm);
     if (!result.refusal) {
@@ -311,6 +315,7 @@ RenderResult Renderer::render(const Algorithm& algorithm, const std::function<vo
 }
 
 RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, const Instruments& instruments) {
+    const SimdScope kernels{state_->options.simd};
     RenderResult result;
     result.refusal = check_depth(state_->profile, state_->depth);
     if (!result.refusal) result.refusal = check(state_->profile, state_->color_format);
@@ -329,6 +334,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
 }
 
 FrameFragments Renderer::fragments(const Algorithm& algorithm) {
+    const SimdScope kernels{state_->options.simd};
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
     FrameFragments found;

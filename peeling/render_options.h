@@ -12,6 +12,7 @@
 #include "pipeline/frame/run_settings.h"
 #include "pipeline/stages/depth_compare.h"
 #include "pipeline/vertices/draw_list.h"
+#include "rasterizer/base/simd.h"
 #include "rasterizer/rules/raster_state.h"
 
 namespace strata::peeling {
@@ -51,6 +52,7 @@ struct RenderOptions {
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments
     std::optional<int> tile_size;                              // pixels; default: tile_size_of
     int threads = 0;
+    Simd simd = Simd::best;  // of all kernels of this renderer
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Format average_count = pipeline::Format::r16f;
     bool keep_layers = false;

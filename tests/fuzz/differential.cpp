@@ -14,11 +14,11 @@ namespace strata::fuzz {
 namespace {
 
 peeling::RenderResult run(const FrameCase& frame, const Way& way) {
-    choose_simd(way.simd);  // a set that this processor lacks leaves the one before
     peeling::RenderOptions options = frame.options;
     options.execution = way.execution;
     options.tile_size = way.tile_size;
     options.effects = way.effects;
+    options.simd = has_simd(way.simd) ? way.simd : Simd::best;
     options.fragment_memory = way.fragment_memory;
     peeling::Renderer renderer{frame.list, frame.view, *pipeline::find_profile(frame.profile), options};
     if (frame.algorithm == "depth_pass") return renderer.depth_pass({}, {.trust_idle = way.trust_idle});

@@ -77,7 +77,6 @@ Settings parse(int count, char** words) {
 }
 
 std::string lines(const GoldenScene& scene, const Settings& settings) {
-    if (!choose_simd(settings.simd)) choose_simd(Simd::best);
     std::string text;
     for (const pipeline::DeviceProfile& profile : pipeline::builtin_profiles()) {
         if (profile.name == "llvmpipe") continue;  // its fragments are held to Mesa's own, by tools/bench
@@ -90,6 +89,7 @@ std::string lines(const GoldenScene& scene, const Settings& settings) {
         options.execution = settings.execution;
         options.fragment_memory = static_cast<std::uint64_t>(settings.fragment_memory);
         options.effects = settings.effects;
+        options.simd = has_simd(settings.simd) ? settings.simd : Simd::best;
         options.audit = false;
         peeling::Renderer renderer(scene.list, scene.view, profile, options);
         for (const peeling::Algorithm& algorithm : peeling::algorithms()) {

@@ -68,7 +68,7 @@ BenchRun run_once(const BenchJob& job) {
     if (job.is_never_replayed) options.fragment_memory = 0;
     options.audit = false;
     options.nearest_depth = false;
-    choose_simd(job.simd);
+    options.simd = job.simd;
 
     const auto start = std::chrono::steady_clock::now();
     peeling::RenderResult result = run_algorithm(job, options, {.once_more = job.once_more});

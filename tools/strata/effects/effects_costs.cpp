@@ -50,6 +50,7 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     std::vector<std::function<void()>> walks;
     const auto add = [&](Effect left_out) {
         walks.push_back([&plan, &options, needs = values_without(plan, left_out)] {
+            const SimdScope kernels{options.simd};
             pipeline::walk(plan.drawn, {}, needs, options.threads);
         });
     };

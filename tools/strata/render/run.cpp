@@ -54,7 +54,7 @@ void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
 
 Session open_session(RunOptions& options) {
     check_simd(options.simd);
-    choose_simd(options.simd);
+    options.render.simd = options.simd;
     Session session;
     session.profile = scenes::load_profile(options.profile);
     session.scene = scenes::load_scene(options.scene, options.scene_options);
