@@ -7,7 +7,7 @@ namespace strata::pipeline {
 // Over the frame, or tile by tile; replay without fragment memory rasterizes every pass (pipeline/region/executor.h).
 enum class Execution : std::uint8_t { literal, replay };
 
-// How occlusion queries end a peel (decisions.md 3).
+// How occlusion queries end a peel (keys-and-counts.md 3.1).
 enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
 struct Termination {
     TerminationRule rule = TerminationRule::exact;
@@ -16,7 +16,7 @@ struct Termination {
     friend bool operator==(const Termination&, const Termination&) = default;
 };
 
-// What an algorithm orders fragments by (decisions.md 3).
+// What an algorithm orders fragments by (keys-and-counts.md 1.1).
 enum class DepthKey : std::uint8_t { shader_z, stored_code };
 
 // Of a listing with errata: repaired as little as it takes, or as it was printed.

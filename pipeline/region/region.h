@@ -4,7 +4,7 @@
 //          bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
 //          What the executor reads afterwards stands in RegionBooks (region_books.h); what fast ways need, in
 //          RegionShortcuts (region_shortcuts.h).
-// Source   design.md, idea 2; decisions.md 7.
+// Source   execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
 #include <algorithm>

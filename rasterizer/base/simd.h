@@ -7,7 +7,7 @@
 //          The choice belongs to a call, not to the process: a public entry opens a SimdScope, as it opens a
 //          FloatEnvironment, and parallel_for hands it to its workers. What Highway chooses for the host program is not
 //          changed, and no change of it is looked at.
-// Source   Highway's run-time dispatch; hardware.md 8 (MIN and MAX).
+// Source   Highway's run-time dispatch; fragment-stages.md 9.3 (MIN and MAX).
 // Tests    tests/rasterizer/base/simd_test.cpp, tests/peeling/simd_test.cpp
 #pragma once
 #include <cstdint>
