@@ -11,6 +11,7 @@
 #include "peeling/closed/closed_form.h"
 #include "peeling/programs/region_programs.h"
 #include "pipeline/formats/convert.h"
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_shortcuts.h"
 #include "pipeline/stages/blend.h"
 
@@ -193,15 +194,14 @@ class PassCounters {
         exhausted_ += at(tallies_.exhausted, pass);
         const std::uint64_t discarded = at(tallies_.discarded, pass) + exhausted_;
         const std::uint64_t arriving = fragments_.rasterized - fragments_.masked - discarded;
-        const std::uint64_t loads = pass > 1 ? depth_ * fragments_.rasterized : 0;
-        const std::uint64_t clear_and_copy = (color_ + depth_) * area_, quad = (2 * color_ + 2 * depth_) * area_;
-        return {.fragments_rasterized = fragments_.rasterized,
-                .discarded = discarded,
-                .alpha_killed = fragments_.masked,
-                .depth_killed = arriving - passed_,
-                .blended = passed_,
-                .bytes_read = loads + depth_ * arriving + depth_ * area_ + quad,
-                .bytes_written = (color_ + depth_) * passed_ + clear_and_copy + color_ * area_};
+        const Counters fates{.fragments_rasterized = fragments_.rasterized,
+                             .discarded = discarded,
+                             .alpha_killed = fragments_.masked,
+                             .blended = passed_};
+        const Counters draw = of_loads(depth_, pass > 1 ? fragments_.rasterized : 0) +
+                              of_depth_test(depth_, arriving, passed_, true) + of_color(color_, passed_, false);
+        const Counters quad = of_loads(color_ + 2 * depth_, area_) + of_color(color_, area_, true);
+        return fates + of_clear(color_, area_) + of_copy(depth_, area_) + draw + quad;
     }
     [[nodiscard]] std::uint64_t passed() const noexcept { return passed_; }  // in the latest pass
 
@@ -250,7 +250,7 @@ class Rgba8Blocks {
 
     void publish() {
         const std::uint64_t area = region_.rect().area();
-        RegionShortcuts{region_}.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area},
+        RegionShortcuts{region_}.count(of_loads(4 + 4, area) + of_color(4, area, false),
                                        {.full_screen = 1});  // the last quad
         region_.publish(target_);
     }
@@ -319,8 +319,7 @@ bool composite_layers(Region& region) {
     if (!fragments) return false;
     columns.finish();
     const auto color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
-    RegionShortcuts{region}.count({.bytes_written = color * region.rect().area()},
-                                  {});  // the accumulated colour's clear
+    RegionShortcuts{region}.count(of_clear(color, region.rect().area()), {});  // the accumulated colour's clear
     count_passes(region, *fragments, tallies);
     blocks.publish();
     return true;

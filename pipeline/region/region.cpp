@@ -10,6 +10,7 @@
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/image_words.h"
 #include "pipeline/formats/unorm8.h"
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 
@@ -84,15 +85,14 @@ void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_m
         storage.fill({code, 0, 0, 0}, sample_mask);
     }
     if (has_stencil(format)) storage.fill_stencil(value.stencil, sample_mask);
-    record().counters.bytes_written += bytes(storage);
+    record().counters += of_clear(1, bytes(storage));
 }
 
 void Region::copy(Target from, Target to) {
     assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
     opaque_depth_is_cleared_ &= to != opaque_depth_;
     at(to) = at(from);
-    record().counters.bytes_read += bytes(at(from));
-    record().counters.bytes_written += bytes(at(to));
+    record().counters += of_copy(1, bytes(at(from)));
     ++record().passes.copies;
 }
 
@@ -108,9 +108,7 @@ void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Targ
             .area() != written.area())
         throw NeedsFrame{};
     for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
-    const std::uint64_t moved = written.area() * static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel);
-    record().counters.bytes_read += moved;
-    record().counters.bytes_written += moved;
+    record().counters += of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area());
     ++record().passes.copies;
 }
 

@@ -2,6 +2,7 @@
 // that leaves the same bits and the same counts. Literal execution never takes this way: it is what this one is tested against.
 #include <algorithm>
 
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/stages/sum_rows.h"
@@ -35,11 +36,8 @@ bool Region::draws_rows(const PassState& state, const PreparedDraw& list) {
 void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn) {
     const auto bytes = static_cast<std::uint64_t>(info(at(state.depth_target).format()).bytes_per_pixel);
     books_.fragments_drawn += drawn.fragments;
-    record().counters += {.fragments_rasterized = drawn.fragments,
-                          .depth_killed = drawn.fragments - drawn.passed,
-                          .blended = drawn.passed,
-                          .bytes_read = bytes * drawn.fragments,
-                          .bytes_written = state.depth.write ? bytes * drawn.passed : 0};
+    record().counters += Counters{.fragments_rasterized = drawn.fragments, .blended = drawn.passed} +
+                         of_depth_test(bytes, drawn.fragments, drawn.passed, state.depth.write);
 }
 
 Drawn Region::draw_depth(const PassState& state) {

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "pipeline/formats/image_words.h"
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
 
 namespace strata::pipeline {
@@ -61,8 +62,7 @@ std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& s
     ScreenWords words{{}, region_.at(state.color[0]).texels(0), region_.rect_.area()};
     for (std::size_t r = 0; r < reads.size(); ++r) {
         words.reads[r] = region_.at(state.reads[r]).texels(0);
-        region_.record().counters.bytes_read +=
-            static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel) * words.pixels;
+        region_.record().counters += of_loads(static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel), words.pixels);
     }
     return words;
 }

@@ -7,6 +7,7 @@
 #include "pipeline/formats/narrow.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/frame/effects.h"
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/check_pass.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
@@ -91,8 +92,7 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
 }
 
 void Region::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
-    if (blending.enabled) record().counters.bytes_read += pixel_bytes(target) * pixels;
-    record().counters.bytes_written += pixel_bytes(target) * pixels;
+    record().counters += of_color(pixel_bytes(target), pixels, blending.enabled);
 }
 
 bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
@@ -139,11 +139,11 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
 
 void Region::load(const PassState& state, const FragmentBatch& batch) {
     for (const Target t : state.textures)
-        if (t.exists()) record().counters.bytes_read += pixel_bytes(at(t)) * static_cast<std::uint64_t>(batch.count);
+        if (t.exists()) record().counters += of_loads(pixel_bytes(at(t)), static_cast<std::uint64_t>(batch.count));
     for (std::size_t r = 0; r < state.reads.size(); ++r) {
         if (!state.reads[r].exists()) continue;
         TargetStorage& from = at(state.reads[r]);
-        record().counters.bytes_read += pixel_bytes(from) * static_cast<std::uint64_t>(batch.count);
+        record().counters += of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count));
         load_target(from, r, batch);
         if (instruments_.once_more == Effect::loads) load_target(from, r, batch);
     }
@@ -205,8 +205,7 @@ void Region::test_depth_units(const PassState& state, const FragmentBatch& batch
         const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
         const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(0),
                                               lanes_of(batch), batch.code.data(), alive.data());
-        record().counters.bytes_read += pixel_bytes(target) * result.arriving;
-        record().counters.depth_killed += result.arriving - result.passed;
+        record().counters += of_depth_test(pixel_bytes(target), result.arriving, result.passed, false);
     }
 }
 
@@ -236,11 +235,9 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
             scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
     counters.stencil_killed += stencil_killed;
-    counters.depth_killed += tested.arriving - stencil_killed - tested.passed;
-    if (depth != nullptr) {
-        counters.bytes_read += pixel_bytes(*depth) * (tested.arriving - stencil_killed);
-        if (state.depth.write) counters.bytes_written += pixel_bytes(*depth) * tested.passed;
-    }
+    if (depth != nullptr)
+        counters +=
+            of_depth_test(pixel_bytes(*depth), tested.arriving - stencil_killed, tested.passed, state.depth.write);
     return tested.passed;
 }
 

@@ -123,3 +123,17 @@ TEST_CASE("a locale with decimal commas changes no byte") {
     };
     CHECK(profile({}) == profile(german));
 }
+
+TEST_CASE("--execution tiled is replay without fragment memory, and says so on standard error") {
+    const Folder folder;
+    const Ended tiled = render(folder, {"--execution", "tiled", "--fragment-memory", "1M", "--stats", "-"});
+    CHECK(tiled.status == 0);
+    CHECK(tiled.err.find("strata: warning: --execution tiled is replay with --fragment-memory 0\n") !=
+          std::string::npos);
+    const auto row = ordered_json::parse(tiled.out)[0];
+    CHECK(row["execution"] == "replay");
+    CHECK(row["fragment_memory"] == 0);
+    const Ended replay = render(folder, {"--execution", "replay", "--stats", "-"});
+    CHECK(replay.err.find("warning: --execution") == std::string::npos);
+    CHECK(ordered_json::parse(replay.out)[0]["digest"] == row["digest"]);
+}

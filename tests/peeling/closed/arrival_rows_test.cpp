@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/simd.h"
+#include "rasterizer/walk/rows.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 #include "tests/rasterizer/scene.h"
 

@@ -234,7 +234,8 @@ TEST_CASE(
     CHECK(books.records.front().counters.bytes_written - before.counters.bytes_written == 4 * pixels);
     CHECK(books.records.front().passes.copies - before.passes.copies == 1);
 
-    Region tile{test.frame, {0, 0, 8, 8}, 0, Extent::tile};
+    RegionBooks tile_books;
+    Region tile{test.frame, {{0, 0, 8, 8}, 0, Extent::tile}, tile_books};
     const Target a = tile.make_depth(), b = tile.make_depth();
     CHECK_NOTHROW(tile.copy_rectangle(a, test.frame.rect(), b, 0, 0));
     CHECK_THROWS_AS(tile.copy_rectangle(a, test.frame.rect(), b, -1, 0), NeedsFrame);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pipeline/device/check.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "tests/pipeline/frames.h"
 
 namespace {
@@ -303,7 +304,7 @@ TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere
 TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
     Machine m{FragmentScene{2, 1}, "geforce8"};
     const Target from = m.region.make(Format::rgba32f), to = m.region.make(Format::rgba32f);
-    RegionShortcuts{m.region}.store_pixel(
+    strata::pipeline::RegionShortcuts{m.region}.store_pixel(
         from, 1, {std::bit_cast<float>(0x7fc12345u), std::bit_cast<float>(0xff800001u), -0.0f, 0x1p-149f});
     m.region.copy(from, to);
     CHECK(m.region.image(to) == m.region.image(from));
