@@ -98,6 +98,7 @@ TEST_CASE("vertices are multiplied by the matrix product, rounded once, with eve
         DrawList list = one_triangle({.name = "", .unlit = true}, random_matrix(random));
         const View view{random_matrix(random), random_matrix(random)};
         list.meshes[0].positions.resize(several_vertices);
+        list.meshes[0].normals.clear();
         for (Vec3& p : list.meshes[0].positions)
             for (float& x : p) x = random_float(random, -3, 3);
         const auto soup = transform(list, view, {});
