@@ -61,7 +61,9 @@ Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Exte
       rasterizer_{rect},
       pool_{pool},
       scratch_{pool == nullptr ? std::make_unique<Scratch>() : pool->take()},
-      records_(1) {
+      records_(1),
+      trace_{&scratch_->trace} {
+    trace_->start(frame.trace_bytes);
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
     counts_ = false;
