@@ -359,6 +359,12 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
 FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
+    const std::uint64_t count = fragment_count(*frame.transparent), bytes = FrameFragments::bytes_a_fragment * count;
+    if (bytes > state_->audit_memory())
+        throw InputError("strata", "--fragment-memory",
+                         "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(count) +
+                             " fragments all together",
+                         std::to_string(state_->audit_memory()));
     FrameFragments found;
     const Body capture = [&](Region& region) {
         found.all = region.capture(Bookkeeping::counted);

@@ -84,6 +84,7 @@ struct RenderResult {
 struct FrameFragments {
     std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
     std::vector<std::uint32_t> opaque;            // of each pixel: the opaque surface's depth in the algorithm's key
+    static constexpr std::uint64_t bytes_a_fragment = 64;  // itself, and beside it what a file's writer makes of it
 };
 
 // Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
@@ -105,7 +106,7 @@ class Renderer {
     [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {});
 
     // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused, and InputError if the
-    // fragments take more than RenderOptions::fragment_memory.
+    // fragments take more than the audit's memory.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;

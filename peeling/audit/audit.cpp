@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,7 +58,7 @@ void move(PixelCount& count, int dx, int dy) {
 }
 
 [[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
-    const std::uint64_t lists = fragments * AuditMemory::bytes_a_fragment * 4 / 3 + AuditMemory::bytes_a_fragment;
+    const std::uint64_t lists = fragments * AuditMemory::bytes_a_fragment * 2;
     const std::uint64_t needed = lists > bytes ? lists : 2 * bytes;  // nobody knows how long the trace would be
     throw InputError("strata", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
@@ -75,7 +76,9 @@ struct Audit::Impl {
     AuditMemory shared, alone;  // for a worker among all, and for one by itself
     int threads;
     Frame still;                 // the frame for looks at its fragments: no pass, no trace
-    Region::ScratchPool pool{};  // for those looks
+    Region::ScratchPool pool{};  // for those looks, as are the lists
+    std::mutex free_lists_mutex{};
+    std::vector<FragmentLists> free_lists{};
     std::vector<Looked> tiles;
 
     Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t bytes, int t)
@@ -107,7 +110,7 @@ struct Audit::Impl {
         const std::vector<std::uint32_t> coverage = coverage_of(region);
         PixelAudit pixels{frame, algorithm};
         Looked looked;
-        FragmentLists lists;
+        FragmentLists lists = take_lists();
         PixelRange range;
         for (; range.last < coverage.size();) {
             range = next_range(coverage, part.rect.width(), range.last, memory.fragments());
@@ -120,7 +123,18 @@ struct Audit::Impl {
                 pixels.look_at(lists.of(p), traces, pixel_at(region, p, color));
         }
         looked.found = pixels.found();
+        const std::scoped_lock lock{free_lists_mutex};
+        free_lists.push_back(std::move(lists));
         return looked;
+    }
+
+    // As many as ever were in use at once, kept, so that memory is asked for seldom.
+    [[nodiscard]] FragmentLists take_lists() {
+        const std::scoped_lock lock{free_lists_mutex};
+        if (free_lists.empty()) return {};
+        FragmentLists lists = std::move(free_lists.back());
+        free_lists.pop_back();
+        return lists;
     }
 
     // A region of the frame has ended: a tile, or the whole frame, which is looked at tile by tile.

@@ -4,9 +4,9 @@
 //          fragments of as many pixels at a time as fit into the audit's memory. What does not fit, a trace or a pixel's
 //          fragments, is run again after the frame, in parts that are halved until they fit, with the frame's answers for a
 //          script. So the figures depend neither on the memory nor on tiles, threads and execution.
-// Numbers  A worker has an equal share of the memory, and what does not fit into a share is done alone with all of it. A
-//          quarter of a share is for the trace, 16 bytes an entry; the rest for lists, 52 bytes a fragment: 28 in its list, 8
-//          in each of three orders. Beside it a pixel of a region takes 24 bytes while the region is looked at.
+// Numbers  A worker has an equal share of the memory, and what does not fit into a share is done alone with all of it. Half
+//          of a share is for the trace, 16 bytes an entry; the rest for lists, 52 bytes a fragment: 28 in its list, 8 in each
+//          of three orders. Beside it a pixel of a region takes 24 bytes while the region is looked at.
 // Tests    tests/peeling/audit/audit_test.cpp, tests/peeling/audit/audit_memory_test.cpp
 #pragma once
 #include <cstdint>
@@ -41,8 +41,8 @@ struct AuditMemory {
     std::uint64_t bytes = 0;  // of all workers
     int workers = 1;          // as many as look at once
     // Of one worker.
-    [[nodiscard]] std::uint64_t trace_bytes() const noexcept { return bytes / static_cast<unsigned>(workers) / 4; }
-    [[nodiscard]] std::uint64_t fragments() const noexcept { return 3 * trace_bytes() / bytes_a_fragment; }
+    [[nodiscard]] std::uint64_t trace_bytes() const noexcept { return bytes / static_cast<unsigned>(workers) / 2; }
+    [[nodiscard]] std::uint64_t fragments() const noexcept { return trace_bytes() / bytes_a_fragment; }
     static constexpr std::uint64_t bytes_a_fragment = 52;
 };
 

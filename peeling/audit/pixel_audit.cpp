@@ -18,18 +18,16 @@ PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect)
         trace[i].pixel = std::exchange(head_[trace[i].pixel], static_cast<std::uint32_t>(i));
 }
 
-void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence) const {
+void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence, std::vector<TraceEntry>& backs) const {
     const std::size_t pixel = static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
                               static_cast<std::size_t>(x - rect_.x0);
-    const auto add = [&](Side side) {
-        for (std::uint32_t i = head_[pixel]; i != none; i = trace_[i].pixel)
-            if (trace_[i].side == side) sequence.push_back(trace_[i]);
-    };
     sequence.clear();
-    add(Side::front);
-    const auto fronts = static_cast<std::ptrdiff_t>(sequence.size());
-    add(Side::back);
-    std::reverse(sequence.begin() + fronts, sequence.end());
+    backs.clear();
+    for (std::uint32_t i = head_[pixel]; i != none; i = trace_[i].pixel) {
+        if (trace_[i].side == Side::front) sequence.push_back(trace_[i]);
+        if (trace_[i].side == Side::back) backs.push_back(trace_[i]);
+    }
+    sequence.insert(sequence.end(), backs.rbegin(), backs.rend());
 }
 
 namespace {
@@ -79,7 +77,7 @@ void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTrac
     kept_ = by_key_;
     apply(algorithm_.ties, kept_);
     found_.lost_by_ties += fragments.size() - kept_.size();
-    traces->near_to_far(pixel.x, pixel.y, sequence_);
+    traces->near_to_far(pixel.x, pixel.y, sequence_, backs_);
     const std::uint64_t errors = places_that_differ(fragments);
     *found_.order_errors += errors;
     if (errors > 0) add(found_.misordered, pixel.x, pixel.y);
@@ -108,7 +106,7 @@ std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> frag
 
 void PixelAudit::compare(std::span<const KeyedFragment> fragments, const AuditedPixel& pixel,
                          bool ties_change_nothing) {
-    sort_by(&KeyedFragment::exact_code, fragments, by_exact_depth_);
+    sort_almost(&KeyedFragment::exact_code, fragments, by_key_, by_exact_depth_);
     const auto truth = composite(fragments, by_exact_depth_, pixel.background);
     double worst = 0;
     for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::fabs(pixel.shown[c] - truth[c]) * 255.0);

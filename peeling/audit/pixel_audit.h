@@ -23,8 +23,9 @@ class PixelTraces {
     PixelTraces(pipeline::Trace& trace, const rasterizer::Rect& rect);
 
     // Fills `sequence` with what a pixel shows from near to far: what was composited UNDER in order, then what was composited
-    // OVER, last first.
-    void near_to_far(int x, int y, std::vector<pipeline::TraceEntry>& sequence) const;
+    // OVER, last first. `backs` is room for the latter.
+    void near_to_far(int x, int y, std::vector<pipeline::TraceEntry>& sequence,
+                     std::vector<pipeline::TraceEntry>& backs) const;
 
   private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
@@ -59,7 +60,7 @@ class PixelAudit {
     AuditResult found_;
     std::vector<KeyedFragment> with_alpha_;  // of the present pixel, like all that follows
     FragmentOrder by_key_, kept_, by_exact_depth_;
-    std::vector<pipeline::TraceEntry> sequence_;
+    std::vector<pipeline::TraceEntry> sequence_, backs_;
 };
 
 // Adds what another part of the frame found; the order of calls does not matter.

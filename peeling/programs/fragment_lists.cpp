@@ -84,7 +84,10 @@ void list_visible(Region& region, const PixelRange& pixels, std::span<const std:
         fragments += coverage[pixels.first + p];
     }
     lists.end = lists.start;
-    lists.fragments.resize(fragments);
+    if (lists.fragments.size() < fragments) {
+        lists.fragments = {};  // so that the old ones are gone before there are new ones
+        lists.fragments.resize(fragments);
+    }
     Filing file{region, lists};
     if (bookkeeping == Bookkeeping::counted) {
         PassState state;

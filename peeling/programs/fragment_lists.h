@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "pipeline/region/region.h"
-#include "rasterizer/base/uninitialized.h"
 
 namespace strata::peeling {
 
@@ -38,8 +37,8 @@ struct PixelRange {
 
 struct FragmentLists {
     PixelRange pixels;
-    std::vector<std::size_t> start, end;  // of each pixel of the range, in `fragments`
-    UninitializedVector<KeyedFragment> fragments;
+    std::vector<std::size_t> start, end;   // of each pixel of the range, in `fragments`
+    std::vector<KeyedFragment> fragments;  // at least as many as there are
     // `pixel` counts in the region.
     [[nodiscard]] std::span<const KeyedFragment> of(std::uint32_t pixel) const noexcept {
         const std::size_t p = pixel - pixels.first;

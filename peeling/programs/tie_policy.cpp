@@ -1,6 +1,7 @@
 #include "peeling/programs/tie_policy.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace strata::peeling {
 
@@ -32,6 +33,20 @@ std::size_t for_each_group(FragmentOrder& sorted, Body&& body) {
 }
 
 }  // namespace
+
+void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
+                 const FragmentOrder& near_order, FragmentOrder& order) {
+    order.clear();
+    std::size_t steps = 8 * near_order.size();
+    for (const std::uint64_t near : near_order) {
+        const std::uint64_t entry = std::uint64_t{fragments[place_of(near)].*code} << 32 | place_of(near);
+        order.push_back(entry);
+        for (std::size_t i = order.size() - 1; i > 0 && order[i - 1] > entry; --i) {
+            if (steps-- == 0) return sort_by(code, fragments, order);
+            order[i] = std::exchange(order[i - 1], entry);
+        }
+    }
+}
 
 void apply(TiePolicy policy, FragmentOrder& by_key) {
     const auto same_key = [](std::uint64_t a, std::uint64_t b) { return depth_of(a) == depth_of(b); };

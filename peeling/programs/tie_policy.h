@@ -41,6 +41,10 @@ inline void sort_by(std::uint32_t KeyedFragment::*code, std::span<const KeyedFra
     std::sort(order.begin(), order.end());
 }
 
+// The same for a depth by which `near_order` is almost in order already: a few steps a fragment, or a sort from scratch.
+void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
+                 const FragmentOrder& near_order, FragmentOrder& order);
+
 // Turns the order by key into that in which `policy` composites, nearest first; `unique` and `merged` keep one fragment a key.
 void apply(TiePolicy policy, FragmentOrder& by_key);
 

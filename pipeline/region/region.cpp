@@ -188,7 +188,12 @@ Target Region::nearest_depth() {
 
 std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
     counts_ = bookkeeping == Bookkeeping::counted;
+    std::uint64_t fragments = 0;
+    std::vector<std::uint32_t> coverage(rect_.area());
+    count_coverage(coverage);
+    for (const std::uint32_t of_pixel : coverage) fragments += of_pixel;
     std::vector<CapturedFragment> all;
+    all.reserve(fragments);
     PassState state;
     state.needs = {
         .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
