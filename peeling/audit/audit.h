@@ -7,6 +7,7 @@
 // Numbers  A worker has an equal share of the memory, and what does not fit into a share is done alone with all of it. Half
 //          of a share is for the trace, 16 bytes an entry; the rest for lists, 52 bytes a fragment: 28 in its list, 8 in each
 //          of three orders. Beside it a pixel of a region takes 24 bytes while the region is looked at.
+// Source   audit.md 13; what is compared, 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp, tests/peeling/audit/audit_memory_test.cpp
 #pragma once
 #include <cstdint>

@@ -2,7 +2,7 @@
 //
 // Rule     The sequence that a pixel composited (its trace) is compared, place by place, with its visible fragments in the order
 //          of the algorithm's tie policy; its colour with all of them composited in binary64, sorted by the exact depth.
-// Source   decisions.md 3; algorithms.md 0.
+// Source   audit.md 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp
 #pragma once
 #include <array>

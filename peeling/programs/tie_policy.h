@@ -1,4 +1,4 @@
-// peeling/programs/tie_policy.h - which fragments of equal key are composited, and in which order. algorithms.md 0.
+// peeling/programs/tie_policy.h - which fragments of equal key are composited, and in which order. keys-and-counts.md 2.2.
 // Tests: tests/peeling/audit/audit_test.cpp
 #pragma once
 #include <algorithm>

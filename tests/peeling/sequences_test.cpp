@@ -151,7 +151,7 @@ void check_scene(const FragmentScene& given, const Machine& machine, strata::pee
     if (machine.profile == "ideal") check_accuracy(scene, result);
 }
 
-// Everything that decisions.md 4 lets run.
+// Everything that devices.md 10 lets run.
 std::vector<Machine> machines() {
     std::vector<Machine> all{{"geforce3", "depth_units"},
                              {"geforce3", "shadow_map"},
@@ -167,7 +167,8 @@ std::vector<Machine> machines() {
 
 }  // namespace
 
-TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what the listing's arithmetic gives") {
+TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what the listing's arithmetic gives",
+          "[slow]") {
     const FragmentScene scene = all_short_sequences(20240601, short_depths);
     // geforce8_dx101 differs from geforce8 in what it can run: its dual_independent is the new part.
     for (const Machine& machine : machines())
