@@ -103,7 +103,7 @@ TEST_CASE("an audit's figures depend neither on its memory nor on tiles, threads
     CHECK(expected.ties.pixels > 100);
     if (algorithm.run == forgetful().run) CHECK(expected.misordered.pixels > 100);
     for (const std::uint64_t bytes :
-         {std::uint64_t{1} << 30, std::uint64_t{1} << 17, std::uint64_t{1} << 14, std::uint64_t{1} << 10})
+         {std::uint64_t{1} << 30, std::uint64_t{1} << 17, std::uint64_t{1} << 14, std::uint64_t{1300}})
         for (const Way& way : {Way{bytes, 1, Execution::literal, 16}, Way{bytes, 1, Execution::replay, 8},
                                Way{bytes, 3, Execution::replay, 32}, Way{bytes, 2, Execution::literal, 8}}) {
             INFO(bytes << " bytes, " << way.threads << " threads, tiles of " << way.tile_size);
@@ -116,13 +116,13 @@ TEST_CASE("what does not fit into the memory is run again in parts, and nothing 
     const Algorithm peel = forgetful();
     for (const Execution execution : {Execution::literal, Execution::replay}) {
         const Audited all = audit(scene, peel, {.execution = execution});
-        const Audited little = audit(scene, peel, {.bytes = 2048, .execution = execution});
+        const Audited little = audit(scene, peel, {.bytes = 1300, .execution = execution});
         CHECK(all.bodies <= all.regions);  // blank tiles share one
         CHECK(little.bodies > all.bodies + 100);
         CHECK(little.result == all.result);
     }
     const Audited unordered =
-        audit(scene, *find_algorithm("unsorted"), {.bytes = 2048, .execution = Execution::replay});
+        audit(scene, *find_algorithm("unsorted"), {.bytes = 1300, .execution = Execution::replay});
     CHECK(unordered.bodies <= unordered.regions);  // there is no trace to be had again
 }
 
