@@ -22,10 +22,13 @@ struct View;
 
 namespace strata::peeling {
 
+struct RegionTrace;  // peeling/audit/region_trace.h
+
 enum class Outcome : std::uint8_t { done, refused };
 
 struct Seconds {
     double geometry = 0, passes = 0;
+    double audit = 0;  // of what the audit looked at while regions ran: its share of the wall clock
 };
 
 struct RenderResult {
@@ -39,6 +42,7 @@ struct RenderResult {
 struct FrameFragments {
     std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
     std::vector<std::uint32_t> opaque;            // of each pixel: the opaque surface's depth in the algorithm's key
+    static constexpr std::uint64_t bytes_a_fragment = 64;  // itself, and beside it what a file's writer makes of it
 };
 
 // Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
@@ -50,15 +54,20 @@ class Renderer {
              const RenderOptions& options);
     ~Renderer();
 
-    // A combination that the profile cannot run is refused: an outcome, not an exception.
+    // A combination that the profile cannot run is refused: an outcome, not an exception. Throws InputError if the fragments of
+    // one pixel are more than the audit's memory holds.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       const pipeline::Instruments& instruments = {});
+
+    // The same without an audit; `traces` gets the trace of every region.
+    [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces);
 
     // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in frame.depth.
     [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {},
                                           const pipeline::Instruments& instruments = {});
 
-    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused.
+    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused, and InputError if the
+    // fragments take more than the audit's memory.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;

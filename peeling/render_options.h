@@ -20,6 +20,7 @@ namespace strata::peeling {
 struct Algorithm;
 
 inline constexpr int tile_sizes[] = {8, 16, 32, 64, 128};
+inline constexpr std::uint64_t least_audit_memory = std::uint64_t{16} << 20;
 
 // How the first pass of a peel computes its positions (default: as the view says), and how further ones do (default: alike).
 struct VertexPaths {
@@ -49,7 +50,8 @@ struct RenderOptions {
         sorted;  // meshes or materials that arrive front to back, for hybrid; beside those that the scene names
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
-    std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments
+    // Bytes that replay may hold in captured fragments; and the audit as many, but no fewer than least_audit_memory.
+    std::uint64_t fragment_memory = std::uint64_t{256} << 20;
     std::optional<int> tile_size;                              // pixels; default: tile_size_of
     int threads = 0;
     Simd simd = Simd::best;  // of all kernels of this renderer

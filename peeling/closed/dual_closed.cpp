@@ -253,7 +253,7 @@ bool dual_closed(Region& region) {
     const std::size_t traced = shortcuts.trace().size();
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) { course.run(block); });
     if (!fragments || has_foreign_depths(*fragments, region.profile())) {
-        shortcuts.trace().resize(traced);
+        shortcuts.trace().shorten(traced);
         return false;
     }
     shortcuts.count(of_copy(rgba8_bytes, area) + of_clear(rgba8_bytes + rg32f_bytes, area),

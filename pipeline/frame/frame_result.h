@@ -4,16 +4,8 @@
 #include <vector>
 
 #include "pipeline/frame/region_books.h"
-#include "rasterizer/rules/raster_state.h"
 
 namespace strata::pipeline {
-
-// A region after its body: what the audit looks at.
-struct RegionTrace {
-    rasterizer::Rect rect;
-    std::size_t tile = 0;
-    std::vector<TraceEntry> entries;
-};
 
 struct Work {                     // what was really done; may differ by execution
     std::uint64_t fragments = 0;  // rasterized
@@ -30,7 +22,8 @@ struct FrameResult {
     Counters counters;
     Work work;
     std::vector<Diagnostic> diagnostics;
-    std::vector<RegionTrace> traces;
+    std::vector<bool> answers;  // to the frame's queries: a script for whoever runs a part of it again
+    double watched = 0;         // the watch's share of the time that was spent in regions
     PassLog pass_log;  // where Instruments ask for it
 };
 

@@ -14,13 +14,6 @@
 
 namespace strata::pipeline {
 
-// One step of what a pixel composited, in the order in which it happened; see Outputs::side.
-struct TraceEntry {
-    std::uint32_t pixel = 0, key = 0, primitive = 0;
-    Side side = Side::none;
-    bool is_fragment = false;  // `primitive` counts; false: a layer, known by its key alone
-};
-
 // What one iteration (or what stands before the first and after the last) did in one region.
 struct IterationRecord {
     Counters counters;
@@ -49,7 +42,6 @@ struct RegionBooks {
     Target published;     // what the body leaves: its final colour
     std::vector<KeptLayer> layers;
     std::size_t idle_layers = 0;  // the last ones, kept while idle: empty
-    std::vector<TraceEntry> trace;
     std::vector<Diagnostic> diagnostics;
     PassLog pass_log;
     std::uint64_t fragments_drawn = 0;

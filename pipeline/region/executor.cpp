@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 
 #include "pipeline/frame/verdict.h"
 #include "pipeline/region/region.h"
@@ -24,12 +25,13 @@ struct RegionRun {
 class FrameRun {
   public:
     FrameRun(const Frame& frame, const Body& body, Execution execution, int threads,
-             const std::function<void(double)>& progress, const Instruments& instruments)
+             const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch)
         : frame_{frame},
           body_{body},
           threads_{threads},
           progress_{progress},
           instruments_{instruments},
+          watch_{watch},
           extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
         const auto& geometry = frame.transparent->geometry;
         const std::size_t tiles =
@@ -107,6 +109,7 @@ class FrameRun {
         regions_[r] = regions_[twin_[r]];
         regions_[r].fragments = 0;
         copy(twin_[r], r, result_.color);
+        if (watch_.alike) watch_.alike(twin_[r], r);
         if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
     }
 
@@ -120,6 +123,7 @@ class FrameRun {
     }
 
     void run_region(std::size_t r, const std::vector<bool>& script) {
+        const Clock::time_point start = Clock::now();
         RegionBooks books;
         books.script = script;
         Region region{frame_, {rect(r), r, extent_}, books, instruments_, &scratch_};
@@ -131,6 +135,10 @@ class FrameRun {
         kept.fragments += books.fragments_drawn;
         kept.books = std::move(books);
         ++kept.runs;
+        const Clock::time_point ended = Clock::now();
+        if (watch_.ended) watch_.ended(region, r, result_.color);
+        time_in_bodies_ += (ended - start).count();
+        time_in_watch_ += (Clock::now() - ended).count();
         if (progress_)  // runs again count as well: never more than the whole
             progress_(std::min(1.0, static_cast<double>(++finished_) / static_cast<double>(regions_.size())));
     }
@@ -163,8 +171,11 @@ class FrameRun {
     // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
     // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
     void settle() {
-        if (extent_ == Extent::frame) return;
-        std::vector<bool> answers;
+        if (extent_ == Extent::frame) {
+            for (const Decision& d : regions_[0].books.decisions) result_.answers.push_back(d.answer);
+            return;
+        }
+        std::vector<bool>& answers = result_.answers;
         for (std::size_t d = 0;; ++d) {
             std::uint64_t sum = 0;
             bool anyone = false;
@@ -199,8 +210,9 @@ class FrameRun {
             for (const Diagnostic& d : books.diagnostics) merge(result_.diagnostics, d);
             gather_log(books.pass_log);
             result_.work.fragments += regions_[r].fragments;
-            if (frame_.trace) result_.traces.push_back({rect(r), r, std::move(books.trace)});
         }
+        const auto watched = static_cast<double>(time_in_watch_), bodies = static_cast<double>(time_in_bodies_);
+        result_.watched = watched > 0 ? watched / (watched + bodies) : 0;
         if (frame_.keep_layers) gather_layers();
     }
 
@@ -253,11 +265,14 @@ class FrameRun {
         }
     }
 
+    using Clock = std::chrono::steady_clock;
+
     const Frame& frame_;
     const Body& body_;
     int threads_;
     const std::function<void(double)>& progress_;
     Instruments instruments_;
+    const Watch& watch_;
     Extent extent_;
     RegionScratchPool scratch_;
     std::vector<RegionRun> regions_;
@@ -265,15 +280,16 @@ class FrameRun {
     std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
     FrameResult result_;
     std::atomic<std::size_t> finished_{0};
+    std::atomic<Clock::rep> time_in_bodies_{0}, time_in_watch_{0};
 };
 
 }  // namespace
 
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
-                const std::function<void(double)>& progress, const Instruments& instruments) {
+                const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch) {
     const FloatEnvironment ours;
     const auto run_as = [&](const Frame& given, Execution way) {
-        return FrameRun{given, body, way, threads, progress, instruments}.finish();
+        return FrameRun{given, body, way, threads, progress, instruments, watch}.finish();
     };
     Frame rasterized = frame;  // in every pass
     rasterized.replay = {};

@@ -21,8 +21,18 @@ class Region;
 
 using Body = std::function<void(Region&)>;  // once a region, never a fragment
 
+// Looks at regions while their targets and traces are there, from any thread. A region that runs again is looked at again, and
+// what was seen before is void; so is all of it if the frame is run again as a whole.
+struct Watch {
+    // Region number `region` (a tile, or 0: the frame) has ended, and its part of `color` is written.
+    std::function<void(Region&, std::size_t region, const Image& color)> ended{};
+    // Region `region` is blank, and did not run: it left what region `like`, of the same size, left.
+    std::function<void(std::size_t like, std::size_t region)> alike{};
+};
+
 // `progress`, if any, is called now and then with the share done, from any thread.
 [[nodiscard]] FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
-                              const std::function<void(double)>& progress = {}, const Instruments& instruments = {});
+                              const std::function<void(double)>& progress = {}, const Instruments& instruments = {},
+                              const Watch& watch = {});
 
 }  // namespace strata::pipeline

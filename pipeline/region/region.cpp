@@ -12,6 +12,7 @@
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 
 namespace strata::pipeline {
@@ -49,6 +50,7 @@ Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books,
       pool_{pool},
       scratch_{pool == nullptr ? std::make_unique<RegionScratch>() : pool->take()},
       rasterizer_{std::make_unique<rasterizer::TileRasterizer>(place.rect)} {
+    scratch_->trace.start(frame.trace_bytes);
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
     books_.counts = false;
@@ -59,6 +61,8 @@ Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books,
     if (!opaque_depth_is_cleared_) draw_opaque();
     books_.counts = true;
 }
+
+Trace& Region::traced() noexcept { return scratch_->trace; }
 
 Region::~Region() {
     if (pool_ != nullptr) pool_->give(std::move(scratch_));
@@ -156,7 +160,12 @@ void Region::draw_opaque() {
 
 std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
     books_.counts = bookkeeping == Bookkeeping::counted;
+    std::uint64_t fragments = 0;
+    std::vector<std::uint32_t> coverage(rect_.area());
+    RegionShortcuts{*this}.count_coverage(coverage);
+    for (const std::uint32_t of_pixel : coverage) fragments += of_pixel;
     std::vector<CapturedFragment> all;
+    all.reserve(fragments);
     PassState state;
     state.needs = {
         .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};

@@ -20,6 +20,7 @@
 #include "pipeline/frame/instruments.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/region_books.h"
+#include "pipeline/frame/trace.h"
 #include "pipeline/region/target_storage.h"
 #include "pipeline/textures/depth_texels.h"
 #include "pipeline/vertices/prepare.h"
@@ -110,7 +111,7 @@ class Region {
     template <FragmentProgram P>
     void trace_pixels(Target read, P&& program);
     // The same of one step that no pass shows.
-    void trace(const TraceEntry& entry) { books_.trace.push_back(entry); }
+    void trace(const TraceEntry& entry) { traced().push_back(entry); }
 
     // The frame's answer to "is the count above the limit that --termination sets?".
     // A promise belongs to the query that ends the loop, the last act of its iteration: a region that keeps it may stop there.
@@ -142,6 +143,8 @@ class Region {
   private:
     friend class RegionShortcuts;
 
+    [[nodiscard]] Trace& traced() noexcept;  // in the scratch
+
     enum class PassKind : std::uint8_t { geometry, full_screen };
 
     template <FragmentProgram P>
@@ -155,6 +158,7 @@ class Region {
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] FragmentStore& store() noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
     [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
     [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list);
     [[nodiscard]] bool sums_suit_rows(const PassState& state);

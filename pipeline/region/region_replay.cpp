@@ -24,13 +24,17 @@ const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
     return *needs;
 }
 
+std::span<const std::uint32_t> Region::triangles_of(const PreparedDraw& list) const noexcept {
+    return extent_ == Extent::frame ? std::span<const std::uint32_t>{list.geometry.all_triangles}
+                                    : list.geometry.bin(tile_);
+}
+
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink sink) {
     samples_textures_ = needs.color && needs_of_tile(list).texcoord;
     takes_shadow_ = needs.color && list.needs.shadow != 0;
     const auto& geometry = list.geometry;
-    const auto triangles =
-        extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
+    const auto triangles = triangles_of(list);
     if (primitives.empty()) rasterizer_->draw(geometry, triangles, frame_.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
         return geometry.triangles[triangle].primitive < primitive;

@@ -8,6 +8,7 @@
 #include "pipeline/frame/pass.h"
 #include "pipeline/region/arena.h"
 #include "pipeline/region/fragment_store.h"
+#include "pipeline/frame/trace.h"
 
 namespace strata::pipeline {
 
@@ -25,6 +26,7 @@ struct alignas(64) RegionScratch {
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     FragmentStore store;
+    Trace trace;
     Arena arena;
 };
 

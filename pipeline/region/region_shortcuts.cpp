@@ -18,7 +18,7 @@ void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
     };
     const Frame& frame = region_.frame_;
     const rasterizer::Geometry& geometry = frame.transparent->geometry;
-    region_.rasterizer_->draw(geometry, geometry.bin(region_.tile_), frame.key_request(), nothing,
+    region_.rasterizer_->draw(geometry, region_.triangles_of(*frame.transparent), frame.key_request(), nothing,
                               rasterizer::BatchSink{add});
 }
 
@@ -33,7 +33,7 @@ void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect
     region_.takes_shadow_ = needs.color && list.needs.shadow != 0;
     if (region_.takes_shadow_) needs.units |= list.needs.shadow;
     rasterizer::TileRasterizer rows{band};
-    auto triangles = list.geometry.bin(region_.tile_);
+    auto triangles = region_.triangles_of(list);
     for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
         part = std::min(part, triangles.size());
         rows.draw(list.geometry, triangles.first(part), region_.frame_.key_request(), needs, sink);

@@ -35,8 +35,8 @@ class RegionShortcuts {
 
     // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
     void count_coverage(std::span<std::uint32_t> coverage);
-    // program(batch, outputs) for the list's fragments in `band`, whole rows of this region, after MASK; `pixel` counts from the
-    // band's first. Once the program answers false it sees no more, and so does the caller.
+    // program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` counts row by row from
+    // the band's first. Once the program answers false it sees no more, and so does the caller.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
     // The same fragments without batches, where rows have their depths and colours; whoever walks them says how many they were.
@@ -51,7 +51,7 @@ class RegionShortcuts {
     [[nodiscard]] Arena& arena() noexcept;                          // free again when the region is gone
     void count(const Counters& counters, const PassCount& passes);  // what a pass would have counted
     [[nodiscard]] static Count counted(std::uint64_t own) noexcept { return Count{own}; }
-    [[nodiscard]] std::vector<TraceEntry>& trace() noexcept { return region_.books_.trace; }
+    [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }
 
     // A full-screen pass without a program, for targets of these formats: counts a pass that reads and writes every pixel and hands
     // out its words. Nothing, and nothing counted, where a kernel must not stand in for the pass.

@@ -195,7 +195,7 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
 void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
-            books_.trace.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
+            scratch_->trace.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
                                     out.side[i], kind_ == PassKind::geometry});
 }
 

@@ -7,6 +7,7 @@
 #include "tests/peeling/rendering.h"
 #include "tests/pipeline/frames.h"
 #include "tests/support/random_numbers.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace {
 
@@ -42,9 +43,10 @@ struct Passes {
     // Depths of pixel 0 that were composited since the last call, in units.
     std::vector<double> composited() {
         std::vector<double> depths;
-        for (const TraceEntry& e : books.trace)
-            if (e.pixel == 0) depths.push_back(128.0 * std::bit_cast<float>(e.key));
-        books.trace.clear();
+        for (std::size_t i = 0; i < RegionShortcuts{region}.trace().size(); ++i)
+            if (const TraceEntry& e = RegionShortcuts{region}.trace()[i]; e.pixel == 0)
+                depths.push_back(128.0 * std::bit_cast<float>(e.key));
+        RegionShortcuts{region}.trace().clear();
         return depths;
     }
 };
