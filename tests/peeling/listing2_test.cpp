@@ -5,6 +5,7 @@
 
 #include "peeling/programs/layer_quads.h"
 #include "pipeline/geforce3/texture_environment.h"
+#include "pipeline/region/executor.h"
 #include "pipeline/region/fragment_path.h"
 #include "pipeline/vertices/matrix.h"
 #include "rasterizer/values/depth_quotient.h"

@@ -74,6 +74,7 @@ RenderResult render(const FragmentScene& scene, const Algorithm& broken, Executi
     const DrawList list = draw_list(scene);
     RenderOptions options = options_for(scene);
     options.execution = execution;
+    options.fragment_memory = 0;  // else replay runs the closed form of what was broken
     options.tile_size = 8;
     Renderer renderer{list, {}, *find_profile("geforce8"), options};
     return renderer.render(broken);

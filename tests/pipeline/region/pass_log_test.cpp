@@ -10,7 +10,7 @@ using strata::testing::TestFrame;
 
 namespace {
 
-constexpr int side = 64, tile = 8, tiles = (side / tile) * (side / tile), passes = 40;
+constexpr int side = 64, tile = 8, tiles = (side / tile) * (side / tile), draws = 40;
 
 FragmentScene one_fragment_a_pixel() {
     FragmentScene scene{side, side};
@@ -27,7 +27,7 @@ void marked_passes(Region& region) {
     PassState state;
     state.color[0] = region.make_color();
     state.alpha = {.enabled = true, .func = CompareFunc::always, .ref = tile_of(region.rect())};
-    for (int pass = 0; pass < passes; ++pass) {
+    for (int pass = 0; pass < draws; ++pass) {
         region.begin_iteration();
         const Drawn drawn =
             region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; });
@@ -46,23 +46,23 @@ TEST_CASE("a pass log holds every region's passes in the order of the regions, w
     const TestFrame test{one_fragment_a_pixel(), "ideal", tile};
     for (const int threads : {1, 2, 8}) {
         const PassLog log = logged(test, Execution::replay, threads).pass_log;
-        REQUIRE(log.passes.size() == static_cast<std::size_t>(tiles * passes));
+        REQUIRE(log.passes.size() == static_cast<std::size_t>(tiles * draws));
         int wrong = 0;
-        for (int i = 0; i < tiles * passes; ++i) {
+        for (int i = 0; i < tiles * draws; ++i) {
             const PassRecord& record = log.passes[static_cast<std::size_t>(i)];
-            wrong += record.state.alpha.ref != static_cast<float>(i / passes) || record.iteration != i % passes + 1;
+            wrong += record.state.alpha.ref != static_cast<float>(i / draws) || record.iteration != i % draws + 1;
         }
         INFO(threads << " threads");
         CHECK(wrong == 0);
-        CHECK(log.queries == tiles * passes / 4);
+        CHECK(log.queries == tiles * draws / 4);
     }
 }
 
 TEST_CASE("literal execution logs the frame's passes once") {
     const TestFrame test{one_fragment_a_pixel(), "ideal", tile};
     const PassLog log = logged(test, Execution::literal, 4).pass_log;
-    CHECK(log.passes.size() == static_cast<std::size_t>(passes));
-    CHECK(log.queries == passes / 4);
+    CHECK(log.passes.size() == static_cast<std::size_t>(draws));
+    CHECK(log.queries == draws / 4);
 }
 
 TEST_CASE("a run that nobody asked to log keeps no log") {

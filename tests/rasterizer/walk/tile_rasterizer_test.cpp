@@ -90,7 +90,7 @@ TEST_CASE("every instruction set hands out the batches of the scalar twins, to t
             const Geometry geometry = random_triangles(128 + static_cast<std::uint64_t>(size), count, size, device);
             for (const FragmentNeeds& needs : {depth_only, no_exact_code, everything})
                 for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}}) {
-                    const strata::SimdScope twins{strata::Simd::scalar};
+                    const strata::SimdScope scalar_kernels{strata::Simd::scalar};
                     const Batches twins = batches_of(geometry, device.depth, needs, region);
                     fragments += twins.fragments.size();
                     for (const strata::Simd simd : strata::available_simd()) {
