@@ -10,6 +10,7 @@
 #include "pipeline/formats/image.h"
 #include "pipeline/stages/lane_words.h"
 #include "pipeline/stages/target.h"
+#include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/uninitialized.h"
 #include "rasterizer/coverage/fragment_batch.h"
 
@@ -75,7 +76,6 @@ class TargetStorage {
 };
 
 // What a colour target of this format holds of a colour; 0 for depth and stencil.
-[[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding,
-                                                       const std::array<float, 4>& color);
+[[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color);
 
 }  // namespace strata::pipeline

@@ -19,8 +19,8 @@ namespace strata::pipeline {
 
 namespace {
 
-double determinant(const Matrix& m) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+double linear_determinant(const Matrix& m) {
+    const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
            a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
 }
@@ -57,7 +57,7 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .material = instance.material,
                          .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
                          .double_sided = material.double_sided,
-                         .mirrored = determinant(instance.model) < 0});
+                         .mirrored = linear_determinant(instance.model) < 0});
 }
 
 // What the options ask for beside the soup's vertices, in their order: r and q, texture units.

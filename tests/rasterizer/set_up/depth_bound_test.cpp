@@ -2,6 +2,7 @@
 #include "rasterizer/set_up/depth_bound.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "rasterizer/walk/tile_rasterizer.h"
@@ -56,4 +57,43 @@ TEST_CASE("the bound of several triangles is the greatest of theirs, and of none
         greatest = std::max(greatest, depth_bound(geometry, {&i, 1}));
     CHECK(depth_bound(geometry, geometry.all_triangles) >= greatest - 0x1p-18);
     CHECK(depth_bound(geometry, geometry.all_triangles) <= greatest + 0x1p-18);
+}
+
+TEST_CASE("the bound is in depths from 0 to 1 where vertex depth counts the codes of a buffer") {
+    int beyond = 0, far_off = 0, drawn = 0;
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d32f}) {
+        RasterState state = scene_state(61, 47);
+        state.depth_format = format;
+        const TriangleSoup soup = random_soup(902, 60, SoupKind::perspective);
+        const Geometry scaled = set_up(soup, state, {.window_z = WindowZ::buffer_units}, 1);
+        const Geometry unit = set_up(soup, state, {}, 1);
+        REQUIRE(scaled.triangles.size() == unit.triangles.size());
+        for (std::uint32_t i = 0; i < scaled.triangles.size(); ++i) {
+            const float greatest = greatest_z(scaled, {&i, 1});
+            if (greatest == -std::numeric_limits<float>::infinity()) continue;
+            ++drawn;
+            const double bound = depth_bound(scaled, {&i, 1});
+            beyond += double{greatest} > bound ? 1 : 0;
+            far_off += std::abs(bound - depth_bound(unit, {&i, 1})) > 0x1p-20 ? 1 : 0;
+        }
+    }
+    CHECK(beyond == 0);
+    CHECK(far_off == 0);
+    CHECK(drawn > 100);
+}
+
+TEST_CASE(
+    "a plane through unsnapped corners is bounded by as far as cutting or rounding moves a corner, along its slope") {
+    // z = x / 16 per pixel: a fragment strays past its corners by at most the snap, and a bound allows for all of it.
+    for (const Snap snap : {Snap::toward_zero, Snap::nearest_even})
+        for (const int bits : {4, 8}) {
+            const RasterRules rules{.subpixel_bits = bits, .snap = snap, .plane_origin = PlaneOrigin::unsnapped};
+            SetupTriangle t = window_triangle({{{0, 0}, {8 << bits, 0}, {0, 8 << bits}}}, bits, {0.0, 0.5, 0.0});
+            const Geometry geometry = window_geometry({t}, 16, 16, rules);
+            const std::uint32_t only = 0;
+            const double subpixel = 1.0 / (1 << bits), reach = snap == Snap::toward_zero ? subpixel : subpixel / 2;
+            const double bound = depth_bound(geometry, {&only, 1});
+            CHECK(bound >= 0.5 + reach / 16);
+            CHECK(bound <= 0.5 + reach / 16 + 0x1p-19);
+        }
 }

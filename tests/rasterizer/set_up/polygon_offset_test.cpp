@@ -101,3 +101,69 @@ TEST_CASE("polygon offset moves every fragment's depth by the same amount, and o
     CHECK(compared > 1000);
     CHECK(wrong == 0);
 }
+
+TEST_CASE("the offset is slope times factor plus units, in the units of vertex z of every format and convention") {
+    Random random{84};
+    std::uint64_t wrong = 0, cases = 0;
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f})
+        for (const WindowZ convention : {WindowZ::unit_interval, WindowZ::buffer_units})
+            for (int n = 0; n < 200; ++n) {
+                const std::array p{random_point(random, 40, 40, 4), random_point(random, 40, 40, 4),
+                                   random_point(random, 40, 40, 4)};
+                if (abs(doubled_area(p[0], p[1], p[2])) < 4096) continue;
+                RasterState state;
+                state.depth_format = format;
+                state.polygon_offset = {true, random_float(random, -4, 4), random_float(random, -50, 50)};
+                const bool scaled = convention == WindowZ::buffer_units && format != DepthFormat::d32f;
+                // One code of the format: d16f has 65,535 of them up to 511.9375, whatever their distances.
+                const Rational codes = format == DepthFormat::d24 ? 16777215 : 65535;
+                const Rational depth_1 = !scaled                       ? Rational{1}
+                                         : format == DepthFormat::d16f ? Rational{8191, 16}
+                                                                       : codes;
+                std::array<float, 3> z;
+                for (float& each : z) each = random_float(random, 0.25f, 1) * nearest_float(depth_1);
+                const float largest = std::max({z[0], z[1], z[2]});
+                const Rational unit =
+                    format == DepthFormat::d32f ? power(floor_log2(Rational{largest}) - 23) : Rational{depth_1 / codes};
+                const Rational exact = model_slope(p, z, 4) * Rational{state.polygon_offset.factor} +
+                                       unit * Rational{state.polygon_offset.units};
+                const Rational found{polygon_offset(p, z, state, {.subpixel_bits = 4, .window_z = convention})};
+                ++cases;
+                wrong += abs(found - exact) > depth_1 * power(-40) ? 1 : 0;
+            }
+    CHECK(cases > 1000);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("an offset beyond 2^64 is 2^64, either way") {
+    RasterState state;
+    state.depth_format = DepthFormat::d24;
+    state.polygon_offset = {true, 0.0f, 1e30f};
+    CHECK(only_offset(state, {}, {0, 0, 0}) == 0x1p64);
+    state.polygon_offset = {true, -1e20f, 0.0f};
+    CHECK(only_offset(state, {.window_z = WindowZ::buffer_units}, {0, 1e7f, 0}) == -0x1p64);
+}
+
+TEST_CASE("set-up adds a triangle's offset to the depth of its three corners, and to no vertex that others share") {
+    TriangleSoup soup = random_soup(85, 60, SoupKind::perspective);
+    for (TriangleRun& run : soup.runs) run.double_sided = true;
+    for (std::size_t i = 3; i < soup.indices.size(); i += 3) soup.indices[i] = soup.indices[i - 1];
+    RasterState state = scene_state(48, 48);
+    const Geometry plain = set_up(soup, state, {}, 1);
+    state.polygon_offset = {true, 1.25f, -7.0f};
+    const Geometry moved = set_up(soup, state, {}, 1);
+    REQUIRE(moved.triangles.size() == plain.triangles.size());
+    std::uint64_t wrong = 0;
+    for (std::size_t i = 0; i < plain.triangles.size(); ++i) {
+        const std::array<double, 3> z = plain.depths(i), found = moved.depths(i);
+        const std::array<float, 3> corners{static_cast<float>(z[0]), static_cast<float>(z[1]),
+                                           static_cast<float>(z[2])};
+        const double offset = polygon_offset(plain.points(plain.triangles[i]), corners, state, {});
+        for (std::size_t k = 0; k < 3; ++k) {
+            wrong += found[k] != z[k] + offset || offset == 0.0 ? 1 : 0;
+            const std::uint32_t v = plain.triangles[i].vertex[k];
+            wrong += moved.corners[v].z != plain.corners[v].z ? 1 : 0;
+        }
+    }
+    CHECK(wrong == 0);
+}

@@ -1,5 +1,6 @@
 // Texture units at fragments, against the rational plane: u (1/w) rounded, plane rounded, quotient rounded.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "rasterizer/values/depth_paths.h"
 #include "tests/rasterizer/rational.h"
@@ -98,4 +99,43 @@ TEST_CASE("under another hypothesis texture units are interpolated as r and q ar
                     BatchSink{sink});
     CHECK(fragments > 400);
     CHECK(wrong == 0);
+}
+
+TEST_CASE(
+    "fewer bits of the interpolants count in texture units whatever the rule for divides, and either alone changes "
+    "them") {
+    Random random{503};
+    RasterState state;
+    state.viewport = {0, 0, 32, 32};
+    const TriangleSoup soup = soup_of(random, 12, false);
+    const auto first_unit = [&](int bits, DivideRule rule) {
+        RasterRules rules;
+        rules.hypothesis.interpolant_bits = bits;
+        rules.hypothesis.divide = rule;
+        const Geometry g = set_up(soup, state, rules, 1);
+        constexpr FragmentNeeds needs{.shader_z = false, .code = false, .color = false, .units = 0x0001};
+        std::vector<float> values;
+        auto sink = [&](FragmentBatch& batch) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                values.push_back(batch.unit[0][0][i]);
+        };
+        TileRasterizer{state.viewport}.draw(g, g.all_triangles, {}, needs, BatchSink{sink});
+        return values;
+    };
+    const std::vector<float> plain = first_unit(24, DivideRule::exact);
+    REQUIRE(plain.size() > 400);
+    for (const int bits : {24, 16})
+        for (const DivideRule rule : {DivideRule::exact, DivideRule::cut_reciprocal}) {
+            if (bits == 24 && rule == DivideRule::exact) continue;
+            const std::vector<float> other = first_unit(bits, rule);
+            REQUIRE(other.size() == plain.size());
+            std::size_t changed = 0, far = 0;
+            for (std::size_t i = 0; i < plain.size(); ++i) {
+                changed += other[i] != plain[i] ? 1 : 0;
+                // Sums may cancel: what is left is that share of the greatest corner, 100 times the range of 1/w.
+                far += std::abs(other[i] - plain[i]) > (bits == 16 ? 0x1p-5f : 0x1p-13f) ? 1 : 0;
+            }
+            CHECK(changed > plain.size() / 10);
+            CHECK(far == 0);
+        }
 }

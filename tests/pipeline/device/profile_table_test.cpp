@@ -1,0 +1,210 @@
+// The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal, llvmpipe.
+#include <catch2/catch.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/device/profile.h"
+#include "pipeline/device/profile_fields.h"
+
+namespace {
+
+using namespace strata::pipeline;
+
+struct FieldOfDevices {
+    std::string_view key;
+    std::array<std::string_view, 5> value;
+};
+
+constexpr FieldOfDevices device_table[] = {
+    {"raster.subpixel_bits", {"4", "8", "8", "8", "8"}},
+    {"raster.snap", {"toward_zero", "nearest_even", "nearest_even", "nearest_even", "nearest_even"}},
+    {"raster.tie_rule", {"top_left", "top_left", "top_left", "top_left", "bottom_left"}},
+    {"raster.guard_band_px", {"32768", "32768", "32768", "32768", "32768"}},
+    {"raster.z_clip", {"per_fragment", "per_primitive", "per_primitive", "per_primitive", "per_primitive"}},
+    {"raster.w_clip", {"clip", "clip", "clip", "clip", "clip"}},
+    {"raster.w_divide", {"reciprocal", "quotient", "quotient", "quotient", "reciprocal"}},
+    {"raster.viewport", {"separate", "separate", "separate", "separate", "separate"}},
+    {"raster.plane_origin", {"snapped", "snapped", "snapped", "snapped", "unsnapped"}},
+    {"raster.window_z", {"buffer_units", "unit_interval", "unit_interval", "unit_interval", "unit_interval"}},
+    {"raster.depth_path", {"window_z", "float32", "float32", "exact", "float32"}},
+    {"raster.depth_rounding", {"floor", "nearest", "nearest", "nearest", "nearest"}},
+    {"raster.offset_unit", {"format", "format", "format", "format", "format"}},
+    {"raster.color", {"weights_8bit", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
+    {"raster.interpolant_bits", {"24", "24", "24", "24", "24"}},
+    {"raster.divide", {"exact", "exact", "exact", "exact", "exact"}},
+    {"raster.window_z_rule", {"chip", "chip", "chip", "chip", "chip"}},
+    {"raster.reciprocal_bits", {"28", "28", "28", "28", "28"}},
+    {"raster.sum_bits", {"29", "29", "29", "29", "29"}},
+    {"raster.quantize_reference", {"true", "true", "true", "true", "true"}},
+    {"raster.plane_anchor", {"first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex"}},
+    {"raster.vertex_color_bits", {"14", "24", "24", "24", "24"}},
+    {"raster.perspective_color", {"edge_products", "edge_products", "edge_products", "edge_products", "edge_products"}},
+    {"raster.texture_coordinates", {"cut_weights", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
+    {"alpha_test", {"unorm8", "by_target", "by_target", "by_target", "by_target"}},
+    {"blend_rounding", {"nearest", "nearest", "nearest", "nearest", "nearest"}},
+    {"half_rounding", {"nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even"}},
+    {"min_max_nan", {"other_operand", "other_operand", "other_operand", "other_operand", "other_operand"}},
+    {"denormals", {"flush", "flush", "flush", "keep", "flush"}},
+    {"texture_filter", {"unorm8", "single", "single", "single", "single"}},
+    {"has_d16", {"true", "false", "false", "true", "true"}},
+    {"has_d24", {"true", "true", "true", "true", "true"}},
+    {"has_d32f", {"false", "true", "true", "true", "true"}},
+    {"has_d16f", {"true", "false", "false", "false", "false"}},
+    {"has_narrow_surfaces", {"true", "false", "false", "false", "false"}},
+    {"has_float_targets", {"false", "true", "true", "true", "true"}},
+    {"has_unclamped_depth_clear", {"false", "true", "true", "true", "true"}},
+    {"has_fragment_programs", {"false", "true", "true", "true", "true"}},
+    {"has_separate_alpha_blend", {"false", "true", "true", "true", "true"}},
+    {"has_independent_blend", {"false", "false", "true", "true", "true"}},
+    {"has_two_sided_stencil", {"false", "true", "true", "true", "true"}},
+    {"has_depth_clamp", {"true", "true", "true", "true", "true"}},
+    {"has_depth_replace", {"true", "false", "false", "true", "false"}},
+    {"has_sequential_depth_units", {"true", "true", "true", "true", "true"}},
+    {"has_ordered_rmw", {"false", "false", "false", "true", "false"}},
+    {"has_signed_blend", {"true", "false", "false", "false", "false"}},
+    {"max_render_targets", {"1", "8", "8", "8", "8"}},
+    {"max_texture_units", {"4", "16", "16", "16", "32"}},
+    {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384"}},
+    {"max_samples", {"4", "8", "8", "8", "4"}},
+};
+
+struct NamesOfField {
+    std::string_view key;
+    std::vector<std::string_view> names;  // of values 0, 1, ...
+};
+
+// In the order of the enums, as their headers write them.
+const std::vector<NamesOfField> choice_names{
+    {"raster.snap", {"toward_zero", "nearest_even"}},
+    {"raster.tie_rule", {"top_left", "bottom_left", "top_right", "bottom_right"}},
+    {"raster.z_clip", {"per_primitive", "per_fragment"}},
+    {"raster.w_clip", {"clip", "drop"}},
+    {"raster.w_divide", {"quotient", "reciprocal", "nv20"}},
+    {"raster.viewport", {"separate", "fused"}},
+    {"raster.plane_origin", {"snapped", "unsnapped"}},
+    {"raster.window_z", {"unit_interval", "buffer_units"}},
+    {"raster.depth_path", {"window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact"}},
+    {"raster.depth_rounding", {"floor", "nearest"}},
+    {"raster.offset_unit", {"format", "float_exponent"}},
+    {"raster.color", {"exact_plane", "weights_8bit"}},
+    {"raster.interpolant_bits", {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"}},
+    {"raster.divide", {"exact", "cut_reciprocal", "low_reciprocal"}},
+    {"raster.window_z_rule", {"chip", "exact", "float32"}},
+    {"raster.plane_anchor", {"first_vertex", "window_corner"}},
+    {"raster.perspective_color", {"edge_products", "weight_products"}},
+    {"raster.texture_coordinates", {"exact_plane", "cut_weights"}},
+    {"alpha_test", {"unorm8", "by_target"}},
+    {"blend_rounding", {"nearest", "truncate"}},
+    {"half_rounding", {"nearest_even", "toward_zero"}},
+    {"min_max_nan", {"other_operand", "propagate"}},
+    {"denormals", {"flush", "keep"}},
+    {"texture_filter", {"unorm8", "single"}},
+};
+
+[[nodiscard]] const ProfileField* field_named(std::string_view key) {
+    for (const ProfileField& field : profile_fields())
+        if (field.key == key) return &field;
+    return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("every field of every built-in device has the value of the devices' tables") {
+    REQUIRE(builtin_profiles().size() == 5);
+    REQUIRE(std::size(device_table) == profile_fields().size());
+    std::size_t at = 0;
+    for (const FieldOfDevices& expected : device_table) {
+        const ProfileField& field = profile_fields()[at++];
+        CHECK(field.key == expected.key);
+        for (std::size_t device = 0; device < 5; ++device) {
+            INFO(expected.key << " of " << builtin_profiles()[device].name);
+            CHECK(text_of(field, builtin_profiles()[device]) == expected.value[device]);
+        }
+    }
+}
+
+TEST_CASE("every choice is written as its enum names it, value by value, and reads back from its name's place") {
+    std::size_t choices = 0;
+    for (const ProfileField& field : profile_fields()) choices += field.kind == FieldKind::choice ? 1 : 0;
+    CHECK(choices == choice_names.size());
+    for (const NamesOfField& expected : choice_names) {
+        INFO(expected.key);
+        const ProfileField* const field = field_named(expected.key);
+        REQUIRE(field != nullptr);
+        CHECK(std::vector(field->choices.begin(), field->choices.end()) == expected.names);
+        DeviceProfile profile;
+        for (int value = 0; value < static_cast<int>(expected.names.size()); ++value) {
+            field->set(profile, value);
+            CHECK(text_of(*field, profile) == expected.names[static_cast<std::size_t>(value)]);
+        }
+    }
+}
+
+TEST_CASE("setting a choice sets the member that its key names, to the enumerator that its text names") {
+    using namespace strata::rasterizer;
+    DeviceProfile p;
+    const auto set = [&](std::string_view key, std::string_view text) {
+        const ProfileField& field = *field_named(key);
+        for (int value = field.lowest; value <= field.highest; value += field.step) {
+            field.set(p, value);
+            if (text_of(field, p) == text) return true;
+        }
+        return false;
+    };
+    CHECK((set("raster.snap", "toward_zero") && p.raster.snap == Snap::toward_zero));
+    CHECK((set("raster.tie_rule", "top_right") && p.raster.tie_rule == TieRule::top_right));
+    CHECK((set("raster.z_clip", "per_fragment") && p.raster.z_clip == ZClip::per_fragment));
+    CHECK((set("raster.w_clip", "drop") && p.raster.w_clip == WClip::drop));
+    CHECK((set("raster.w_divide", "nv20") && p.raster.w_divide == WDivide::nv20));
+    CHECK((set("raster.viewport", "fused") && p.raster.viewport == ViewportArithmetic::fused));
+    CHECK((set("raster.plane_origin", "unsnapped") && p.raster.plane_origin == PlaneOrigin::unsnapped));
+    CHECK((set("raster.window_z", "buffer_units") && p.raster.window_z == WindowZ::buffer_units));
+    CHECK((set("raster.depth_path", "depth_replace") && p.raster.depth_path == DepthPath::depth_replace));
+    CHECK((set("raster.depth_rounding", "floor") && p.raster.depth_rounding == DepthRounding::floor));
+    CHECK((set("raster.offset_unit", "float_exponent") && p.raster.offset_unit == OffsetUnit::float_exponent));
+    CHECK((set("raster.color", "weights_8bit") && p.raster.color == ColorInterpolation::weights_8bit));
+    CHECK((set("raster.interpolant_bits", "double") && p.raster.hypothesis.interpolant_bits == full_double));
+    CHECK((set("raster.interpolant_bits", "19") && p.raster.hypothesis.interpolant_bits == 19));
+    CHECK((set("raster.divide", "low_reciprocal") && p.raster.hypothesis.divide == DivideRule::low_reciprocal));
+    CHECK((set("raster.window_z_rule", "float32") && p.raster.hypothesis.window_z == WindowZRule::float32));
+    CHECK((set("raster.reciprocal_bits", "25") && p.raster.hypothesis.reciprocal_bits == 25));
+    CHECK((set("raster.sum_bits", "26") && p.raster.hypothesis.sum_bits == 26));
+    CHECK((set("raster.quantize_reference", "false") && !p.raster.hypothesis.quantize_reference));
+    CHECK((set("raster.plane_anchor", "window_corner") &&
+           p.raster.hypothesis.plane_anchor == PlaneAnchor::window_corner));
+    CHECK((set("raster.vertex_color_bits", "9") && p.raster.interpolation.vertex_color_bits == 9));
+    CHECK((set("raster.perspective_color", "weight_products") &&
+           p.raster.interpolation.perspective_color == PerspectiveColor::weight_products));
+    CHECK((set("raster.texture_coordinates", "cut_weights") &&
+           p.raster.interpolation.texture_coordinates == CoordinateRule::cut_weights));
+    CHECK((set("alpha_test", "unorm8") && p.alpha_test == AlphaTestPrecision::unorm8));
+    CHECK((set("blend_rounding", "truncate") && p.blend_rounding == BlendRounding::truncate));
+    CHECK((set("half_rounding", "toward_zero") && p.half_rounding == HalfRounding::toward_zero));
+    CHECK((set("min_max_nan", "propagate") && p.min_max_nan == MinMaxNan::propagate));
+    CHECK((set("denormals", "keep") && p.denormals == DenormalRule::keep));
+    CHECK((set("texture_filter", "unorm8") && p.texture_filter == TextureFilterPrecision::unorm8));
+    CHECK_FALSE(set("raster.subpixel_bits", "6"));
+    CHECK((set("raster.subpixel_bits", "12") && p.raster.subpixel_bits == 12));
+}
+
+TEST_CASE("a device says for every number where it is from, in its own column of sources") {
+    const auto source = [](std::string_view device, std::string_view key) {
+        for (const ProfileEntry& entry : describe(*find_profile(device)))
+            if (entry.key == key) return entry.source;
+        return std::string{};
+    };
+    const std::string_view limit = "max_render_targets";
+    for (const std::string_view device : {"geforce3", "geforce8", "llvmpipe"})
+        CHECK(source(device, limit).starts_with("["));
+    CHECK(source("geforce3", limit).find("one colour buffer") != std::string::npos);
+    CHECK(source("geforce8", limit).find("D3D 11.3") != std::string::npos);
+    CHECK(source("geforce8_dx101", limit) == source("geforce8", limit));
+    CHECK(source("llvmpipe", limit).find("GL_MAX_DRAW_BUFFERS") != std::string::npos);
+    CHECK(source("ideal", limit) == "ideal: no device");
+    DeviceProfile own = *find_profile("geforce8");
+    own.name = "mine";  // a file's profile of another name vouches for all of it
+    for (const ProfileEntry& entry : describe(own)) CHECK(entry.source == "the profile's own file");
+    for (const DeviceProfile& profile : builtin_profiles())
+        for (const ProfileEntry& entry : describe(profile)) CHECK(entry.source != "the profile's own file");
+}

@@ -1,0 +1,94 @@
+// The model: the table of GL 2.1 4.1.4 as sets of outcomes (stage_values.h), and a float's neighbours counted by their bits.
+#include "pipeline/device/compare.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "pipeline/stages/depth_compare.h"
+#include "tests/pipeline/stage_values.h"
+
+namespace {
+
+using namespace strata::pipeline;
+
+constexpr std::array every_function{CompareFunc::never,  CompareFunc::less,    CompareFunc::equal,
+                                    CompareFunc::lequal, CompareFunc::greater, CompareFunc::notequal,
+                                    CompareFunc::gequal, CompareFunc::always};
+
+template <class T>
+[[nodiscard]] bool compared(CompareFunc func, T a, T b) {
+    bool result = false;
+    int calls = 0;
+    with_compare(func, [&](auto chosen) {
+        result = passes<chosen()>(a, b);
+        ++calls;
+    });
+    return calls == 1 && result;
+}
+
+}  // namespace
+
+TEST_CASE("each function passes exactly its own outcomes, of integers, of floats and of what is not a number") {
+    constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),
+                    infinity = std::numeric_limits<float>::infinity();
+    int wrong = 0;
+    for (const CompareFunc func : every_function) {
+        for (const float a : {-infinity, -1.0f, -0.0f, 0.0f, 0x1p-149f, 1.0f, infinity, not_a_number})
+            for (const float b : {-infinity, -1.0f, -0.0f, 0.0f, 0x1p-149f, 1.0f, infinity, not_a_number})
+                wrong += compared(func, a, b) != model_compare(func, a, b) ? 1 : 0;
+        for (const std::uint32_t a : {0u, 1u, 0x7fffffffu, 0x80000000u, 0xffffffffu})
+            for (const std::uint32_t b : {0u, 1u, 0x7fffffffu, 0x80000000u, 0xffffffffu})
+                wrong += compared(func, a, b) != model_compare(func, a, b) ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK_FALSE(compared(CompareFunc::never, 1, 1));
+    CHECK(compared(CompareFunc::always, not_a_number, not_a_number));
+}
+
+TEST_CASE("a fragment of a batch is behind by its own reference code and depth, at every place of the batch") {
+    const auto batch = std::make_unique<strata::rasterizer::FragmentBatch>();
+    Random random{751};
+    int wrong = 0, behind = 0;
+    for (std::size_t i = 0; i < 256; ++i) {
+        batch->reference_code[i] = below(random, 65536);
+        batch->reference_z[i] = batch->reference_code[i] + 0.75;
+    }
+    for (const bool quantizes : {true, false})
+        for (const int ulps : {0, 1, 70000}) {
+            const DepthCompare compare{DepthFormat::d16, {0.0, ulps}, true, quantizes};
+            for (std::size_t i = 0; i < 256; ++i)
+                for (const int beside : {-1, 0, 1}) {
+                    const auto stored = static_cast<std::uint32_t>(
+                        std::clamp(static_cast<int>(batch->reference_code[i]) + beside, 0, 65535));
+                    const double raised = std::min(stored + static_cast<double>(ulps), 65535.0);
+                    const double own = batch->reference_code[i] + (quantizes ? 0.0 : 0.75);
+                    const bool expected = std::min(own, 65535.0) > raised;
+                    behind += expected ? 1 : 0;
+                    wrong += compare.is_behind(*batch, i, stored) != expected ? 1 : 0;
+                }
+        }
+    CHECK(wrong == 0);
+    CHECK(behind > 500);
+}
+
+TEST_CASE("steps of binary32 raise a depth above 0 alone: at 0 and below it there is nothing to step from") {
+    const DepthCompare steps{.epsilon = {0.0, 3}};
+    int wrong = 0;
+    for (const float b : {0x1p-149f, 0x1p-126f, 0.3f, 0.99999994f, 1.0f, 5.0f})
+        for (std::uint32_t apart = 0; apart < 6; ++apart) {
+            const float a = float_of(bits_of(b) + apart);
+            wrong += steps.exceeds(a, b) != (apart > 3) ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+    CHECK(steps.exceeds(0x1p-149f, 0.0f));
+    CHECK(steps.exceeds(0x1p-149f, -0.0f));
+    CHECK_FALSE(steps.exceeds(0.0f, 0.0f));
+    CHECK(steps.exceeds(-0.5f, std::nextafter(-0.5f, -1.0f)));
+    CHECK_FALSE(steps.exceeds(-0.5f, -0.5f));
+    const DepthCompare both{.epsilon = {0x1p-10, 3}};
+    CHECK_FALSE(both.exceeds(0.5 + 0x1p-10, 0.5));
+    CHECK_FALSE(both.exceeds(0.5 + 0x1p-10 + 3 * 0x1p-24, 0.5));
+    CHECK(both.exceeds(0.5 + 0x1p-10 + 4 * 0x1p-24, 0.5));
+}

@@ -1,0 +1,107 @@
+// The model: a plain loop; each index writes to a place of its own.
+#include "rasterizer/base/parallel.h"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "rasterizer/base/exact_sum.h"
+#include "rasterizer/base/input_error.h"
+#include "rasterizer/base/uninitialized.h"
+
+TEST_CASE("a parallel loop visits every index once, for any count and number of threads") {
+    std::size_t wrong = 0;
+    for (const int threads : {0, 1, 2, 3, 7})
+        for (const std::size_t count :
+             {std::size_t{0}, std::size_t{1}, std::size_t{2}, std::size_t{5}, std::size_t{1000}}) {
+            std::vector<int> visits(count + 1, 0);
+            strata::parallel_for(count, threads, [&](std::size_t i) { ++visits[i]; });
+            for (std::size_t i = 0; i < count; ++i) wrong += visits[i] != 1 ? 1 : 0;
+            wrong += visits[count] != 0 ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a loop inside a loop visits every pair once") {
+    std::vector<int> visits(40 * 30, 0);
+    strata::parallel_for(
+        40, 2, [&](std::size_t i) { strata::parallel_for(30, 2, [&, i](std::size_t k) { ++visits[30 * i + k]; }); });
+    CHECK(visits == std::vector<int>(40 * 30, 1));
+}
+
+TEST_CASE("an exception of a body reaches the caller with its words, from one thread or several") {
+    for (const int threads : {1, 2}) {
+        std::string words;
+        try {
+            strata::parallel_for(100, threads, [](std::size_t i) {
+                if (i == 42) throw std::runtime_error{"index 42"};
+            });
+        } catch (const std::runtime_error& error) {
+            words = error.what();
+        }
+        CHECK(words == "index 42");
+    }
+}
+
+TEST_CASE("a number of threads stands for itself, and 0 for what the machine has, at least one") {
+    CHECK(strata::thread_count(0) >= 1);
+    CHECK(strata::thread_count(1) == 1);
+    // A build without threads has one, whatever is asked for.
+    const bool is_serial = strata::thread_count(2) == 1;
+    for (const int n : {2, 3, 64}) CHECK(strata::thread_count(n) == (is_serial ? 1 : n));
+}
+
+TEST_CASE("an input error is one sentence: file, place, what was expected, what was found") {
+    const strata::InputError error{"a.glb", "/accessors/3", "a multiple of 4", "1026"};
+    CHECK(std::string{error.what()} == "a.glb: /accessors/3: expected a multiple of 4, found 1026");
+}
+
+TEST_CASE(
+    "a vector without first values keeps what is written, over growth, copies and moves, and may be given values") {
+    strata::UninitializedVector<std::uint32_t> numbers(1000);
+    for (std::uint32_t i = 0; i < 1000; ++i) numbers[i] = i * i;
+    numbers.resize(5000);
+    for (std::uint32_t i = 1000; i < 5000; ++i) numbers[i] = i * i;
+    const auto copy = numbers;
+    const auto moved = std::move(numbers);
+    std::size_t wrong = 0;
+    for (std::uint32_t i = 0; i < 5000; ++i) wrong += copy[i] != i * i || moved[i] != i * i ? 1 : 0;
+    CHECK(wrong == 0);
+    CHECK(copy == moved);
+    const strata::UninitializedVector<std::uint32_t> sevens(300, 7u);
+    CHECK(std::vector(sevens.begin(), sevens.end()) == std::vector<std::uint32_t>(300, 7));
+    strata::UninitializedVector<double> pushed;
+    for (int i = 0; i < 100; ++i) pushed.push_back(i / 2.0);
+    CHECK(pushed[99] == 49.5);
+}
+
+TEST_CASE("elements whose bytes no 64-bit number counts are refused before any memory is asked for") {
+    strata::UninitializedAllocator<std::uint64_t> allocator;
+    CHECK_THROWS_AS(static_cast<void>(allocator.allocate(static_cast<std::size_t>(-1) / 8 + 1)),
+                    std::bad_array_new_length);
+    CHECK_THROWS_AS(static_cast<void>(allocator.allocate(static_cast<std::size_t>(-1) / 8)), std::bad_alloc);
+    CHECK(allocator == strata::UninitializedAllocator<std::uint64_t>{});
+}
+
+TEST_CASE("an integer of 64 bits is one binary64 number up to 2^53, beyond it two that add up to it") {
+    using strata::rasterizer::as_terms;
+    constexpr std::int64_t edge = std::int64_t{1} << 53;
+    std::size_t wrong = 0;
+    for (const std::int64_t centre : {std::int64_t{0}, edge, -edge, edge * 16, -edge * 512})
+        for (std::int64_t n = centre - 3; n <= centre + 3; ++n) {
+            const auto [high, low] = as_terms(n);
+            wrong += static_cast<std::int64_t>(high) + static_cast<std::int64_t>(low) != n ? 1 : 0;
+            wrong += n >= -edge && n <= edge && low != 0.0 ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+    using strata::rasterizer::split;
+    for (const double v : {1.0, 1 + 0x1p-52, -0x1.fffffffffffffp100, 0x1.5555555555555p-30}) {
+        const auto [high, low] = split(v);
+        CHECK(high + low == v);
+        for (const double part : {high, low})  // 26 of 53 bits each: their products are exact
+            CHECK((std::bit_cast<std::uint64_t>(part) & 0x7ffffff) == 0);
+    }
+}

@@ -1,0 +1,174 @@
+// The model: the rule for unequal w of color_weights.h over rationals, every rounding to 53 bits and every cut written out.
+#include <catch2/catch.hpp>
+
+#include "rasterizer/values/color_weights.h"
+#include "tests/rasterizer/rational.h"
+#include "tests/rasterizer/support.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+
+constexpr int shade_bits = 4;
+
+// v >= 0 to 53 bits, to nearest, ties to even.
+[[nodiscard]] Rational to_53_bits(const Rational& v) {
+    if (v == 0) return v;
+    const Rational unit = power(floor_log2(v) - 52), scaled = v / unit;
+    Integer code = floor(scaled);
+    const Rational rest = scaled - Rational{code};
+    if (rest > Rational{1, 2} || (rest == Rational{1, 2} && (code & 1) != 0)) ++code;
+    return Rational{code} * unit;
+}
+
+using Shares = std::array<Rational, 3>;
+
+// Edge values of a centre: what is over each corner, in square subpixels.
+[[nodiscard]] EdgeValues values_of_edges(const SetupTriangle& t, int x, int y) {
+    const Shares b = barycentric(t.p, x, y, shade_bits);
+    EdgeValues e{};
+    for (std::size_t i = 0; i < 3; ++i)
+        e[i] = Integer{numerator(Rational{b[i] * Rational{abs(doubled_area(t.p[0], t.p[1], t.p[2]))}})}
+                   .convert_to<std::int64_t>();
+    return e;
+}
+
+[[nodiscard]] Shares perspective_shares(const EdgeValues& e, const std::array<float, 3>& inverse_w,
+                                        PerspectiveColor rule) {
+    const bool by_weights = rule == PerspectiveColor::weight_products;
+    const Rational reciprocal =
+        cut_to_bits(Rational{1} / Rational{e[0] + e[1] + e[2]}, 28);  // of the area, as the chip cuts it
+    Shares p;
+    for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = Rational{e[i]};
+        if (by_weights) p[i] = cut_to_bits(p[i] * reciprocal, 24);
+        p[i] = to_53_bits(p[i] * Rational{inverse_w[i]});
+        if (by_weights) p[i] = cut_to_bits(p[i], 24);
+    }
+    Rational r = to_53_bits(Rational{1} / to_53_bits(to_53_bits(p[0] + p[1]) + p[2]));
+    if (by_weights) r = cut_to_bits(r, 28);
+    for (Rational& each : p) each = cut_to_bits(to_53_bits(each * r), 24);
+    return p;
+}
+
+// Which vertex has what is left of 1: that of the largest exponent.
+[[nodiscard]] std::size_t vertex_of_the_rest(const Shares& b) {
+    std::array<int, 3> exponent;
+    for (std::size_t i = 0; i < 3; ++i) exponent[i] = b[i] == 0 ? -9999 : floor_log2(b[i]);
+    const int largest = std::max({exponent[0], exponent[1], exponent[2]});
+    const bool has0 = exponent[0] == largest, has1 = exponent[1] == largest, has2 = exponent[2] == largest;
+    if (has0 && has1 && has2) return 2;
+    if (has0 && has1) return 0;
+    if (has0 && has2) return 2;
+    if (has1 && has2) return 1;
+    return has0 ? 0 : has1 ? 1 : 2;
+}
+
+[[nodiscard]] std::array<int, 4> shaded(const SetupTriangle& t, Shares b, int leading_bits) {
+    const std::size_t rest = vertex_of_the_rest(b);
+    b[rest] = 1 - b[(rest + 1) % 3] - b[(rest + 2) % 3];
+    const Integer w0 = floor(256 * b[0]), w2 = floor(256 * b[2]), w1 = 256 - w0 - w2;
+    std::array<int, 4> codes;
+    for (std::size_t c = 0; c < 4; ++c) {
+        std::array<Integer, 3> v;
+        for (std::size_t i = 0; i < 3; ++i)
+            v[i] = floor(cut_to_bits(Rational{t.attribute[i][c]}, leading_bits) * 255 + Rational{1, 2});
+        codes[c] = floor(Rational{w0 * v[0] + w1 * v[1] + w2 * v[2] + 128, 256}).convert_to<int>();
+    }
+    return codes;
+}
+
+[[nodiscard]] SetupTriangle colored_triangle(Random& random, int n) {
+    while (true) {
+        std::array<SubpixelPoint, 3> p;
+        for (SubpixelPoint& c : p) c = random_point(random, 14, 14, shade_bits, n % 3 == 0 ? 2000 : 3);
+        if (doubled_area(p[0], p[1], p[2]) == 0) continue;
+        SetupTriangle t = window_triangle(p, shade_bits);
+        for (std::size_t i = 0; i < 3; ++i) {
+            t.inverse_w[i] = random_float(random, 0.05f, 4);
+            for (float& u : t.attribute[i]) u = random_float(random, 0, 1);
+        }
+        if (n % 4 == 0) t.inverse_w[1] = t.inverse_w[0];  // two of three equal are unequal all the same
+        return t;
+    }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "with unequal w colours are weighted by products with 1/w, of edge values or of cut weights, rounded as written") {
+    for (const PerspectiveColor rule : {PerspectiveColor::edge_products, PerspectiveColor::weight_products}) {
+        Random random{651};
+        std::uint64_t fragments = 0, wrong = 0;
+        for (int n = 0; n < 45; ++n) {
+            const SetupTriangle t = colored_triangle(random, n);
+            RasterRules rules{.subpixel_bits = shade_bits, .color = ColorInterpolation::weights_8bit};
+            rules.interpolation.perspective_color = rule;
+            rules.interpolation.vertex_color_bits = n % 2 == 0 ? 14 : 24;
+            for (const Fragment& f : draw(window_geometry({t}, 14, 14, rules), {}, everything).fragments) {
+                const auto expected = shaded(t, perspective_shares(values_of_edges(t, f.x, f.y), t.inverse_w, rule),
+                                             n % 2 == 0 ? 14 : 24);
+                ++fragments;
+                for (std::size_t c = 0; c < 4; ++c)
+                    wrong += f.color[c] != static_cast<float>(expected[c]) / 255.0f ? 1 : 0;
+            }
+        }
+        CHECK(fragments > 800);
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("weights that end on a 256th or a hair beside it fall on their own side, by either rule for products") {
+    // Edge values whose products with 1/w are k / 256 of their sum, the sum being `odd` times a power of two: r is inexact.
+    std::uint64_t wrong = 0, cases = 0, unlike = 0, not_whole = 0;
+    for (const std::int64_t odd : {3, 7, 13, 1021, 65537})
+        for (const auto& inverse_w :
+             {std::array{1.0f, 2.0f, 4.0f}, std::array{4.0f, 1.0f, 1.0f}, std::array{0.5f, 0.75f, 1.5f}})
+            for (int k0 = 1; k0 < 256; k0 += 9)
+                for (int k2 = 1; k0 + k2 < 256; k2 += 13) {
+                    const std::array<int, 3> k{k0, 256 - k0 - k2, k2};
+                    EdgeValues e{};
+                    for (std::size_t i = 0; i < 3; ++i)
+                        e[i] = static_cast<std::int64_t>(static_cast<double>(12 * odd * k[i]) / inverse_w[i]);
+                    std::array<std::array<std::int32_t, 3>, 2> found;
+                    for (const PerspectiveColor rule :
+                         {PerspectiveColor::edge_products, PerspectiveColor::weight_products}) {
+                        Shares b = perspective_shares(e, inverse_w, rule);
+                        const std::size_t rest = vertex_of_the_rest(b);
+                        b[rest] = 1 - b[(rest + 1) % 3] - b[(rest + 2) % 3];
+                        auto& w = found[static_cast<std::size_t>(rule)];
+                        w = ColorWeights{inverse_w, e[0] + e[1] + e[2], rule}.at(e);
+                        ++cases;
+                        wrong += Integer{w[0]} != floor(256 * b[0]) || Integer{w[2]} != floor(256 * b[2]) ||
+                                         w[0] + w[1] + w[2] != 256
+                                     ? 1
+                                     : 0;
+                        not_whole += w[0] != k0 || w[2] != k2 ? 1 : 0;
+                    }
+                    unlike += found[0] != found[1] ? 1 : 0;
+                }
+    CHECK(wrong == 0);
+    CHECK(cases > 3000);
+    CHECK(unlike > cases / 20);
+    CHECK(not_whole > cases / 20);
+}
+
+TEST_CASE(
+    "a vertex colour keeps as many leading bits as the hypothesis says, the rest is cut before it becomes 8 bits") {
+    Random random{653};
+    std::uint64_t wrong = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const float c = n % 3 == 0 ? random_float(random, 0, 0x1p-6f) : random_float(random, 0, 1);
+        for (int leading = 9; leading <= 24; ++leading) {
+            const Integer code = floor(cut_to_bits(Rational{c}, leading) * 255 + Rational{1, 2});
+            wrong += Integer{to_color_code(c, leading)} != code ? 1 : 0;
+        }
+    }
+    CHECK(wrong == 0);
+    for (const int leading : {9, 14, 24}) {
+        CHECK(to_color_code(1.0f, leading) == 255);
+        CHECK(to_color_code(0.0f, leading) == 0);
+        CHECK(to_color_code(std::numeric_limits<float>::quiet_NaN(), leading) == 0);
+        CHECK(to_color_code(std::numeric_limits<float>::infinity(), leading) == 255);
+    }
+}

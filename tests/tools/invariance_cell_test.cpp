@@ -1,0 +1,160 @@
+// Model: the planes of an orbit's projection from its matrix; lists of hypotheses from the profile's own.
+#include "tools/strata/invariance/invariance_cell.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "rasterizer/base/input_error.h"
+#include "rasterizer/rules/hypotheses.h"
+
+namespace {
+
+using namespace strata::tools;
+
+Cell small_cell() {
+    Cell cell;
+    cell.scene = "planes:count=2,cells=1";
+    cell.profile = "ideal";
+    cell.width = 16;
+    cell.height = 8;
+    cell.algorithm = strata::peeling::find_algorithm("front_to_back");
+    cell.write = cell.compare = strata::rasterizer::DepthPath::float32;
+    return cell;
+}
+
+CellRunner runner() {
+    strata::peeling::RenderOptions resources;
+    resources.threads = 1;
+    return {{}, resources};
+}
+
+// Near and far, as the projection has them.
+std::pair<double, double> planes_of(const CellView& view) {
+    const auto& m = view.view.projection;
+    return {m[14] / (m[10] - 1), m[14] / (m[10] + 1)};
+}
+
+}  // namespace
+
+TEST_CASE("a cell's depth range is the orbit's, the orbit's far plane with a ratio, or two planes of its own") {
+    CellRunner cells = runner();
+    Cell cell = small_cell();
+    const CellView orbit = cells.view(cell);
+    CHECK(orbit.far / orbit.near == Approx(3.6 / 1.4));
+    cell.range = {.ratio = 1000};
+    const CellView wide = cells.view(cell);
+    CHECK(wide.far == orbit.far);
+    CHECK(wide.near == Approx(orbit.far / 1000));
+    cell.range = {.near = 0.5, .far = 77};
+    const CellView own = cells.view(cell);
+    CHECK((own.near == 0.5 && own.far == 77));
+    for (const CellView& view : {orbit, wide, own}) {
+        CHECK(planes_of(view).first == Approx(view.near).epsilon(1e-9));
+        CHECK(planes_of(view).second == Approx(view.far).epsilon(1e-9));
+        CHECK(view.view.view == orbit.view.view);                               // the eye stays
+        CHECK(view.view.projection[5] / view.view.projection[0] == Approx(2));  // 16 x 8
+    }
+    cell.azimuth += 90;
+    CHECK(cells.view(cell).view.view != orbit.view.view);
+}
+
+TEST_CASE("a cell's grid of positions is the profile's unless it names one") {
+    CellRunner cells = runner();
+    for (const char* profile : {"geforce3", "ideal"})
+        for (const int bits : {0, 4, 8, 12}) {
+            Cell cell = small_cell();
+            cell.profile = profile;
+            cell.subpixel_bits = bits;
+            const int own = strata::pipeline::find_profile(profile)->raster.subpixel_bits;
+            CHECK(cells.view(cell).subpixel_bits == (bits == 0 ? own : bits));
+        }
+}
+
+TEST_CASE(
+    "the hypothesis all stands for the profile and each constant that it leaves open, once, in the list's order") {
+    CellRunner cells = runner();
+    Cell open = small_cell(), plain = small_cell();
+    open.profile = "geforce3";
+    open.hypothesis = "all";
+    plain.max_passes = 3;
+    const auto expanded = cells.expanded({open, plain});
+    const auto named = strata::rasterizer::depth_hypotheses(strata::pipeline::find_profile("geforce3")->raster);
+    REQUIRE(named.size() > 3);
+    REQUIRE(expanded.size() == named.size() + 1);
+    std::set<std::string> distinct;
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        CHECK(expanded[i].hypothesis == (i == 0 ? "profile" : named[i].name));
+        CHECK(distinct.insert(expanded[i].hypothesis).second);
+        CHECK_NOTHROW(cells.check(expanded[i]));
+        Cell same = expanded[i];
+        same.hypothesis = "all";
+        CHECK(same == open);
+    }
+    CHECK(expanded.back() == plain);
+}
+
+TEST_CASE("a scene, a profile or a hypothesis that is not there is told before anything runs") {
+    CellRunner cells = runner();
+    const auto said = [&](auto&& change) {
+        Cell cell = small_cell();
+        change(cell);
+        try {
+            cells.check(cell);
+        } catch (const strata::InputError& error) {
+            return std::string{error.what()};
+        }
+        return std::string{};
+    };
+    CHECK(said([](Cell&) {}) == "");
+    CHECK_THAT(said([](Cell& c) { c.scene = "planse"; }), Catch::EndsWith("(did you mean 'planes'?)"));
+    CHECK_THAT(said([](Cell& c) { c.profile = "idael"; }), Catch::EndsWith("(did you mean 'ideal'?)"));
+    CHECK_THAT(said([](Cell& c) { c.profile = "geforce3", c.hypothesis = "depth_ronding=x"; }),
+               Catch::StartsWith("geforce3: hypothesis: expected profile, all, "));
+}
+
+TEST_CASE("paths that are one make no error, and what the device lacks is the cell's refusal") {
+    CellRunner cells = runner();
+    const CellResult same = cells.run(small_cell());
+    CHECK(same.refusal.empty());
+    CHECK(same.measured.paths.fragments > 0);
+    CHECK(same.measured.paths.differing == 0);
+    CHECK(same.measured.errors.total() == 0);
+    CHECK(same.measured.errors.layers_max == 2);
+    CHECK((same.measured.peeled && same.measured.ended));
+    Cell refused = small_cell();
+    refused.profile = "geforce3";
+    refused.format = strata::pipeline::DepthFormat::d32f;
+    CHECK_THAT(cells.run(refused).refusal, Catch::Contains("geforce3"));
+}
+
+TEST_CASE("a remedy's parts each reach the machine: every one changes what is measured where paths differ") {
+    CellRunner cells = runner();
+    Cell cell = small_cell();
+    cell.scene = "planes:count=3,cells=2,gap=64";
+    cell.width = cell.height = 24;
+    cell.write = strata::rasterizer::DepthPath::float32_plane;
+    cell.compare = strata::rasterizer::DepthPath::exact;
+    const auto measured = [&](const Remedy& remedy) {
+        Cell with = cell;
+        with.remedy = remedy;
+        return cells.run(with).measured;
+    };
+    const auto none = measured({});
+    REQUIRE(none.errors.total() > 0);
+    Remedy ulps;
+    ulps.epsilon.ulps = 1 << 20;
+    CHECK(measured(ulps).errors.duplicated == 0);
+    CHECK(measured(ulps).errors.lost > none.errors.lost);  // what lies nearer than that is one layer
+    Remedy bias, slope, replaced;
+    bias.bias_constant = 4096;
+    slope.bias_slope = 64;
+    replaced.depth_replace = true;
+    CHECK(measured(replaced).paths.where != none.paths.where);
+    cell.profile = "geforce3";  // its reference has no offset
+    cell.algorithm = strata::peeling::find_algorithm("shadow_map");
+    cell.write = strata::rasterizer::DepthPath::window_z;
+    cell.compare = strata::rasterizer::DepthPath::perspective_rq;
+    const auto unbiased = measured({});
+    CHECK(measured(bias).errors.lost != unbiased.errors.lost);
+    CHECK(measured(slope).errors.lost != unbiased.errors.lost);
+}
