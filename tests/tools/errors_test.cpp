@@ -54,8 +54,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --simd: expected scalar, sse4, avx2, avx512 or best, found 'avx3' (did you mean 'avx2'?)"},
         {{"render", "teapot", "--fragment-memory", "64Q"},
          "strata: --fragment-memory: expected bytes such as 65536, 64M or 1G, found '64Q'"},
-        {{"render", "teapot", "--execution", "tile"},
-         "strata: --execution: expected literal or replay, found 'tile'"},
+        {{"render", "teapot", "--execution", "tile"}, "strata: --execution: expected literal or replay, found 'tile'"},
         {{"render", "teapot", "--reference-path", "rq"},
          "strata: --reference-path: expected window_z, perspective_rq, depth_replace, float32, float32_plane or exact, "
          "found 'rq'"},
@@ -73,7 +72,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"bench", "teapot", "--execution", "replay,tile"},
          "strata: --execution: expected literal, replay or all, found 'tile'"},
         {{"bench", "teapot", "--execution", "replay,tiled"},
-         "strata: --execution: expected replay once, found it beside 'tiled', which is replay with --fragment-memory 0"},
+         "strata: --execution: expected replay once, found it beside 'tiled', which is replay with --fragment-memory "
+         "0"},
         {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
         {{"bench", "teapot", "--warm-up", "-1"}, "strata: --warm-up: expected seconds, from 0, found '-1'"},
         {{"bench", "teapot", "--baseline", "none.json"}, "strata: none.json: ..."},
