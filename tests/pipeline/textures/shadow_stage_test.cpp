@@ -18,7 +18,7 @@ using strata::rasterizer::YDirection;
 [[nodiscard]] std::array<double, 4> through(const Matrix& m, const std::array<double, 4>& v) {
     std::array<double, 4> out{};
     for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t c = 0; c < 4; ++c) out[r] += m[4 * c + r] * v[c];
+        for (std::size_t c = 0; c < 4; ++c) out[r] += m[c][r] * v[c];
     return out;
 }
 
