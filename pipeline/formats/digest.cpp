@@ -84,4 +84,12 @@ std::string digest(const Image& image) {
     return hash.hexadecimal();
 }
 
+std::string digest(std::string_view name, std::span<const std::uint32_t> words) {
+    Hash hash;
+    hash.text(name);
+    hash.word(0, 1);
+    for (const std::uint32_t word : words) hash.word(word, 4);
+    return hash.hexadecimal();
+}
+
 }  // namespace strata::pipeline
