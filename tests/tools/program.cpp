@@ -34,7 +34,6 @@ void redirect(int descriptor, const std::string& path) {
     if (setting.max_file_bytes) {
         const auto bytes = static_cast<rlim_t>(*setting.max_file_bytes);
         const rlimit limit{bytes, bytes};
-        std::signal(SIGXFSZ, SIG_IGN);  // so that the write fails instead
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
     }
     std::vector<char*> arguments;
