@@ -5,8 +5,8 @@
 #include "peeling/prepared_lists.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
-#include "pipeline/region/check_pass.h"
 #include "pipeline/frame/effects.h"
+#include "pipeline/region/check_pass.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
 

@@ -35,23 +35,20 @@ quietly() {
 # The fast tests under the sanitizers, and a minute of fuzzing: one build by clang++, or by g++ without the fuzzing.
 sanitized() {
     local preset=asan targets=(rasterizer_test pipeline_test peeling_test scenes_test core_digests)
-    local slow='NOT_BUILT|all 19,531 sequences|19,531 short|hybrid composites an|as printed, a listing|a partial order execute'
-    slow+='|tiles, threads, effects and mistrust|coverage equals three|that an NV2A gave|whatever depth they compare|wherever max_passes cuts'
-    slow+='|every tile size, region and number|opaque surfaces alone execute alike|the adviser calls it safe|on every shared model'  # ten seconds and more each
     if command -v clang++ >/dev/null; then
         preset=fuzz
         targets+=(make_corpus load_render_fuzz differential_seeds differential_fuzz)
     fi
     step "the fast tests under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz' -E "$slow" --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house' -E NOT_BUILT --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
     fi
     step "fuzzing for a minute: the loader with glTF bytes, the ways of running a frame against each other"
-    quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure
+    quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure -j "$(nproc)"
 }
 
 # The digests of tests/golden/core_digests.txt from a core of each compiler at each level of optimisation.

@@ -247,7 +247,7 @@ TEST_CASE("a window that lies elsewhere on its surface shows the same picture by
     CHECK(there.audit.max_difference == here.audit.max_difference);
 }
 
-TEST_CASE("literal, tiled and replayed peels agree whatever depth they compare") {
+TEST_CASE("literal, tiled and replayed peels agree whatever depth they compare", "[slow]") {
     const TriangleScene scene = random_triangles(966, 24);
     struct Setting {
         const char* name;

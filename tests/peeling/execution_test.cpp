@@ -112,7 +112,8 @@ const std::vector<Machine> partial_order{{"geforce8", "layer_peel"},
 
 }  // namespace
 
-TEST_CASE("algorithms of a partial order execute alike, resolved and as published, however their queries end them") {
+TEST_CASE("algorithms of a partial order execute alike, resolved and as published, however their queries end them",
+          "[slow]") {
     TriangleScene scene = random_triangles(79, 12);
     scene.list.instances[0].arrives_sorted = true;  // it does not, which changes no execution
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[8], ways[12]};
@@ -132,7 +133,8 @@ TEST_CASE("algorithms of a partial order execute alike, resolved and as publishe
             }
 }
 
-TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm, however its queries end it") {
+TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm, however its queries end it",
+          "[slow]") {
     const TriangleScene scene = random_triangles(71, 16);
     for (const Ending& ending : endings)
         for (const Machine& machine : machines) {
@@ -144,7 +146,7 @@ TEST_CASE("tiles, threads, effects and mistrust change nothing of any algorithm,
         }
 }
 
-TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute alike") {
+TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute alike", "[slow]") {
     for (const TriangleScene& scene : {random_triangles(72, 12, 0.25f), random_triangles(73, 0), opaque_only(74, 8)})
         for (const Machine& machine : machines) {
             RenderOptions options = small_frame();
@@ -172,7 +174,7 @@ TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface,
         }
 }
 
-TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts") {
+TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts", "[slow]") {
     const TriangleScene scene = random_triangles(75, 24, 0.4f);
     for (const Machine& machine :
          {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}, {"geforce3", "shadow_map"}}) {

@@ -119,7 +119,8 @@ TEST_CASE("objects that overlap come out wrong, and object_sorted says so") {
     CHECK(diagnosed(result, Fault::out_of_order) == result.audit.misordered.pixels);
 }
 
-TEST_CASE("all 19,531 sequences of up to six fragments on five depths are composited in the order of each tie policy") {
+TEST_CASE("all 19,531 sequences of up to six fragments on five depths are composited in the order of each tie policy",
+          "[slow]") {
     const FragmentScene scene = all_short_sequences(20241101, short_depths);
     for (const Machine& machine : machines) {
         const RenderResult result = check(scene, machine, options_for(scene));
@@ -136,7 +137,7 @@ TEST_CASE("with a 24-bit depth buffer programs quantise, say so, and order by wh
     }
 }
 
-TEST_CASE("sequences of every degree of disorder, with ties and opaque surfaces, are composited in order") {
+TEST_CASE("sequences of every degree of disorder, with ties and opaque surfaces, are composited in order", "[slow]") {
     const FragmentScene scene = disordered(20241103, 32, 16, 120);
     for (const Machine& machine : machines) check(scene, machine, options_for(scene));
 }

@@ -81,7 +81,7 @@ const Machine layer_peel{"geforce8", "layer_peel"}, hybrid{"geforce8", "hybrid"}
 
 }  // namespace
 
-TEST_CASE("hybrid composites an ordered and an unordered set, depths shared or not, in N + 1 iterations") {
+TEST_CASE("hybrid composites an ordered and an unordered set, depths shared or not, in N + 1 iterations", "[slow]") {
     const FragmentScene unordered = all_short_sequences(20241130, short_depths);
     FragmentScene ordered{unordered.width, unordered.height};
     Random random{20241131};
@@ -160,7 +160,8 @@ TEST_CASE("E16, regression: B's printed factors multiply depths 3, 2, 1 of 7 bel
     CHECK(diagnosed(result, Fault::as_published) == 1);
 }
 
-TEST_CASE("E16: the printed factors lose layers of 2,540 of the 19,531 short sequences; what they keep is in order") {
+TEST_CASE("E16: the printed factors lose layers of 2,540 of the 19,531 short sequences; what they keep is in order",
+          "[slow]") {
     const FragmentScene scene =
         all_short_sequences(20241132, {sevenths(1), sevenths(2), sevenths(3), sevenths(4), sevenths(5)});
     const RenderResult result = published(scene, blend);
@@ -242,7 +243,8 @@ TEST_CASE("E25, regression: Algorithm 2 as printed composites a finished pixel's
 }
 
 TEST_CASE(
-    "as printed, a listing differs from the exact order at the pixels that its diagnostics count, and nowhere else") {
+    "as printed, a listing differs from the exact order at the pixels that its diagnostics count, and nowhere else",
+    "[slow]") {
     const FragmentScene scene = all_short_sequences(20241133, short_depths);
     for (const Machine& machine : {layer_peel, stencil, blend, ideal}) {
         const RenderResult result = published(scene, machine);

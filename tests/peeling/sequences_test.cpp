@@ -167,7 +167,8 @@ std::vector<Machine> machines() {
 
 }  // namespace
 
-TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what the listing's arithmetic gives") {
+TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what the listing's arithmetic gives",
+          "[slow]") {
     const FragmentScene scene = all_short_sequences(20240601, short_depths);
     // geforce8_dx101 differs from geforce8 in what it can run: its dual_independent is the new part.
     for (const Machine& machine : machines())

@@ -75,7 +75,7 @@ TEST_CASE(
     check_cure("random:seed=7,triangles=5000", 256, 1000000);
 }
 
-TEST_CASE("the depth that depth replace stores is the depth that is compared, on every shared model") {
+TEST_CASE("the depth that depth replace stores is the depth that is compared, on every shared model", "[slow]") {
     const auto folder = models();
     if (folder.empty()) return;
     for (const char* name : {"bunny.glb", "dragon.glb", "AlphaBlendModeTest.glb", "sponza.glb"})

@@ -157,7 +157,7 @@ TEST_CASE("layers in order take one iteration up to 127, then one for every 128"
     }
 }
 
-TEST_CASE("reversed layers take one iteration for every two, as the paper's worst case says") {
+TEST_CASE("reversed layers take one iteration for every two, as the paper's worst case says", "[slow]") {
     for (const int n : {1, 2, 3, 4, 31, 64, 127, 254, 255}) {
         const FragmentScene scene = stack(n, false);
         INFO(n << " layers");
@@ -169,7 +169,8 @@ TEST_CASE("reversed layers take one iteration for every two, as the paper's wors
 
 TEST_CASE(
     "E19, regression: 300 reversed layers saturate A's stencil and take 174 iterations, B's 151, an empty one "
-    "included") {
+    "included",
+    "[slow]") {
     const FragmentScene scene = stack(300, false);
     CHECK(iterations(stencil, scene, TerminationRule::paper) == 174);
     CHECK(iterations(blend, scene, TerminationRule::paper) == 151);

@@ -105,12 +105,13 @@ int wrong_fields(Moved moved, int codes, int noise) {
 
 }  // namespace
 
-TEST_CASE("an epsilon peels without duplicate and loss exactly if the adviser calls it safe") {
+TEST_CASE("an epsilon peels without duplicate and loss exactly if the adviser calls it safe", "[slow]") {
     CHECK(wrong_fields(Moved::compare, 12, 2) == 0);
     CHECK(wrong_fields(Moved::compare, 200, 9) == 0);
 }
 
-TEST_CASE("a bias of the stored depth peels without duplicate and loss exactly if the adviser calls it safe") {
+TEST_CASE("a bias of the stored depth peels without duplicate and loss exactly if the adviser calls it safe",
+          "[slow]") {
     CHECK(wrong_fields(Moved::stored, 12, 2) == 0);
     CHECK(wrong_fields(Moved::stored, 200, 9) == 0);
 }

@@ -33,7 +33,7 @@ TEST_CASE("the shifted form divides every sum by 255, to nearest and cut") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("every 8-bit channel becomes the exact sum rounded once, for random states and fragments") {
+TEST_CASE("every 8-bit channel becomes the exact sum rounded once, for random states and fragments", "[slow]") {
     Random random{8};
     Tally tally;
     for (int round = 0; round < 10000; ++round) {
@@ -76,7 +76,7 @@ TEST_CASE("every 8-bit channel becomes the exact sum rounded once, for random st
     CHECK(tally.cases() >= 100000);
 }
 
-TEST_CASE("OVER gives the rational value rounded half up for every source, destination and alpha") {
+TEST_CASE("OVER gives the rational value rounded half up for every source, destination and alpha", "[slow]") {
     Colors src;
     Codes codes;
     std::uint64_t wrong = 0;

@@ -94,7 +94,8 @@ const DeviceProfile floors = device(DepthRounding::floor, TextureFilterPrecision
 
 }  // namespace
 
-TEST_CASE("a shadow lookup compares R with each texel like two stored depths, for random images and coordinates") {
+TEST_CASE("a shadow lookup compares R with each texel like two stored depths, for random images and coordinates",
+          "[slow]") {
     Random random{44};
     Tally tally;
     for (int round = 0; round < 8000; ++round) {

@@ -92,7 +92,7 @@ Texture row_of(const std::vector<std::uint8_t>& red, TextureFilter filter, Textu
 
 }  // namespace
 
-TEST_CASE("a lookup gives what rational arithmetic gives, for random textures and every kind of coordinate") {
+TEST_CASE("a lookup gives what rational arithmetic gives, for random textures and every kind of coordinate", "[slow]") {
     Random random{37};
     Tally tally;
     for (int round = 0; round < 5000; ++round) {

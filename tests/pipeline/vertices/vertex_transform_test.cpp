@@ -104,7 +104,7 @@ struct Matrices {
 
 }  // namespace
 
-TEST_CASE("every vertex path rounds where its rule says, and no two give the same bits throughout") {
+TEST_CASE("every vertex path rounds where its rule says, and no two give the same bits throughout", "[slow]") {
     Random random{931};
     std::array<std::uint64_t, paths.size()> wrong{}, unlike_separate{};
     for (int i = 0; i < 300; ++i) {

@@ -112,7 +112,8 @@ TEST_CASE("a mesh of triangles that share edges covers every sample exactly once
     CHECK(wrong == 0);
 }
 
-TEST_CASE("coverage equals three integer inequalities at every centre, also for triangles of the whole guard band") {
+TEST_CASE("coverage equals three integer inequalities at every centre, also for triangles of the whole guard band",
+          "[slow]") {
     constexpr std::uint64_t seed = 4;
     Random random{seed};
     std::uint64_t wrong = 0;

@@ -62,7 +62,8 @@ void compare(const SetupTriangle& triangle, const RasterRules& rules, DepthForma
 
 TEST_CASE(
     "float32 and exact depth are the rational plane rounded once, for every subpixel setting and up to the guard "
-    "band") {
+    "band",
+    "[slow]") {
     constexpr std::uint64_t seed = 21;
     Random random{seed};
     Tally tally;

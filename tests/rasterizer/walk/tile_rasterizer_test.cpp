@@ -104,7 +104,7 @@ TEST_CASE("every instruction set hands out the batches of the scalar twins, to t
     CHECK(wrong == 0);
 }
 
-TEST_CASE("fragments are the same for every tile size, region and number of threads") {
+TEST_CASE("fragments are the same for every tile size, region and number of threads", "[slow]") {
     for (const SoupKind kind : {SoupKind::perspective, SoupKind::needs_clipping})
         for (const Device& device : devices()) {
             const TriangleSoup soup = random_soup(121, 120, kind);

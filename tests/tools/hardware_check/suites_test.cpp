@@ -56,7 +56,7 @@ Row first_of(const std::string& suite) {
 
 }  // namespace
 
-TEST_CASE("geforce3 draws the pictures that an NV2A gave: every compared word of every listed capture") {
+TEST_CASE("geforce3 draws the pictures that an NV2A gave: every compared word of every listed capture", "[slow]") {
     const std::vector<Row> all = rows();
     CHECK(all.size() >= 205);
     std::string different;
