@@ -1,9 +1,7 @@
 // pipeline/formats/image.h - a finished rectangle of raw target codes: what leaves the machine, is digested, written and compared.
 #pragma once
 #include <cstdint>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "pipeline/formats/format.h"
 #include "rasterizer/base/uninitialized.h"
@@ -49,8 +47,5 @@ struct Image {
 // u32 samples, then the codes in the order above: u8 for UNORM8 and stencil, u16 for halves, u32 for binary32 and every depth
 // format; all little endian (decisions.md 5).
 [[nodiscard]] std::string digest(const Image& image);
-
-// The same hash of `name` in ASCII, a zero byte, and `words` as u32, for what is no Image.
-[[nodiscard]] std::string digest(std::string_view name, std::span<const std::uint32_t> words);
 
 }  // namespace strata::pipeline

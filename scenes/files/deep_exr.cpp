@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "pipeline/formats/word_digest.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_formats.h"
@@ -92,14 +93,13 @@ std::array<std::size_t, words_a_fragment> offsets_in(const PartHeader& header, c
 
 std::string digest(const DeepFragments& fragments) {
     const FloatEnvironment environment;
-    std::vector<std::uint32_t> words{static_cast<std::uint32_t>(fragments.width),
-                                     static_cast<std::uint32_t>(fragments.height)};
-    words.insert(words.end(), fragments.count.begin(), fragments.count.end());
-    for (std::size_t i = 0; i < fragments.z.size(); ++i) {
-        const Words fragment = words_of(fragments, i);
-        words.insert(words.end(), fragment.begin(), fragment.end());
-    }
-    return pipeline::digest("deep", words);
+    pipeline::WordDigest hash{"deep"};
+    hash.add(static_cast<std::uint32_t>(fragments.width));
+    hash.add(static_cast<std::uint32_t>(fragments.height));
+    for (const std::uint32_t count : fragments.count) hash.add(count);
+    for (std::size_t i = 0; i < fragments.z.size(); ++i)
+        for (const std::uint32_t word : words_of(fragments, i)) hash.add(word);
+    return hash.hexadecimal();
 }
 
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "peeling/render.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/scene.h"
 #include "tools/strata/options/values.h"

@@ -1,5 +1,6 @@
 #include "tools/strata/options/values.h"
 
+#include "peeling/render.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/parse.h"
 

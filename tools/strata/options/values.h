@@ -4,7 +4,11 @@
 #include <optional>
 #include <string_view>
 
-#include "peeling/render.h"
+#include "pipeline/stages/depth_compare.h"
+
+namespace strata::peeling {
+struct VertexPaths;
+}
 
 namespace strata::tools {
 
