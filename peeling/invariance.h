@@ -3,7 +3,7 @@
 // Rule     `write` computes the depth that is stored, `compare` the depth that a later pass compares with it. The fragments of
 //          both are paired and counted; the peel is then run on the emulated machine with that pair and the given remedy (bias,
 //          epsilon, quantisation), and its trace and picture are held against the exact A-buffer.
-// Source   Everitt 2001; hardware.md 4 and 12; decisions.md 3.
+// Source   Everitt 2001; audit.md 11; texturing.md 4.1; numbers.md 6.
 // Tests    tests/peeling/invariance_test.cpp
 #pragma once
 #include <optional>

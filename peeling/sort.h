@@ -4,7 +4,7 @@
 //          third row is (0, 0, a, b); NaN counts as 0. exact: by key, near first, ties as listed. bucket: [least, greatest] key
 //          cut into N equal buckets, near first, within a bucket as listed. reverse: far first, ties as listed. shuffle: exact,
 //          then a fraction of the triangles, drawn by the seed, moves: each to the next one's place.
-// Source   Carr, Mech and Miller 2008, section 9 (bucket sort of centroids); algorithms.md 1 (painter).
+// Source   Carr, Mech and Miller 2008, section 9 (bucket sort of centroids); keys-and-counts.md 5.
 // Tests    tests/peeling/sort_test.cpp
 #pragma once
 #include <cstdint>

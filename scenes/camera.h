@@ -1,7 +1,7 @@
 // scenes/camera.h - views: an orbit round a scene's bounds, a camera file, a camera of a glTF scene.
 //
 // Rule     gluLookAt and gluPerspective in binary64 with our own sin, cos; matrices column-major, clip depth -1 to 1.
-// Source   decisions.md 1 and 2; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
+// Source   scenes.md 7; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
 // Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
 #pragma once
 #include <string>

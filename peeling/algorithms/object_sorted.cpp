@@ -1,5 +1,5 @@
 // peeling/algorithms/object_sorted.cpp - objects ordered front to back by occlusion queries, then composited as they come.
-// Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 1.
+// Govindaraju et al. 2005, compared in Carr, Mech and Miller 2008, section 2; algorithms.md 16.
 //
 // Needs      occlusion queries, separate alpha blending.
 // Passes     1 for each of n objects and 2 for every question: 3 n - 2 where they arrive front to back, n^2 + 2 n - 2 at most.

@@ -21,7 +21,7 @@ struct Buffers {
 };
 
 // A fragment whose R is not behind the map is in shadow; alpha times (1 - shadow), and the alpha test kills what is 0. The
-// map's texel is the fragment's own: s/q and t/q of a screen-aligned lookup are off by less than a subpixel (hardware.md 3).
+// map's texel is the fragment's own: s/q and t/q of a screen-aligned lookup are off by less than a subpixel (texturing.md 2.4).
 // Fragments that store alpha 0 die in pass 0 as well: a layer they would win would be of no use.
 Drawn peel(Region& region, const Buffers& to) {
     const bool first = !to.map.exists();

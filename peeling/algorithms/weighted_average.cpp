@@ -64,8 +64,7 @@ void weighted_average(Region& region) {
     state.color[0] = result;
     state.reads = {sums, count, region.opaque_color()};
     const StuckPixels stuck = resolve(region, state);
-    region.report(Fault::half_saturated, stuck.pixels, stuck.first,
-                  "an fp16 sum or count has stopped growing (hardware.md 9)");
+    region.report(Fault::half_saturated, stuck.pixels, stuck.first, "an fp16 sum or count has stopped growing");
     region.publish(result);
 }
 

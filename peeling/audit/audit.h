@@ -3,7 +3,7 @@
 // Rule     For every pixel the sequence that the algorithm composited (its trace) is compared with the visible fragments in
 //          the order of its own tie policy; the picture is compared with all fragments composited in binary64, sorted by the
 //          exact depth.
-// Source   decisions.md 3; algorithms.md 0.
+// Source   audit.md 1 to 5.
 // Tests    tests/peeling/audit/audit_test.cpp
 #pragma once
 #include <cstdint>

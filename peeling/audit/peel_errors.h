@@ -4,7 +4,7 @@
 //          bias: what the exact A-buffer keeps under the tie policy UNIQUE. What was composited is the run's trace: a depth
 //          there means the first fragment of that depth, and so its layer. Twice or more often is one duplicate; never is one
 //          loss. So a peel that never ends does not count without end.
-// Source   decisions.md 3 (tie policies), algorithms.md 0 and 3.
+// Source   audit.md 9; keys-and-counts.md 2.2 (tie policies); algorithms.md 3.
 // Tests    tests/peeling/audit/peel_errors_test.cpp
 #pragma once
 #include <cstdint>

@@ -3,7 +3,7 @@
 // Rule     A closed form leaves what its algorithm's passes would leave, ties included: the same codes, by the same stage
 //          functions in the same order for every pixel, and the same counters, queries and trace. It offers itself: where it
 //          does not apply it returns false and has counted nothing, and the passes run.
-// Source   design.md, idea 2: "an algorithm may offer it to the executor".
+// Source   algorithms.md 0.7.
 // Tests    tests/peeling/execution_test.cpp, sequences_test.cpp: against literal execution
 #pragma once
 #include <vector>

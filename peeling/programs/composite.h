@@ -1,4 +1,4 @@
-// peeling/programs/composite.h - all of a pixel's fragments over its background, in binary64: the truth image. algorithms.md 0.
+// peeling/programs/composite.h - all of a pixel's fragments over its background, in binary64: the truth image. audit.md 1.
 #pragma once
 #include <algorithm>
 #include <array>

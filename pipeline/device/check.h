@@ -3,7 +3,7 @@
 // Rule     Every feature has one row in check.cpp: words, extension, and who has it. A refusal names the profiles
 //          that do. State of the era that no algorithm here needs (fog, colour sum, dither, logic op) is refused on
 //          every profile.
-// Source   hardware.md 1, 2, 6, 7, 8; decisions.md 4.
+// Source   devices.md 5 to 7, 9 and 10.
 // Tests    tests/pipeline/device/check_test.cpp
 #pragma once
 #include <optional>

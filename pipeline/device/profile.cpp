@@ -64,7 +64,7 @@ DeviceProfile geforce8_dx101() {
 DeviceProfile ideal() {
     DeviceProfile p = geforce8_dx101();
     p.name = "ideal";
-    p.description = "no device: every feature, exact depth, denormals kept";
+    p.description = "no device: every feature that an algorithm asks for, exact depth, denormals kept";
     p.raster.depth_path = DepthPath::exact;
     p.denormals = DenormalRule::keep;
     p.has_d16 = true;

@@ -76,7 +76,7 @@ struct DeviceProfile {
 // Null if there is no such name.
 [[nodiscard]] const DeviceProfile* find_profile(std::string_view name);
 
-// What a user may read beside a number: its JSON key, its value as text, its source in hardware.md with the tag D, M or A.
+// What a user may read beside a number: its JSON key, its value as text, its source with the mark S, M or A of devices.md.
 struct ProfileEntry {
     std::string key, value, source;
 };

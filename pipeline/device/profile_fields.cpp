@@ -109,140 +109,156 @@ constexpr ProfileField interpolant_bits(std::string_view key, const Sources& sou
 
 constexpr std::string_view ours = "ideal: no device";
 constexpr std::string_view drawn = "[M] tools/bench/README.md: Mesa 22.3 draws the same fragments";
-constexpr std::string_view opengl = "[D] OpenGL 4.5, which Mesa 22.3 implements";
+constexpr std::string_view opengl = "[S] OpenGL 4.5, which Mesa 22.3 implements";
 constexpr std::string_view unused = "[A] of path window_z, which this profile lacks";
 constexpr std::string_view unweighted = "[A] of 8-bit colour weights, which this profile lacks";
 constexpr std::string_view unmeasured = "[A] as geforce8_dx101";
 
-// Sources: [D] documented, [M] measured by others, [A] our assumption; then the section of hardware.md.
+// Sources: [S] a specification, [M] measured, [A] our assumption (devices.md); then the page and section of the book.
 constexpr std::array fields{
-    integer<&Rules::subpixel_bits>(
-        "raster.subpixel_bits", {4, 12, 4},
-        {"[M] 1: hardware tests on NV2A; the minimum OpenGL allows", "[D] 1: D3D 11.3 3.4.1", ours, drawn}),
+    integer<&Rules::subpixel_bits>("raster.subpixel_bits", {4, 12, 4},
+                                   {"[M] coverage.md 1.2: hardware tests on NV2A; the minimum OpenGL allows",
+                                    "[S] coverage.md 1.2: D3D 11.3 3.4.1", ours, drawn}),
     choice<&Rules::snap>("raster.snap", snap_names,
-                         {"[M] 1: 0.5624 lands on 0.5", "[A] 1: 0.6 ULP is allowed, the ideal is taken", ours, drawn}),
-    choice<&Rules::tie_rule>("raster.tie_rule", tie_names,
-                             {"[M] 1: 298,500 of 298,500 pixels", "[D] 1: D3D 11.3 3.4.2.1", ours, drawn}),
-    integer<&Rules::guard_band_px>("raster.guard_band_px", {1, 32768},
-                                   {"[A] 1: the fixed-point range", "[D] 1: D3D 11.3 15.6.1", ours,
-                                    "[A] Mesa cuts at the viewport: compare scenes that lie inside it"}),
-    choice<&Rules::z_clip>(
-        "raster.z_clip", z_clip_names,
-        {"[M] 1: fragments outside zmin..zmax are discarded", "[D] 1: D3D 11.3 15.4", ours, "[D] OpenGL 4.5 13.7"}),
+                         {"[M] coverage.md 4.1: 0.5624 lands on 0.5",
+                          "[A] coverage.md 4.1: 0.6 ULP is allowed, the ideal is taken", ours, drawn}),
+    choice<&Rules::tie_rule>(
+        "raster.tie_rule", tie_names,
+        {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels", "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
+    integer<&Rules::guard_band_px>(
+        "raster.guard_band_px", {1, 32768},
+        {"[A] coverage.md 1.3: the fixed-point range", "[S] coverage.md 1.3: D3D 11.3 15.6.1", ours,
+         "[A] Mesa cuts at the viewport: compare scenes that lie inside it"}),
+    choice<&Rules::z_clip>("raster.z_clip", z_clip_names,
+                           {"[M] depth.md 5.2: fragments outside zmin..zmax are discarded",
+                            "[S] depth.md 5.2: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
     choice<&Rules::w_clip>("raster.w_clip", w_clip_names,
-                           {"[A] 1", "[D] 1: D3D 11.3 15.4", ours, "[D] OpenGL 4.5 13.7"}),
+                           {"[A] coverage.md 2.1", "[S] coverage.md 2.1: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
     choice<&Rules::w_divide>("raster.w_divide", w_divide_names,
-                             {"[D] 1: decisions.md 1", "[A] decisions.md 1", ours, drawn}),
+                             {"[S] coverage.md 3.2", "[A] coverage.md 3.2", ours, drawn}),
     choice<&Rules::viewport>(
         "raster.viewport", viewport_names,
-        {"[A] decisions.md 1", "[A] decisions.md 1", ours, "[A] either: half of 1024 scales exactly"}),
-    choice<&Rules::plane_origin>("raster.plane_origin", origin_names,
-                                 {"[M] 1: nxdk vertex_shader_rounding_tests", "[D] 1: D3D 11.3 15.16.2", ours,
-                                  "[M] Mesa 22.3: planes start at the float32 positions"}),
+        {"[A] coverage.md 3.3", "[A] coverage.md 3.3", ours, "[A] either: half of 1024 scales exactly"}),
+    choice<&Rules::plane_origin>(
+        "raster.plane_origin", origin_names,
+        {"[M] chip-geometry.md 2.2: 99.80 % of 65,536 pixels", "[S] depth.md 3.7: D3D 11.3 15.16.2", ours,
+         "[M] Mesa 22.3: planes start at the float32 positions"}),
     choice<&Rules::window_z>("raster.window_z", window_z_names,
-                             {"[M] nv2a-geometry.md 4", "[A] decisions.md 1", ours, unmeasured}),
-    choice<&Rules::depth_path>(
-        "raster.depth_path", path_names,
-        {"[M] nv2a-depth.md 1: 4,927,976 of 4,927,976 words", "[A] 2: D3D 11.3 16.3.1 fixes all but the last bit", ours,
-         "[A] Mesa rounds each step of its plane; the exact plane is taken"}),
-    choice<&Rules::depth_rounding>("raster.depth_rounding", depth_rounding_names,
-                                   {"[M] 2: NV2A floors integer depth", "[D] 2: D3D 11.3 17.10", ours, unmeasured}),
-    choice<&Rules::offset_unit>("raster.offset_unit", offset_names,
-                                {"[A] 1: one code", "[D] 1: D3D 11.3 15.10", ours, unmeasured}),
-    choice<&Rules::color>(
-        "raster.color", color_names,
-        {"[M] nv2a-fragment.md R6: 489,784 of 489,788 pixels", "[A] 11: exact plane, one rounding", ours, unmeasured}),
-    interpolant_bits("raster.interpolant_bits", {"[A] 5: binary32", "[A] decisions.md 1: binary32", ours, unmeasured}),
+                             {"[M] chip-depth.md 1.4", "[A] coverage.md 3.4", ours, unmeasured}),
+    choice<&Rules::depth_path>("raster.depth_path", path_names,
+                               {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words",
+                                "[A] depth.md 4.1: D3D 11.3 16.3.1 fixes all but the last bit", ours,
+                                "[A] Mesa rounds each step of its plane; the exact plane is taken"}),
+    choice<&Rules::depth_rounding>(
+        "raster.depth_rounding", depth_rounding_names,
+        {"[M] chip-depth.md 1.3: NV2A floors integer depth", "[S] depth.md 2.1: D3D 11.3 17.10", ours, unmeasured}),
+    choice<&Rules::offset_unit>(
+        "raster.offset_unit", offset_names,
+        {"[A] coverage.md 9.2: one code", "[S] coverage.md 9.2: D3D 11.3 15.10", ours, unmeasured}),
+    choice<&Rules::color>("raster.color", color_names,
+                          {"[M] chip-fragment.md 3.3: 489,784 of 489,788 pixels",
+                           "[A] attributes.md 1.1: exact plane, one rounding", ours, unmeasured}),
+    interpolant_bits("raster.interpolant_bits",
+                     {"[A] depth.md 4.5: binary32", "[A] depth.md 4.5: binary32", ours, unmeasured}),
     choice<&Hypothesis::divide>("raster.divide", divide_names,
-                                {"[A] 5: rounded once; nv2a-geometry.md 2 knows no bit-exact rule",
-                                 "[A] decisions.md 1: rounded once", ours, unmeasured}),
+                                {"[A] depth.md 8.2: rounded once; chip-depth.md 6.3 knows no bit-exact rule",
+                                 "[A] depth.md 8.2: rounded once", ours, unmeasured}),
     choice<&Hypothesis::window_z>("raster.window_z_rule", window_z_rule_names,
-                                  {"[M] nv2a-depth.md 1: 4,927,976 of 4,927,976 words", unused, unused, unused}),
+                                  {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words", unused, unused, unused}),
     integer<&Hypothesis::reciprocal_bits>("raster.reciprocal_bits", {24, 30},
-                                          {"[M] nv2a-depth.md 4: fits three areas of four", unused, unused, unused}),
+                                          {"[M] chip-depth.md 4: fits three areas of four", unused, unused, unused}),
     integer<&Hypothesis::sum_bits>("raster.sum_bits", {24, 29},
-                                   {"[M] nv2a-depth.md 1: a 29-bit aligned add", unused, unused, unused}),
+                                   {"[M] depth.md 8.3: a 29-bit aligned add", unused, unused, unused}),
     boolean<&Hypothesis::quantize_reference>(
         "raster.quantize_reference",
-        {"[M] nv2a-geometry.md 3.2: R is cut like a depth write", "[D] 4: D3D 11.3 22.4.19", ours, unmeasured}),
+        {"[M] chip-depth.md 7.2: R is cut like a depth write", "[S] depth.md 6.2: D3D 11.3 22.4.19", ours, unmeasured}),
     choice<&Hypothesis::plane_anchor>("raster.plane_anchor", anchor_names,
-                                      {"[A] either is in use", "[A] either is in use", ours, "[A] either is in use"}),
+                                      {"[A] depth.md 4.7: either is in use", "[A] depth.md 4.7: either is in use", ours,
+                                       "[A] depth.md 4.7: either is in use"}),
     integer<&Interpolation::vertex_color_bits>(
         "raster.vertex_color_bits", {9, 24},
-        {"[M] interpolation_hypothesis.h: all of 3,944 greys", unweighted, unweighted, unweighted}),
+        {"[M] attributes.md 2.2: all of 3,944 greys", unweighted, unweighted, unweighted}),
     choice<&Interpolation::perspective_color>(
         "raster.perspective_color", perspective_color_names,
-        {"[A] nv2a-fragment.md 8: equal w alone is measured", unweighted, unweighted, unweighted}),
-    choice<&Interpolation::texture_coordinates>(
-        "raster.texture_coordinates", coordinate_names,
-        {"[M] cut_coordinates.h: 41,274 coordinates, for equal w", "[D] 3: D3D 11.3 15.10", ours, unmeasured}),
-    choice<&Profile::alpha_test>(
-        "alpha_test", alpha_names,
-        {"[M] 7: nv2a-fragment.md R7, 16 of 16", "[D] 7: ARB_color_buffer_float", ours, unmeasured}),
-    choice<&Profile::blend_rounding>(
-        "blend_rounding", blend_names,
-        {"[M] 8: nv2a-fragment.md R1, 1,673 of 1,673", "[A] 8: the contract that NV2A confirms", ours, unmeasured}),
+        {"[A] attributes.md 2.5: equal w alone is measured", unweighted, unweighted, unweighted}),
+    choice<&Interpolation::texture_coordinates>("raster.texture_coordinates", coordinate_names,
+                                                {"[M] attributes.md 3.2: 41,274 coordinates, for equal w",
+                                                 "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
+    choice<&Profile::alpha_test>("alpha_test", alpha_names,
+                                 {"[M] chip-fragment.md 2: 16 of 16 pictures",
+                                  "[S] fragment-stages.md 3: ARB_color_buffer_float", ours, unmeasured}),
+    choice<&Profile::blend_rounding>("blend_rounding", blend_names,
+                                     {"[M] chip-fragment.md 1.2: 1,673 of 1,673",
+                                      "[A] fragment-stages.md 8.2: the contract that NV2A confirms", ours, unmeasured}),
     choice<&Profile::half_rounding>(
         "half_rounding", half_names,
-        {"[A] 8: no float targets", "[A] 8: GL and NV round to nearest, D3D allows zero", ours, unmeasured}),
+        {"[A] formats.md 3.2: no float targets", "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero",
+         ours, unmeasured}),
     choice<&Profile::min_max_nan>(
         "min_max_nan", nan_names,
-        {"[A] 8: no float targets", "[A] 8: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured}),
+        {"[A] fragment-stages.md 9.3: no float targets",
+         "[A] fragment-stages.md 9.3: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured}),
     choice<&Profile::denormals>(
         "denormals", denormal_names,
-        {"[A] 8: no float targets", "[A] 8: flushed in and out, as the shader does", ours, unmeasured}),
+        {"[A] fragment-stages.md 9.1: no float targets",
+         "[A] fragment-stages.md 9.1: flushed in and out, as the shader does", ours, unmeasured}),
     choice<&Profile::texture_filter>("texture_filter", filter_names,
-                                     {"[A] decisions.md 1: one rounding to 8 bits",
-                                      "[A] decisions.md 1: binary32 in a fixed order", ours, unmeasured}),
-    boolean<&Profile::has_d16>("has_d16", {"[M] 2: Z16", "[M] 2: Z16 only from G200 on", ours, opengl}),
-    boolean<&Profile::has_d24>("has_d24", {"[M] 2: Z24S8", "[M] 2: Z24S8", ours, opengl}),
-    boolean<&Profile::has_d32f>("has_d32f",
-                                {"[M] 2: no such format", "[M] 2: Z32F among G80's depth formats", ours, opengl}),
-    boolean<&Profile::has_d16f>(
-        "has_d16f", {"[M] nv2a-geometry.md 4: 98 pictures", "[M] 2: not among G80's depth formats", ours, opengl}),
-    boolean<&Profile::has_narrow_surfaces>("has_narrow_surfaces",
-                                           {"[M] nv2a-fragment.md R10", "[A] 2: none is emulated", ours, opengl}),
-    boolean<&Profile::has_float_targets>(
-        "has_float_targets", {"[D] 8: NV30 had the first, without blending", "[D] 8: Bavoil and Myers", ours, opengl}),
+                                     {"[A] texturing.md 3.2: one rounding to 8 bits",
+                                      "[A] texturing.md 3.1: binary32 in a fixed order", ours, unmeasured}),
+    boolean<&Profile::has_d16>("has_d16",
+                               {"[M] devices.md 5: Z16", "[M] devices.md 5: Z16 only from G200 on", ours, opengl}),
+    boolean<&Profile::has_d24>("has_d24", {"[M] devices.md 5: Z24S8", "[M] devices.md 5: Z24S8", ours, opengl}),
+    boolean<&Profile::has_d32f>("has_d32f", {"[M] devices.md 5: no such format",
+                                             "[M] devices.md 5: Z32F among G80's depth formats", ours, opengl}),
+    boolean<&Profile::has_d16f>("has_d16f", {"[M] chip-float-depth.md 3.2: 98 pictures",
+                                             "[M] devices.md 5: not among G80's depth formats", ours, opengl}),
+    boolean<&Profile::has_narrow_surfaces>(
+        "has_narrow_surfaces", {"[M] chip-fragment.md 5", "[A] devices.md 5: none is emulated", ours, opengl}),
+    boolean<&Profile::has_float_targets>("has_float_targets", {"[S] devices.md 5: NV30 had the first, without blending",
+                                                               "[S] devices.md 5: Bavoil and Myers", ours, opengl}),
     boolean<&Profile::has_unclamped_depth_clear>(
-        "has_unclamped_depth_clear",
-        {"[D] 2: NV_depth_buffer_float", "[D] 2: NV_depth_buffer_float", ours, "[A] as geforce8_dx101"}),
+        "has_unclamped_depth_clear", {"[S] formats.md 5.5: NV_depth_buffer_float",
+                                      "[S] formats.md 5.5: NV_depth_buffer_float", ours, "[A] as geforce8_dx101"}),
     boolean<&Profile::has_fragment_programs>(
-        "has_fragment_programs",
-        {"[D] decisions.md 4: combiners and texture shaders", "[D] decisions.md 4", ours, opengl}),
+        "has_fragment_programs", {"[S] devices.md 6: combiners and texture shaders", "[S] devices.md 6", ours, opengl}),
     boolean<&Profile::has_separate_alpha_blend>(
-        "has_separate_alpha_blend",
-        {"[M] 6: one factor pair and one equation", "[M] 6: register fields since NV30 and NV40", ours, opengl}),
+        "has_separate_alpha_blend", {"[M] devices.md 6: one factor pair and one equation",
+                                     "[M] devices.md 6: register fields since NV30 and NV40", ours, opengl}),
     boolean<&Profile::has_independent_blend>(
         "has_independent_blend",
-        {"[M] 6", "[M] 8: a shared equation; per target from GT215 (DirectX 10.1) on", ours, opengl}),
-    boolean<&Profile::has_two_sided_stencil>("has_two_sided_stencil", {"[D] 7: EXT_stencil_two_side came with NV30",
-                                                                       "[D] 7: STENCIL_TWO_SIDE_ENABLE", ours, opengl}),
-    boolean<&Profile::has_depth_clamp>(
-        "has_depth_clamp", {"[M] 1: clamped when depth clamp is on", "[D] 1: NV_depth_clamp", ours, opengl}),
+        {"[M] devices.md 6", "[M] devices.md 6: a shared equation; per target from GT215 (DirectX 10.1) on", ours,
+         opengl}),
+    boolean<&Profile::has_two_sided_stencil>("has_two_sided_stencil",
+                                             {"[S] devices.md 6: EXT_stencil_two_side came with NV30",
+                                              "[S] devices.md 6: STENCIL_TWO_SIDE_ENABLE", ours, opengl}),
+    boolean<&Profile::has_depth_clamp>("has_depth_clamp", {"[M] chip-geometry.md 5.3: clamped when depth clamp is on",
+                                                           "[S] depth.md 5.3: NV_depth_clamp", ours, opengl}),
     boolean<&Profile::has_depth_replace>(
         "has_depth_replace",
-        {"[D] 5: NV_texture_shader", "[D] decisions.md 4: refused", ours, "[A] as geforce8_dx101"}),
+        {"[S] texture-shader.md 7: NV_texture_shader", "[S] devices.md 6: refused", ours, "[A] as geforce8_dx101"}),
     boolean<&Profile::has_sequential_depth_units>(
         "has_sequential_depth_units",
-        {"[A] decisions.md 4: an emulator extension", "[A] decisions.md 4: an emulator extension", ours,
-         "[A] decisions.md 4: an emulator extension"}),
+        {"[A] devices.md 6: an emulator extension", "[A] devices.md 6: an emulator extension", ours,
+         "[A] devices.md 6: an emulator extension"}),
     boolean<&Profile::has_ordered_rmw>("has_ordered_rmw",
-                                       {"[A] decisions.md 4", "[A] decisions.md 4", ours, "[A] decisions.md 4"}),
-    boolean<&Profile::has_signed_blend>(
-        "has_signed_blend", {"[M] nv2a-fragment.md R3: 478 of 478 pictures", "[D] 8: no such equation", ours, opengl}),
-    integer<&Profile::max_render_targets>(
-        "max_render_targets", {1, 8},
-        {"[D] 8: one colour buffer", "[D] 8: D3D 11.3 17.14", ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS"}),
-    integer<&Profile::max_texture_units>("max_texture_units", {1, 32},
-                                         {"[D] 5: four texture shader stages", "[A] sixteen samplers of Direct3D 10",
-                                          ours, "[M] Mesa 22.3: GL_MAX_TEXTURE_IMAGE_UNITS"}),
-    integer<&Profile::max_viewport_px>("max_viewport_px", {1, 16384},
-                                       {"[A] 1: never found documented", "[A] 1: the limit of Direct3D 10.0", ours,
-                                        "[M] Mesa 22.3: GL_MAX_VIEWPORT_DIMS"}),
-    integer<&Profile::max_samples>(
-        "max_samples", {1, 8},
-        {"[A] 4-sample multisampling", "[A] 8-sample multisampling", ours, "[M] Mesa 22.3: GL_MAX_SAMPLES"}),
+                                       {"[A] devices.md 6", "[A] devices.md 6", ours, "[A] devices.md 6"}),
+    boolean<&Profile::has_signed_blend>("has_signed_blend",
+                                        {"[M] fragment-stages.md 8.3: 478 of 478 pictures",
+                                         "[S] fragment-stages.md 8.3: no such equation", ours, opengl}),
+    integer<&Profile::max_render_targets>("max_render_targets", {1, 8},
+                                          {"[S] devices.md 7: one colour buffer", "[S] devices.md 7: D3D 11.3 17.14",
+                                           ours, "[M] Mesa 22.3: GL_MAX_DRAW_BUFFERS"}),
+    integer<&Profile::max_texture_units>(
+        "max_texture_units", {1, 32},
+        {"[S] devices.md 7: four texture shader stages", "[A] devices.md 7: sixteen samplers of Direct3D 10", ours,
+         "[M] Mesa 22.3: GL_MAX_TEXTURE_IMAGE_UNITS"}),
+    integer<&Profile::max_viewport_px>(
+        "max_viewport_px", {1, 16384},
+        {"[A] coverage.md 1.3: never found documented", "[A] devices.md 7: the limit of Direct3D 10.0", ours,
+         "[M] Mesa 22.3: GL_MAX_VIEWPORT_DIMS"}),
+    integer<&Profile::max_samples>("max_samples", {1, 8},
+                                   {"[A] devices.md 7: 4-sample multisampling",
+                                    "[A] devices.md 7: 8-sample multisampling", ours, "[M] Mesa 22.3: GL_MAX_SAMPLES"}),
 };
 
 }  // namespace

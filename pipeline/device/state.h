@@ -39,7 +39,7 @@ struct DepthTest {  // off: no depth write either, and the stencil acts as if de
 };
 
 // The signed ones read the source byte as two's complement and ignore both factors: d + s', d - s'. NV2A alone
-// (nv2a-fragment.md R3); OpenGL has no such equations.
+// (fragment-stages.md 8.3); OpenGL has no such equations.
 enum class BlendEquation : std::uint8_t {
     add,
     subtract,

@@ -6,7 +6,7 @@
 // Rule     to binary32: exact, a NaN keeps its sign and payload. From binary32: nearest even (65520 and above is
 //          infinity) or toward zero (finite values end at 65504); denormals are kept; a NaN keeps its sign and the
 //          upper ten payload bits and becomes quiet.
-// Source   hardware.md 8 and 9 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
+// Source   formats.md 3 (GL 3.3c 2.1.2; D3D 11.3 3.2.2; NV_gpu_program4).
 // Tests    tests/pipeline/formats/half_test.cpp: all 65,536 halves; all 2^32 floats under both roundings
 #pragma once
 #include <bit>

@@ -5,7 +5,7 @@
 //          with a state that changes nothing (alpha GEQUAL 0, stencil ALWAYS and KEEP, depth ALWAYS without a write, blending ONE
 //          and ZERO); the bits and counters are the same. In a tile without opaque triangles the test against the opaque depth is not made, and no depth
 //          interpolated for it, if every triangle's bound (rasterizer/set_up/depth_bound.h) lies before the cleared 1.
-// Source   design.md, idea 3.
+// Source   execution.md 6.
 // Tests    tests/peeling/execution_test.cpp, tests/pipeline/frame/effects_test.cpp
 #pragma once
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace strata::pipeline {
 
 enum class Execution : std::uint8_t { literal, tiled, replay };
 
-// How occlusion queries end a peel (decisions.md 3).
+// How occlusion queries end a peel (keys-and-counts.md 3.1).
 enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
 struct Termination {
     TerminationRule rule = TerminationRule::exact;
@@ -21,7 +21,7 @@ struct Termination {
     friend bool operator==(const Termination&, const Termination&) = default;
 };
 
-// What an algorithm orders fragments by (decisions.md 3).
+// What an algorithm orders fragments by (keys-and-counts.md 1.1).
 enum class DepthKey : std::uint8_t { shader_z, stored_code };
 
 // Of a listing with errata: repaired as little as it takes, or as it was printed.

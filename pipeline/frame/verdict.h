@@ -1,4 +1,4 @@
-// pipeline/frame/verdict.h - what a frame-wide query count means: go on, or stop. decisions.md 3.
+// pipeline/frame/verdict.h - what a frame-wide query count means: go on, or stop. execution.md 4.1.
 #pragma once
 #include <cstdint>
 

@@ -42,7 +42,7 @@ struct TexEnv {
 [[nodiscard]] Combiners texture_environment(std::span<const TexEnv> units);
 
 // The combiner of shadow-map peeling: colour stays, alpha becomes (1 - comparison) times alpha. `unit` holds the comparison
-// as luminance or intensity. hardware.md 6: published ports of Everitt's demo.
+// as luminance or intensity. combiners.md 4.2: published ports of Everitt's demo.
 [[nodiscard]] Combiners peel_combiners(std::size_t unit);
 
 }  // namespace strata::pipeline

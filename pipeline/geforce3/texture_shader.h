@@ -9,7 +9,7 @@
 //          stage before / own dot, one divide, floored or rounded like a depth write; outside the depth range, NaN and zero
 //          divisors among it, the fragment dies (with depth clamp it is clamped). A HILO texel is (HI, LO, 1), signed (HI,
 //          LO, sqrt(1 - HI^2 - LO^2)); in colour it is 0. A stage that is not consistent is NONE: (0, 0, 0, 0).
-// Source   NV_texture_shader 3.8.13; hardware.md 5; nv2a-geometry.md 2, 5.1, 5.2, 5.3. Binary32 in the written order [A].
+// Source   NV_texture_shader 3.8.13; texture-shader.md 1 to 7; chip-geometry.md 4. Binary32 in the written order [A].
 // Tests    tests/pipeline/geforce3/texture_shader_test.cpp
 #pragma once
 #include <array>
@@ -45,7 +45,7 @@ enum class CullMode : std::uint8_t {
 enum class DotMapping : std::uint8_t { unsigned_identity, expand_normal };
 
 // What a comparison takes as R. GL's drivers pick the three-dimensional projective stage, which compares r / q; the chip's
-// two-dimensional stage compares 0 (nv2a-geometry.md 3).
+// two-dimensional stage compares 0 (texture-shader.md 2).
 enum class CompareReference : std::uint8_t { r_over_q, zero };
 
 // Two 16-bit components a texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Nearest lookups.

@@ -5,7 +5,7 @@
 //          the tile was not idle. replay: as tiled, and a tile rasterizes its transparent list once (region_replay.cpp). One
 //          blank tile runs for all of its size, if the frame says that they are alike. Counters are literal's. A frame that
 //          needs it whole (Frame::needs_frame, or a lookup that leaves its region) runs literally whatever was asked for.
-// Source   design.md, idea 2; decisions.md 3 and 7.
+// Source   execution.md 4, 5 and 8.
 // Tests    tests/peeling/execution_test.cpp
 #pragma once
 #include <functional>

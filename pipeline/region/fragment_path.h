@@ -3,8 +3,8 @@
 // Rule     The state of a pass is a value; `apply` tells the pass what it needs. Coordinates come with the draw list
 //          (PrepareOptions::units) or with a TriangleSoup of one's own. A replaced depth takes the place of the
 //          rasterizer's in depth units, stencil and depth test.
-// Source   hardware.md 0 (order), 5 and 6.
-// Tests    tests/pipeline/region/fragment_path_test.cpp, tests/pipeline/listing2_test.cpp
+// Source   fragment-stages.md 1 (order); texture-shader.md 1; combiners.md 2 and 3.
+// Tests    tests/pipeline/region/fragment_path_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <memory>
 

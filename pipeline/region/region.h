@@ -2,7 +2,7 @@
 //
 // Rule     An algorithm is one function over a region. Literal execution gives it the frame, tiled execution one tile after
 //          another; bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
-// Source   design.md, idea 2; decisions.md 7.
+// Source   execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
 #include <cstdint>

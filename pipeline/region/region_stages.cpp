@@ -1,5 +1,5 @@
 // pipeline/region/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order: texture and MASK,
-// (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. hardware.md 0.
+// (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. fragment-stages.md 1.
 #include <algorithm>
 #include <stdexcept>
 

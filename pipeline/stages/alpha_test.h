@@ -3,7 +3,7 @@
 // Rule     eight_bit: round(255 alpha) FUNC round(255 ref), integers, both clamped. Otherwise alpha FUNC ref in
 //          binary32 as they are: a NaN alpha passes `notequal` and `always` alone. With several targets the alpha is
 //          colour 0's.
-// Source   hardware.md 7 (GL 2.1 4.1.4; 8-bit integer compare measured on NV2A, nv2a-fragment.md R7; binary32 for
+// Source   fragment-stages.md 3 (GL 2.1 4.1.4; 8-bit integer compare measured on NV2A, chip-fragment.md 2; binary32 for
 //          float targets: ARB_color_buffer_float).
 // Tests    tests/pipeline/stages/alpha_test_test.cpp
 #pragma once

@@ -4,7 +4,7 @@
 //          alpha have terms of their own. No alpha channel: destination alpha is 1. Blending off: the source
 //          replaces, converted once. The arithmetic of 8-bit targets stands in blend_unorm8.h, that of fp16 and
 //          binary32 targets in blend_float.h.
-// Source   hardware.md 8 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
+// Source   fragment-stages.md 8 and 9 (GL 2.1 4.1.8 and table 4.1; D3D 11.3 17.1 and 17.5).
 // Cost     Terms that papers use run in one loop (blend_kernels.h), compiled once an instruction
 //          set; the others fill two arrays of factors first.
 // Tests    tests/pipeline/stages/blend_unorm8_test.cpp, tests/pipeline/stages/blend_float_test.cpp,

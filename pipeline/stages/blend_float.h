@@ -5,7 +5,7 @@
 //          signed zeros propagate, and every NaN result is 0x7fffffff. DenormalRule::flush: operands and results
 //          below 2^-126 become zero of their sign. MIN and MAX: one NaN gives the other operand (or NaN, by the
 //          profile), two give 0x7fffffff; max(-0,+0) = +0, min = -0. SRC_ALPHA_SATURATE is the MIN of As and 1 - Ad.
-// Source   hardware.md 8 and 11 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is our
+// Source   fragment-stages.md 9.1 and 9.3 (D3D 11.3 17.5, 22.10.10; envytools fp32_minmax); the order of roundings is our
 //          assumption.
 // Tests    tests/pipeline/stages/blend_float_test.cpp
 #pragma once

@@ -3,7 +3,7 @@
 // Rule     The fragment's reference depth, quantised like a depth write unless `quantizes` is false, is behind if it is greater
 //          than the stored code raised by `ulps` codes plus `absolute`. Without an epsilon and with a quantised reference that
 //          is a comparison of codes. An unquantised reference is clamped to [0,1] first.
-// Source   hardware.md 4; decisions.md 3.
+// Source   fragment-stages.md 6.2; keys-and-counts.md 4.2.
 // Tests    tests/pipeline/stages/depth_compare_test.cpp
 #pragma once
 #include <algorithm>

@@ -4,8 +4,8 @@
 //          and compare as floats, because a buffer cleared without clamping may hold negative values, values above 1
 //          and NaN (which passes `notequal` and `always` alone); -0 equals +0. Test off: every fragment passes and
 //          no depth is written. Pixels in place: test_depth of lane_words.h.
-// Source   hardware.md 2 (D3D 11.3 17.11; GL 2.1 4.1.6; NV_depth_buffer_float); integer compare measured,
-//          nv2a-fragment.md 5.
+// Source   fragment-stages.md 6 (D3D 11.3 17.11; GL 2.1 4.1.6; NV_depth_buffer_float); integer compare measured,
+//          chip-fragment.md 4.
 // Tests    tests/pipeline/stages/depth_test_test.cpp, tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
 #include <bit>

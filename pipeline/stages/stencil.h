@@ -4,7 +4,7 @@
 //          is dropped. Passes: the depth result chooses `depth_fail` (dropped) or `pass`; a depth test that is off
 //          counts as passed. INCR and DECR saturate; REPLACE writes the whole reference; write_mask touches nothing
 //          but the update.
-// Source   hardware.md 7 (GL 2.1 4.1.5; EXT_stencil_two_side; EXT_stencil_wrap); measured, nv2a-fragment.md R8.
+// Source   fragment-stages.md 5 (GL 2.1 4.1.5; EXT_stencil_two_side; EXT_stencil_wrap); measured, chip-fragment.md 4.
 // Tests    tests/pipeline/stages/stencil_test.cpp, tests/pipeline/stages/simd_stages_test.cpp
 #pragma once
 #include <cstdint>

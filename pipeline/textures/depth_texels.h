@@ -3,7 +3,7 @@
 // Rule     A region holds its own rectangle of a screen-sized texture. A lookup inside it reads what literal execution
 //          would read; one that leaves it throws NeedsFrame, and the executor runs the frame literally.
 //          OpenGL's window is y up: row 0 of a copied depth texture is the last row of memory (`bottom_up`).
-// Source   design.md, idea 2 (the second trap); GL 1.2.1 3.8.2 (CopyTexImage: the lower left pixel is texel 0, 0).
+// Source   execution.md 5.4; GL 1.2.1 3.8.2 (CopyTexImage: the lower left pixel is texel 0, 0).
 // Tests    tests/pipeline/region/fragment_path_test.cpp
 #pragma once
 #include <cstdint>
@@ -22,7 +22,7 @@ struct DepthTexels {
     rasterizer::Rect held;                 // the pixels of the texture that are there
     int width = 0, height = 0;             // of the texture
     DepthFormat format = DepthFormat::d24;
-    bool is_eight_bit = false;  // texels are 0..255, whatever the format: Heidrich's limited form (hardware.md 4)
+    bool is_eight_bit = false;  // texels are 0..255, whatever the format: Heidrich's limited form (texturing.md 4)
     bool bottom_up = false;
 
     DepthTexels() = default;

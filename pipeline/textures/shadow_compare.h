@@ -6,7 +6,7 @@
 //          [0,1], or in buffer units (0..2^n - 1, D16F: 0..511.9375) on devices whose vertex depth is. D32F: floats as they
 //          are, no clamp; NaN passes `notequal` and `always` alone. Linear: each of four texels gives 1 or the fail value,
 //          then the bilinear sum of texel_address.h with 8-bit fractions.
-// Source   hardware.md 4; measured on NV2A (R cut like a depth write, 192 of 192 pictures). The linear filter is an
+// Source   texturing.md 4; measured on NV2A (R cut like a depth write, 192 of 192 pictures). The linear filter is an
 //          assumption.
 // Tests    tests/pipeline/textures/shadow_compare_test.cpp
 #pragma once

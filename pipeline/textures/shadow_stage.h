@@ -4,7 +4,7 @@
 //          P V of the light, specified under the camera's view. A fragment that lies behind the texel at s/q, t/q is in
 //          shadow: its red, green and blue are times the comparison (MODULATE by a LUMINANCE result), which fails with
 //          `ambient`. What lies outside the light's view is compared with the map's border texels.
-// Source   Williams 1978 and Everitt 2001, "Shadow Mapping"; hardware.md 4. The comparison is shadow_compare.h's.
+// Source   Williams 1978 and Everitt 2001, "Shadow Mapping"; texturing.md 6. The comparison is shadow_compare.h's.
 // Tests    tests/peeling/shadow_light_test.cpp
 #pragma once
 #include "pipeline/textures/shadow_compare.h"

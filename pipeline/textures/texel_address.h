@@ -5,7 +5,7 @@
 //          (floored) to 1/256; its integer part is the first texel, its fraction the second one's weight. Repeat and
 //          mirrored repeat wrap the texels, clamp to edge clamps u to [1/2, size - 1/2]; rectangles always clamp.
 //          NaN counts as 0, anything beyond +-2^31 as +-2^31.
-// Source   decisions.md 1, "Colour filtering"; hardware.md 3 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle).
+// Source   texturing.md 2 (GL 2.1 3.8.8; D3D 11.3 7.18.7; NV_texture_rectangle).
 //          NaN and the bound are our assumption; floats beyond 2^31 are even integers: no wrapping notices it.
 // Numbers  coordinate * size * 256: 24 + 15 significant bits, below 2^55: exact in binary64 and in 64-bit integers.
 // Tests    tests/pipeline/textures/texture_sample_test.cpp

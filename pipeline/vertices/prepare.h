@@ -4,7 +4,7 @@
 //          positions go through it by the view's vertex path (vertex_transform.h); nv20 divides by w in its own way, too.
 //          Lighting is two-sided and diffuse: rgb x (0.25 + 0.75 |N.L|), L the unit vector from the view's centre to the eye,
 //          per vertex in binary32, on the frame's colour values.
-// Source   decisions.md 1.
+// Source   vertices.md 1.2, 5 and 6.
 // Tests    tests/pipeline/vertices/prepare_test.cpp
 #pragma once
 #include <functional>

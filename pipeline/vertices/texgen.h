@@ -5,8 +5,8 @@
 //          mesh in unit 0, else 0, and r = 0, q = 1. Then the texture matrix. Planes, texture matrix and modelview are
 //          multiplied in binary64 and rounded once to binary32 [A: a driver may]; positions go through them by the view's
 //          vertex path, as they do on their way to clip space (vertex_transform.h).
-// Source   GL 1.2.1 2.10.2 and 2.10.4; hardware.md 3; decisions.md 1.
-// Tests    tests/pipeline/vertices/texgen_test.cpp, tests/pipeline/listing2_test.cpp
+// Source   GL 1.2.1 2.10.2 and 2.10.4; vertices.md 4.
+// Tests    tests/pipeline/vertices/texgen_test.cpp, tests/peeling/listing2_test.cpp
 #pragma once
 #include <array>
 #include <vector>

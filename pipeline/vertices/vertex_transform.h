@@ -7,7 +7,7 @@
 //          double        as separate in binary64 with matrices never rounded; the result rounded once
 //          toward_zero   as separate, every product and sum cut toward zero
 //          nv20          one sum of three products and m3 by rasterizer/base/nv20_arithmetic.h
-// Source   decisions.md 1 (separate); hardware.md 1 (nv20); the others are ours: what compilers and drivers do [A].
+// Source   vertices.md 2 (separate); numbers.md 4 (nv20); the others are ours: what compilers and drivers do [A].
 // Tests    tests/pipeline/vertices/vertex_transform_test.cpp
 #pragma once
 #include <array>

@@ -2,7 +2,7 @@
 //
 // Rule     Every public entry and every worker of ours computes with round to nearest even, denormals kept, exceptions
 //          masked, whatever the host program has set, and gives the caller's environment back.
-// Source   decisions.md 1; a library built with fast-math sets flush-to-zero when it is loaded.
+// Source   numbers.md 2.1; a library built with fast-math sets flush-to-zero when it is loaded.
 // Tests    tests/rasterizer/base/float_environment_test.cpp
 #pragma once
 #include <cstdint>

@@ -5,7 +5,7 @@
 //          fused multiply-add, no excess precision, no reassociation. Headers with inline arithmetic live in the inline
 //          namespace `strict`, so that a program compiled with other rules cannot silently share their code at link
 //          time.
-// Source   decisions.md 1 and 6; ISO C++ <cfenv>; the build carries the flags as strata::numerics.
+// Source   numbers.md 1.1 to 1.3; ISO C++ <cfenv>; the build carries the flags as strata::numerics.
 // Tests    tests/rasterizer/base/numerics_test.cpp
 #pragma once
 #include <cfloat>

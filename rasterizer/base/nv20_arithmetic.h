@@ -5,7 +5,7 @@
 //          above it for carries, 7 below a result's last bit), added once, the sum cut toward zero. Reciprocal: seed
 //          s = round(8192 / (64.5 + i)), i the 6 leading fraction bits, then two Newton steps on integers, each cut; a
 //          power of two is exact.
-// Source   hardware.md 1: NV_vertex_program 2.14.1.11 [D], envytools' model checked against hardware [M]. Results
+// Source   numbers.md 4: NV_vertex_program 2.14.1.11 [S], envytools' model checked against hardware [M]. Results
 //          beyond the largest number become that number [A].
 // Numbers  The mantissa m has 24 bits: s m < 2^31, ((2^37 - s' m) s') < 2^51. The second step ends within 2^-22 of 1/d.
 // Tests    tests/rasterizer/base/nv20_arithmetic_test.cpp

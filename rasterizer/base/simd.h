@@ -4,7 +4,7 @@
 //          header, its scalar twin. `scalar` runs the twins. Only operations that are exact or correctly rounded on every
 //          set: no fused multiply-add, no approximate reciprocal, no horizontal float sum; NaN and -0 go by the rules of
 //          the twins, not by a machine's MIN and MAX.
-// Source   Highway's run-time dispatch; hardware.md 8 (MIN and MAX).
+// Source   Highway's run-time dispatch; fragment-stages.md 9.3 (MIN and MAX).
 // Tests    tests/rasterizer/base/simd_test.cpp
 #pragma once
 #include <cstdint>

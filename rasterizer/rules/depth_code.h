@@ -4,8 +4,8 @@
 //          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned
 //          integers. D16F: depth 1 is its greatest value, 511.9375; the float cut to 12 bits of mantissa, an exponent
 //          field of 0 flushed to 0, whatever the rule.
-// Source   hardware.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F:
-//          nv2a-geometry.md 4, 4,187,584 words of captures, 99.72 % equal and the rest one unit off.
+// Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F:
+//          chip-float-depth.md 3.2: 4,187,584 words of captures, 99.72 % equal and the rest one unit off.
 // Numbers  Scaling in binary64: 24 by 24 bits are exact, while binary32 has no half left above z = 0.5.
 // Tests    tests/rasterizer/rules/depth_code_test.cpp
 #pragma once

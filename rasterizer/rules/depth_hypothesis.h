@@ -3,22 +3,22 @@
 // Rule     A default is what captures of silicon prove where they do ([M]), else our assumption ([A]). Everything that
 //          is computed from depths rests on one hypothesis, which is part of RasterRules; depth_hypotheses (hypotheses.h)
 //          names the others.
-// Source   hardware.md, "Silicon first", 4 and 5; nv2a-depth.md 1 and 4.
+// Source   depth.md 8; chip-depth.md 1, 3 and 4.
 // Tests    tests/rasterizer/values/depth_paths_test.cpp
 #pragma once
 #include <cstdint>
 
 namespace strata::rasterizer {
 
-// n / d of perspective_rq and depth_replace. [A] the quotient, rounded once: hardware.md 5; on DotZW a cut reciprocal
-// fits slightly better (nv2a-geometry.md 2).
+// n / d of perspective_rq and depth_replace. [A] the quotient, rounded once: depth.md 8.2; on DotZW a cut reciprocal
+// fits slightly better (chip-depth.md 6.3).
 enum class DivideRule : std::uint8_t {
     exact,           // rounded once
     cut_reciprocal,  // n * (1 / d cut toward zero), the product rounded
     low_reciprocal   // n * (1 / d rounded, then one unit in the last place toward zero), the product rounded
 };
 
-// How DepthPath::window_z becomes a code: by the chip's rule [M] (nv2a-depth.md 1: 4,927,976 of 4,927,976 words), from
+// How DepthPath::window_z becomes a code: by the chip's rule [M] (chip-depth.md 1.1: 4,927,976 of 4,927,976 words), from
 // the exact plane, or from that plane rounded once to binary32; all in buffer units.
 enum class WindowZRule : std::uint8_t { chip, exact, float32 };
 
@@ -29,15 +29,15 @@ inline constexpr int full_double = 53;
 
 struct DepthHypothesis {
     // Significant bits of r/w, q/w and 1/w at a fragment: 16 to 24, or full_double (then the divides are binary64
-    // too). [A] 24: hardware.md 5.
+    // too). [A] 24: depth.md 8.
     int interpolant_bits = 24;
     DivideRule divide = DivideRule::exact;
     WindowZRule window_z = WindowZRule::chip;
     // Of the chip's rule: significant bits of the reciprocal of the area, 24 to 30 ([M] 28 on three areas of four,
-    // nv2a-depth.md 4), and the width of the aligned add, 24 to 29 ([M] 29: the last 5 are guard bits).
+    // chip-depth.md 4), and the width of the aligned add, 24 to 29 ([M] 29: the last 5 are guard bits).
     int reciprocal_bits = 28, sum_bits = 29;
-    // The compared depth becomes a code by the rule of a depth write [M] (nv2a-geometry.md 3.2); false: it is compared
-    // as it is, and finds itself again (hardware.md 4).
+    // The compared depth becomes a code by the rule of a depth write [M] (chip-depth.md 7.2); false: it is compared
+    // as it is, and finds itself again (depth.md 6.2).
     bool quantize_reference = true;
     PlaneAnchor plane_anchor = PlaneAnchor::first_vertex;
     friend bool operator==(const DepthHypothesis&, const DepthHypothesis&) = default;

@@ -36,7 +36,7 @@ enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
 // always.
 enum class OffsetUnit : std::uint8_t { format, float_exponent };
 
-// How a fragment's depth is computed (design.md, "Depth paths"): depth_paths.h, window_z.h, plane.h.
+// How a fragment's depth is computed (depth.md 4): depth_paths.h, window_z.h, plane.h.
 enum class DepthPath : std::uint8_t { window_z, perspective_rq, depth_replace, float32, float32_plane, exact };
 
 struct RasterRules {

@@ -5,7 +5,7 @@
 //          I to its outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64,
 //          each component rounded once to binary32. So two triangles that share a side share its new corners to the
 //          bit, and equal values stay equal.
-// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; hardware.md 1. The w bound is ours [A]: 1 / w and u / w stay
+// Source   Sutherland and Hodgman 1974; GL 2.1 2.12; coverage.md 2. The w bound is ours [A]: 1 / w and u / w stay
 //          finite. Tests    tests/rasterizer/set_up/clip_test.cpp
 #pragma once
 #include <array>

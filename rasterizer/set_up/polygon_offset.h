@@ -4,7 +4,7 @@
 //          factor is 0 (0 * infinity). r: one code of a fixed-point format, or 2^(e - 23) with e the exponent of the
 //          largest |z| (a float format, or OffsetUnit::float_exponent). z and o are in vertex z units; |o| <= 2^64,
 //          further out nothing changes.
-// Source   hardware.md 1 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A takes that max).
+// Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A takes that max).
 // Numbers  binary64, each operation rounded; a difference of coordinates is exact, so m is within 2^-49 of the true
 //          slope. Tests    tests/rasterizer/set_up/polygon_offset_test.cpp
 #pragma once

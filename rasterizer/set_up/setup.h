@@ -4,7 +4,7 @@
 //          that is not (non_finite); clipping (clipped, outside); per piece: zero area after snapping (degenerate),
 //          facing by the sign of the snapped area (culled), no pixel centre of the viewport in its bounding box
 //          (outside, if all its pieces go that way).
-// Source   hardware.md 1 and 13; D3D 11.3 15.11 (facing after snapping).
+// Source   coverage.md 6, 7 and 11; D3D 11.3 15.11 (facing after snapping).
 // Tests    tests/rasterizer/set_up/setup_test.cpp
 #pragma once
 #include <array>

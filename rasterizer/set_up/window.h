@@ -4,7 +4,7 @@
 //          once (rules.viewport); all in binary32, for WDivide::nv20 by nv20_arithmetic.h. y up turns the sign
 //          of the y scale. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
 //          a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
-// Source   GL 2.1 2.11.1; decisions.md 1; hardware.md 1; nv2a-geometry.md 1 and 4.
+// Source   GL 2.1 2.11.1; coverage.md 3 and 4; chip-geometry.md 1; chip-depth.md 1.4.
 // Numbers  A product of two binary32 is exact in binary64; `fused` rounds its sum to odd there, so that the second
 //          rounding is the only one. Tests    tests/rasterizer/set_up/window_test.cpp
 #pragma once

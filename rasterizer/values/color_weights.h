@@ -6,7 +6,7 @@
 //          binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64, cut
 //          to 24 bits; or of PerspectiveColor::weight_products p_i = b_i (1/w_i) cut to 24 bits, normalised with a
 //          reciprocal cut to 28.
-// Source   nv2a-fragment.md R5, R6; nv2a-depth.md section 3.
+// Source   attributes.md 2.2 to 2.4; chip-depth.md 8.
 // Tests    tests/rasterizer/values/color_weights_test.cpp
 #pragma once
 #include <array>

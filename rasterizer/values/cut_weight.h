@@ -2,7 +2,7 @@
 //
 // Rule     r = 1 / A cut to 28 significant bits (an experiment may take 24 to 30); b = e * r, product exact, cut to 24
 //          significant bits. e and A in any unit that is a power of two (here square subpixels).
-// Source   nv2a-depth.md section 1, steps 1, 2 and 4; the last bits of r are open there (section 4).
+// Source   depth.md 4.4; the last bits of r are open (chip-depth.md 4).
 // Numbers  e <= A < 2^58. r = R 2^-(n + L), L = floor(log2 A), R <= 2^n, n <= 30; e R fits 64 bits below 2^34, above
 //          it 24 bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 9 stay.
 // Tests    tests/rasterizer/values/window_z_test.cpp
@@ -29,7 +29,7 @@ struct CutWeight {
 [[nodiscard]] constexpr double value(CutWeight b) noexcept { return b.mantissa * power_of_two(b.exponent); }
 
 // The vertex whose weight is 1 - (the two others) for colours and texture coordinates: that of the largest exponent; ties
-// {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all -> v2. nv2a-depth.md 3.
+// {0,1} -> v0, {0,2} -> v2, {1,2} -> v1, all -> v2. attributes.md 2.3.
 [[nodiscard]] constexpr std::size_t remainder_vertex(const std::array<double, 3>& b) noexcept {
     const auto exponent = [&](std::size_t i) { return std::bit_cast<std::uint64_t>(b[i]) >> 52; };
     const auto k0 = exponent(0), k1 = exponent(1), k2 = exponent(2);

@@ -5,7 +5,7 @@
 //          attribute. float32_plane: dz/dx = (z1 y2 - z2 y1) / a, dz/dy = (z2 x1 - z1 x2) / a with corners 1 and 2 seen
 //          from corner 0 and a = x1 y2 - x2 y1; z = (z0 + dz/dx (x - x0)) + dz/dy (y - y0) at the pixel's centre, in
 //          pixels, every operation rounded to binary32. PlaneAnchor::window_corner: moved to x0 = y0 = 0 first.
-// Source   decisions.md 1; design.md "Depth paths"; Mesa and others set planes up like this [A].
+// Source   depth.md 4; Mesa and others set planes up like this [A].
 // Tests    tests/rasterizer/values/depth_paths_test.cpp
 #pragma once
 #include <array>

@@ -3,7 +3,7 @@
 // Rule     Comparison (4): R = ((r/w) / (1/w)) / ((q/w) / (1/w)). Each of the three planes is rounded to the
 //          interpolants' bits, each of the three divides is a rounded operation by DivideRule. Depth replace stores, and
 //          a comparison compares, what these functions give: so the two paths agree in every bit.
-// Source   Everitt 2001, (4); decisions.md 1; hardware.md 4 and 5.
+// Source   Everitt 2001, (4); depth.md 4.5, 4.6 and 6.
 // Numbers  1/d cut: the product of two binary32 is exact in binary64, so it tells on which side of 1/d rounding led.
 // Tests    tests/rasterizer/values/depth_paths_test.cpp
 #pragma once
@@ -47,7 +47,7 @@ inline namespace strict {
     return 0.0f;  // unreachable: the enum is closed
 }
 
-// Depth replace: whether d may be stored; NaN may not. hardware.md 5.
+// Depth replace: whether d may be stored; NaN may not. depth.md 4.6.
 [[nodiscard]] constexpr bool is_in_depth_range(double d, double least, double greatest) noexcept {
     return d >= least && d <= greatest;
 }

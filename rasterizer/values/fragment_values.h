@@ -8,7 +8,7 @@
 //          cut_coordinates.h. depth_replace drops a fragment whose depth is outside the depth
 //          range (with depth clamp: clamps it), after the clip of window z. The reference is another depth of the same
 //          fragment.
-// Source   decisions.md 1; hardware.md 2, 3 and 5.
+// Source   depth.md 3 and 4; attributes.md 1 to 3.
 // Tests    tests/rasterizer/values/fragment_values_test.cpp
 #pragma once
 #include <array>

@@ -4,7 +4,7 @@
 //          exact plane rounded once, over the plane of 1/w rounded once; under another DepthHypothesis as depth_paths.h
 //          interpolates r and q; where cut_coordinates.h applies, by its rule. Nothing is divided by q here: which
 //          operation does, and which does not, is the texture shader's affair.
-// Source   decisions.md 1; hardware.md 3 (GL 2.1 equation 3.8).
+// Source   attributes.md 1.1 and 3.4 (GL 2.1 equation 3.8).
 // Tests    tests/rasterizer/values/unit_values_test.cpp
 #include <cassert>
 

@@ -1,6 +1,6 @@
 // rasterizer/values/window_z.h - 24-bit fixed-point window depth as NV2A (GeForce3 class) computes it.
 //
-// Rule     nv2a-depth.md section 1: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the
+// Rule     depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the
 //          reference; the others add b_j (z_j - z_R), each cut toward zero to 2^(ex - 28), ex the largest exponent of
 //          the three terms; depth = floor of the sum; 16-bit float depth: the sum cut to binary32, and that to its code
 //          (every word of four captures of suite Depth_buffer). z are binary32 in buffer units; vertex z with polygon offset is

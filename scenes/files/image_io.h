@@ -3,7 +3,7 @@
 // Rule     The file's name decides: .png holds 8-bit straight colours, .exr everything. scenes/README.md lists
 //          channels, parts, attributes and the conversion to 8 bits. The same call writes the same bytes: no time, host
 //          or path goes in. Written under a temporary name and renamed: SystemError, and no file, if that fails.
-// Source   decisions.md 5; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files unless
+// Source   images.md 2 to 6; OpenImageIO would multiply PNG colours by alpha and stamp the time into EXR files unless
 //          told not to.
 // Tests    tests/scenes/files/png_test.cpp, exr_test.cpp, deep_exr_test.cpp
 #pragma once

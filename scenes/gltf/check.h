@@ -6,7 +6,7 @@
 //          README.md).
 // Source   glTF 2.0 specification; issue codes: KhronosGroup/glTF-Validator, ISSUES.md.
 // Numbers  Lengths, offsets and counts are below 2^31, element sizes below 2^8: every sum and product fits 64 bits.
-// Tests    tests/scenes/gltf_bad_*_test.cpp
+// Tests    tests/scenes/gltf/gltf_bad_*_test.cpp
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 //
 // Rule     Binary64, a fixed order of + - * /; of the C library only floor, which is exact. Error below 0.501 units in
 //          the last place. Angles up to 10^6 radians; beyond, and for NaN, the answer is NaN.
-// Source   decisions.md 1: the C library's own differ between processors. double_double.h names its sources.
+// Source   scenes.md 8: the C library's own differ between processors. double_double.h names its sources.
 // Cost     About a microsecond a call: for cameras, procedural scenes and colour factors, never for fragments.
 // Tests    tests/scenes/numbers/elementary_test.cpp against MPFR
 #pragma once

@@ -1,5 +1,5 @@
 // scenes/numbers/vector.h - three binary64 coordinates: GLM's storage and component-wise operators; sums in an order of our own,
-// because result bits depend on it (decisions.md 1).
+// because result bits depend on it (scenes.md 7.1).
 #pragma once
 #include <glm/vec3.hpp>
 

@@ -1,6 +1,6 @@
 // scenes/procedural/volume_beam.h - a stack of alpha-modulated planes crossed by a conical shell, after Carr et al., Figure 1.
 //
-// Rule     decisions.md 2, in binary64, each vertex rounded once to binary32. Mesh 0: the planes in the order in which
+// Rule     scenes.md 3, in binary64, each vertex rounded once to binary32. Mesh 0: the planes in the order in which
 //          they are drawn; mesh 1: the cone. Both two-sided and BLEND (the cone's alpha is 1: `--alpha` makes it
 //          transparent).
 // Tests    tests/scenes/procedural/volume_beam_test.cpp

@@ -1,4 +1,4 @@
-// Everitt 2001, Listing 2, entered as it is printed, matrix for matrix, with its slips mended (hardware.md 14): what its state
+// Everitt 2001, Listing 2, entered as it is printed, matrix for matrix, with its slips mended (errata.md 1): what its state
 // stores and compares, against the depth paths that the peeling algorithms use.
 #include <catch2/catch.hpp>
 #include <map>

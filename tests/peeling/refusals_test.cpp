@@ -1,4 +1,4 @@
-// Who runs what: the table of decisions.md 4, row by row, and the sentence of every refusal.
+// Who runs what: the table of devices.md 10, row by row, and the sentence of every refusal.
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/input_error.h"
@@ -38,7 +38,7 @@ const std::string no_programs =
 
 }  // namespace
 
-TEST_CASE("the table of algorithms and profiles is that of decisions.md 4") {
+TEST_CASE("the table of algorithms and profiles is that of devices.md 10") {
     const std::vector<std::string> geforce3{
         "unsorted", "painter", "depth_units", "shadow_map", "shadow_map_depth_replace", "a_buffer"};
     const std::vector<std::string> geforce8{

@@ -151,7 +151,7 @@ void check_scene(const FragmentScene& given, const Machine& machine, strata::pee
     if (machine.profile == "ideal") check_accuracy(scene, result);
 }
 
-// Everything that decisions.md 4 lets run.
+// Everything that devices.md 10 lets run.
 std::vector<Machine> machines() {
     std::vector<Machine> all{{"geforce3", "depth_units"},
                              {"geforce3", "shadow_map"},

@@ -1,5 +1,5 @@
 // tests/pipeline/blend_model.h - random blend states, and one fragment blended on an 8-bit target in plain integers,
-// written from GL 2.1 4.1.8 and nv2a-fragment.md R1, R2, R4. blend_float_test.cpp has the float counterpart.
+// written from GL 2.1 4.1.8 and fragment-stages.md 8.1 and 8.2. blend_float_test.cpp has the float counterpart.
 #pragma once
 #include <algorithm>
 #include <array>

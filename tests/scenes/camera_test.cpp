@@ -1,5 +1,5 @@
 // The models: what gluLookAt and gluPerspective must do to points that one knows (eye, centre, frustum corners), and
-// the orbit's formula of decisions.md 2 in 60 decimal digits.
+// the orbit's formula of scenes.md 7.2 in 60 decimal digits.
 #include "scenes/camera.h"
 
 #include <boost/math/constants/constants.hpp>
@@ -70,7 +70,7 @@ TEST_CASE("a perspective projection takes the corners of its frustum to the corn
     }
 }
 
-TEST_CASE("an orbit's eye, depth range and angle are those of decisions.md 2 to the last digits") {
+TEST_CASE("an orbit's eye, depth range and angle are those of scenes.md 7.2 to the last digits") {
     const Bounds bounds = box(-1, 0, 2, 5, 3, 4);
     const Wide radius = sqrt(Wide{49} / 4), degree = boost::math::constants::pi<Wide>() / 180;  // half sides 3, 1.5, 1
     for (const double azimuth : {30.0, -115.0, 400.0}) {

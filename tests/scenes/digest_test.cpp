@@ -1,4 +1,4 @@
-// The model: the bytes of decisions.md 5, serialised here field by field, through the one-shot XXH3_128bits.
+// The model: the bytes of formats.md 8, serialised here field by field, through the one-shot XXH3_128bits.
 #include <xxhash.h>
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // tests/support/composite_model.h - what each exact algorithm must show at one pixel, one fragment after another.
-// Written from algorithms.md 0 and 2 to 6 with the arithmetic of hardware.md 8 and 9: it shares nothing with the
+// Written from algorithms.md 0 and 2 to 6 with the arithmetic of fragment-stages.md 8 to 9, formats.md 2 to 3: it shares nothing with the
 // product. The targets' arithmetic is here a number line of its own: integers over 255, or binary32 (and its rounding
 // to 11 bits).
 #pragma once
@@ -171,7 +171,7 @@ using DepthGroups = std::map<float, std::vector<Rgba>>;
     return result;
 }
 
-// algorithms.md 0, the oracle: all fragments, the first arrival of a depth in front, in binary64.
+// algorithms.md 17, the oracle: all fragments, the first arrival of a depth in front, in binary64.
 [[nodiscard]] inline std::array<double, 3> exact_composite(const DepthGroups& groups, const Rgba& background) {
     std::array<double, 3> result{background[0], background[1], background[2]};
     for (auto depth = groups.rbegin(); depth != groups.rend(); ++depth)

@@ -1,4 +1,4 @@
-// Captures made here: the clear of suite Clear is a uniform picture whatever was drawn before it (nv2a-fragment.md 6).
+// Captures made here: the clear of suite Clear is a uniform picture whatever was drawn before it (chip-fragment.md 5).
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>

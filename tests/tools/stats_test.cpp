@@ -1,4 +1,4 @@
-// Model: decisions.md 5: the keys and types of a row, typed here a second time.
+// Model: reports.md 1: the keys and types of a row, typed here a second time.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 //          depth, which a capture shows as R5G6B5 widened; a 24-bit depth above its stencil, which it shows in A R G and B.
 //          Label pixels of a colour capture, (255, 255, 255, 0), and hidden rectangles are not compared. Colours differ by their
 //          largest channel difference in 1/255, the rest by units.
-// Source   the captures' own descriptions, as repeated in nv2a-fragment.md and nv2a-geometry.md.
+// Source   the captures' own descriptions, as repeated in chip-fragment.md and chip-geometry.md.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include <array>

@@ -3,7 +3,7 @@
 //
 // Rule     A suite's file turns a name into draws; no picture is looked at. What the reference does not describe is not
 //          modelled, and says so. Pixels of a label (text that the test wrote over its picture) are not compared.
-// Source   nv2a-fragment.md, nv2a-geometry.md, nv2a-depth.md: scene by scene.
+// Source   chip-fragment.md, chip-geometry.md, chip-depth.md: scene by scene.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include <array>

@@ -1,7 +1,7 @@
 // tools/hardware_check/textured.h - quads whose corners bring coordinates of texture units, and combiners that show a register.
 //
 // Rule     Corners are listed as in shapes.h. The tests give all corners of a quad one w, so none is needed here: w is 1.
-// Source   nv2a-geometry.md 2, 3 and 5.
+// Source   chip-depth.md 6 and 7, chip-geometry.md 4.
 #pragma once
 #include "pipeline/region/fragment_path.h"
 #include "tools/hardware_check/shapes.h"

@@ -97,7 +97,7 @@ int list_profiles(const ListOptions& options) {
     return 0;
 }
 
-// Every number with its source: D documented, M measured, A assumed; the sections are hardware.md's.
+// Every number with its source: S specified, M measured, A assumed; then the page and section of the book.
 int show_profile(const ListOptions& options) {
     const pipeline::DeviceProfile profile = scenes::load_profile(options.name);
     if (options.json) {

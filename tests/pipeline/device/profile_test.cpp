@@ -15,7 +15,7 @@ TEST_CASE("the built-in profiles are geforce3, geforce8, geforce8_dx101, ideal a
     CHECK(find_profile("geforce4") == nullptr);
 }
 
-// hardware.md, "Silicon first" and sections 1 to 8.
+// devices.md 2.
 TEST_CASE("geforce3 has the numbers that captures of an NV2A prove") {
     const DeviceProfile& p = *find_profile("geforce3");
     CHECK(p.raster.subpixel_bits == 4);
@@ -116,8 +116,8 @@ TEST_CASE("a description names each value's source, and a number that a user cha
             if (e.key == key) return e.value + ", " + e.source;
         return std::string{};
     };
-    CHECK(entry("raster.subpixel_bits") == "4, [M] 1: hardware tests on NV2A; the minimum OpenGL allows");
-    CHECK(entry("raster.depth_rounding") == "floor, [M] 2: NV2A floors integer depth");
+    CHECK(entry("raster.subpixel_bits") == "4, [M] coverage.md 1.2: hardware tests on NV2A; the minimum OpenGL allows");
+    CHECK(entry("raster.depth_rounding") == "floor, [M] chip-depth.md 1.3: NV2A floors integer depth");
     CHECK(entry("has_d32f").starts_with("false, [M]"));
     profile.raster.subpixel_bits = 12;
     CHECK(entry("raster.subpixel_bits") == "12, the profile's own file");

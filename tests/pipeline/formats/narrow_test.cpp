@@ -1,4 +1,4 @@
-// Surfaces without alpha or with fewer bits a channel (nv2a-fragment.md 6, R10).
+// Surfaces without alpha or with fewer bits a channel (formats.md 4).
 #include "pipeline/formats/narrow.h"
 
 #include <catch2/catch.hpp>

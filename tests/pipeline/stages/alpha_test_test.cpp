@@ -64,7 +64,7 @@ TEST_CASE("a mask cutoff of 0.5 keeps exactly the 8-bit alphas from 128 up") {
     for (int k = 0; k < 256; ++k) CHECK(passes_one(cutoff, true, static_cast<float>(k) / 255.0f) == (k >= 128));
 }
 
-// nv2a-fragment.md section 2: 8-bit alphas against 7F, sixteen pictures of hardware.
+// chip-fragment.md 2: 8-bit alphas against 7F, sixteen pictures of hardware.
 TEST_CASE("alpha 7E, 7F and 80 against 7F pass as the pictures of hardware show") {
     const auto outcome = [](CompareFunc func) {
         std::string passed;

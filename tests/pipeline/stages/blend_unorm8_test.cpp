@@ -99,7 +99,7 @@ TEST_CASE("OVER gives the rational value rounded half up for every source, desti
     CHECK(wrong == 0);
 }
 
-// nv2a-fragment.md R1: one rounding of the exact sum; each product rounded for itself got 152 of 239 pictures wrong.
+// chip-fragment.md 1.2: one rounding of the exact sum; each product rounded for itself got 152 of 239 pictures wrong.
 TEST_CASE("the sum is rounded once, not each product") {
     const Blend halves{true,
                        {BlendEquation::add, BlendFactor::constant_color, BlendFactor::constant_color},

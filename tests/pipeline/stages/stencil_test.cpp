@@ -117,7 +117,7 @@ TEST_CASE("every operation gives its value for every stored value and mask") {
     CHECK(wrong == 0);
 }
 
-// nv2a-fragment.md section 4, Stencil_func: pass when 7F FUNC stored.
+// chip-fragment.md 4, Stencil_func: pass when 7F FUNC stored.
 TEST_CASE(
     "the reference stands on the left, as sixteen pictures of hardware show: LESS passes where stored is above 7F") {
     const auto drawn = [](CompareFunc func) {

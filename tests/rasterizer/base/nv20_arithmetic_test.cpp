@@ -1,4 +1,4 @@
-// The model: rationals (rational.h) cut by the rules of hardware.md 1; integers of any size for the Newton steps.
+// The model: rationals (rational.h) cut by the rules of numbers.md 4; integers of any size for the Newton steps.
 #include "rasterizer/base/nv20_arithmetic.h"
 
 #include <catch2/catch.hpp>

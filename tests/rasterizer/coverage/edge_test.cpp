@@ -1,4 +1,4 @@
-// The corner cases of hardware.md 13: covered pixels as printed there, in window positions, y down.
+// The corner cases of coverage.md 11: covered pixels as printed there, in window positions, y down.
 #include "rasterizer/coverage/edge.h"
 
 #include <catch2/catch.hpp>

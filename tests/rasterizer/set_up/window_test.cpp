@@ -28,7 +28,7 @@ using namespace strata::rasterizer;
 }  // namespace
 
 TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, ties to even") {
-    CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // the hardware's own cases: hardware.md 1
+    CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // the hardware's own cases: coverage.md 4.1
     CHECK(snap(.5625f, 4, Snap::toward_zero) == 9);
     CHECK(snap(-.0624f, 4, Snap::toward_zero) == 0);
     CHECK(snap(2.5f / 16, 4, Snap::nearest_even) == 2);

@@ -1,4 +1,4 @@
-// The model: nv2a-fragment.md R5, R6 and the remainder rule of nv2a-depth.md section 3 over rationals.
+// The model: attributes.md 2.2, 2.4 and the remainder rule of attributes.md 2.3 over rationals.
 #include "rasterizer/values/color_weights.h"
 
 #include <catch2/catch.hpp>
@@ -115,7 +115,7 @@ TEST_CASE("interpolated colours are the 8-bit weights of the captures, for trian
 }
 
 TEST_CASE("a captured quad differs from exact weights at as many pixels as silicon does") {
-    // Color_mask_blend, second quad (nv2a-depth.md section 2): 374 of 8,520 pixels.
+    // Color_mask_blend, second quad (chip-depth.md 3.1): 374 of 8,520 pixels.
     const int x0 = 213 * 16, x1 = (213 + 71) * 16, y0 = 180 * 16, y1 = 300 * 16;
     SetupTriangle upper = window_triangle({{{x0, y0}, {x1, y0}, {x1, y1}}}, bits);
     SetupTriangle lower = window_triangle({{{x0, y0}, {x1, y1}, {x0, y1}}}, bits);

@@ -1,4 +1,4 @@
-// The model: the rule of cut_coordinates.h over rationals, the remainder of nv2a-depth.md 3 as a table of ties.
+// The model: the rule of cut_coordinates.h over rationals, the remainder of attributes.md 2.3 as a table of ties.
 #include "rasterizer/values/cut_coordinates.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// The model: rationals (rational.h) with the roundings of decisions.md 1 written out: product, plane, plane of 1/w,
+// The model: rationals (rational.h) with the roundings of attributes.md 1.1 written out: product, plane, plane of 1/w,
 // quotient.
 #include "rasterizer/values/fragment_values.h"
 

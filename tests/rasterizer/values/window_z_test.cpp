@@ -1,5 +1,5 @@
-// The model is a second implementation of nv2a-depth.md section 1 over rationals, step by step as numbered there.
-// The scene of the silicon captures (nv2a-geometry.md 4) gives counts of its own.
+// The model is a second implementation of depth.md 4.4 over rationals, its steps numbered in their order.
+// The scene of the silicon captures (chip-depth.md 2) gives counts of its own.
 #include "rasterizer/values/window_z.h"
 
 #include <catch2/catch.hpp>
@@ -92,7 +92,7 @@ constexpr std::array right_strip_z{1.0, 8388607.0};
 TEST_CASE("the strips of the captured scene differ from floor(exact) in just as many words as silicon does") {
     const auto [l, r] = bottom_strip_z;
     const auto bottom = quad({132, 430, l}, {492, 430, r}, {492, 435, r}, {132, 435, l});
-    CHECK(differences(bottom[0], DepthFormat::d24, false).from_exact == 168);  // nv2a-depth.md section 2, of 900 each
+    CHECK(differences(bottom[0], DepthFormat::d24, false).from_exact == 168);  // chip-depth.md 3.1, of 900 each
     CHECK(differences(bottom[1], DepthFormat::d24, false).from_exact == 182);
     const auto [top, low] = right_strip_z;
     const auto right = quad({502, 45, top}, {510, 45, top}, {510, 435, low}, {502, 435, low});

@@ -1,4 +1,4 @@
-// The model: decisions.md 2, formula by formula, in 60 decimal digits.
+// The model: scenes.md 3, formula by formula, in 60 decimal digits.
 #include "scenes/procedural/volume_beam.h"
 
 #include <boost/math/constants/constants.hpp>
@@ -17,7 +17,7 @@ bool close(float value, const Wide& exact) { return abs(Wide{value} - exact) < 6
 
 }  // namespace
 
-TEST_CASE("slice i of N stands at z = -1 + 2 (i + 1/2) / N with the hue and the alphas of decisions.md 2") {
+TEST_CASE("slice i of N stands at z = -1 + 2 (i + 1/2) / N with the hue and the alphas of scenes.md 3") {
     for (const int slices : {1, 2, 7, 256}) {
         const auto mesh = make_volume_beam({}, slices, BeamOrder::far).list.meshes[0];
         REQUIRE(mesh.positions.size() == std::size_t(4 * slices));

@@ -1,5 +1,5 @@
 // Suite Blend_surface: <DstAlpha|1-DstAlpha>_<format>: what destination alpha is worth in surfaces with and without it.
-// <format>_Add_SrcA_<1-SrcA|DstA>: patterns of seven texel formats blended into them. nv2a-fragment.md 6.
+// <format>_Add_SrcA_<1-SrcA|DstA>: patterns of seven texel formats blended into them. chip-fragment.md 5.
 #include <algorithm>
 
 #include "tools/hardware_check/blend_patterns.h"

@@ -1,5 +1,5 @@
 // Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and Depth_buffer_fixed_function, the same without
-// DepthFmt_. Slopes of depth over small and wide quads. nv2a-geometry.md 4 and 5.7.
+// DepthFmt_. Slopes of depth over small and wide quads. chip-depth.md 2, chip-geometry.md 5.4.
 #include <vector>
 
 #include "rasterizer/rules/depth_code.h"
@@ -133,10 +133,10 @@ Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, 
 }
 
 const Drawing colors_unknown{std::nullopt,
-                             "how the chip weighs colours where w differs is not known (nv2a-fragment.md 8)"};
+                             "how the chip weighs colours where w differs is not emulated yet (chip-float-depth.md 7)"};
 const Drawing float_colors{std::nullopt,
                            "its colours were computed from float depths; no capture was at hand to confirm how"};
-const Drawing z24_float{std::nullopt, "24-bit float depth is out of scope (nv2a-geometry.md 4)"};
+const Drawing z24_float{std::nullopt, "24-bit float depth is not emulated yet (chip-float-depth.md 3.3)"};
 
 }  // namespace
 
@@ -162,7 +162,7 @@ Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::
         add_slope(soup, slope, viewport_offset, true);
     }
     Picture picture = depth_picture(profile, *setting, std::move(soup));
-    // 24 words of the right strip: the last bits of the reciprocal of its area are not known (nv2a-depth.md 4).
+    // 24 words of the right strip: the last bits of the reciprocal of its area are not known (chip-depth.md 4).
     if (setting->format == DepthFormat::d24) picture.bound = {24, 1};
     return {std::move(picture), {}};
 }

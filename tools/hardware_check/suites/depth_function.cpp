@@ -1,4 +1,4 @@
-// Suite Depth_function: DepthFunc[_ZB]. Every comparison behind, at and in front of a stored word. nv2a-fragment.md 5.
+// Suite Depth_function: DepthFunc[_ZB]. Every comparison behind, at and in front of a stored word. chip-fragment.md 4.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

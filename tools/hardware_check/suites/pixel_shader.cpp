@@ -1,4 +1,4 @@
-// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. nv2a-geometry.md 2 and 5.1 to 5.3.
+// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. chip-depth.md 6, chip-geometry.md 4.
 //
 // All equal but DotZW, at most 1 unit off on at most 0.25 % of its pixels: the last bits of its quotient are not understood.
 // DotZW and DotST sample images that the test loads from its own disk.

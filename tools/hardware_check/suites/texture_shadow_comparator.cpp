@@ -1,5 +1,5 @@
 // Suite Texture_shadow_comparator: <stage><source><format>_<min>-<max>_<reference>_<function>: a depth texture compared with r.
-// nv2a-geometry.md 3.
+// chip-depth.md 7.
 //
 //   stage   2 or 3: the two- or the three-dimensional projective one, which compares 0 or r
 //   source  R: texels written by the CPU, numbers hexadecimal; P, F: depth rendered by a vertex program or the fixed pipeline,

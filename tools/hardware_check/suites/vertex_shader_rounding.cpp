@@ -1,4 +1,4 @@
-// Suite Vertex_shader_rounding_tests: where positions are cut, and who owns a pixel centre. nv2a-geometry.md 1.
+// Suite Vertex_shader_rounding_tests: where positions are cut, and who owns a pixel centre. chip-geometry.md 1.
 // TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B, GeometrySubscreen_B with B a shift in pixels.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"

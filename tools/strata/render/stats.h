@@ -1,5 +1,5 @@
 // tools/strata/render/stats.h - what a run says about itself: a JSON object an algorithm. Every key is always present.
-// Source: decisions.md 5. Tests: tests/tools/stats_test.cpp
+// Source: reports.md 1. Tests: tests/tools/stats_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
