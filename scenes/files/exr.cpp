@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 
+#include "rasterizer/base/enum_values.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_formats.h"
@@ -100,9 +101,8 @@ PartSource source_of(const OutputColor& image) {
 }
 
 std::optional<Format> format_named(std::string_view name) {
-    for (int i = 0; i <= static_cast<int>(Format::s8); ++i) {
-        if (pipeline::info(static_cast<Format>(i)).name == name) return static_cast<Format>(i);
-    }
+    for (const Format format : enum_values<Format>)
+        if (pipeline::info(format).name == name) return format;
     return std::nullopt;
 }
 
