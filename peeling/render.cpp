@@ -7,8 +7,8 @@
 #include "peeling/stopwatch.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/check_pass.h"
-#include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
+#include "rasterizer/base/require.h"
 
 namespace strata::peeling {
 
@@ -17,27 +17,29 @@ using namespace pipeline;
 namespace {
 
 void check_options(const RenderOptions& o) {
-    const auto in_range = [](const char* option, int value, int low, int high) {
-        if (value < low || value > high)
-            throw InputError("strata", option, std::to_string(low) + " to " + std::to_string(high),
-                             std::to_string(value));
-    };
-    in_range("--size: width", o.width, 1, 16384);
-    in_range("--size: height", o.height, 1, 16384);
+    const Requirements its{"render options"};
+    its.within("width", o.width, 1, 16384);
+    its.within("height", o.height, 1, 16384);
     if (o.tile_size && std::find(std::begin(tile_sizes), std::end(tile_sizes), *o.tile_size) == std::end(tile_sizes))
-        throw InputError("strata", "--tile", "8, 16, 32, 64 or 128", std::to_string(*o.tile_size));
-    in_range("--threads", o.threads, 0, 1024);
-    in_range("the window's origin: x", o.window_origin[0], 0, 32768 - o.width);
-    in_range("the window's origin: y", o.window_origin[1], 0, 32768 - o.height);
-    in_range("--compare-epsilon: units in the last place", o.compare_epsilon.ulps, 0, 1 << 24);
+        its.fail(FieldName{"tile_size"}, "8, 16, 32, 64 or 128", *o.tile_size);
+    its.within("threads", o.threads, 0, 1024);
+    its.within("window_origin[0]", o.window_origin[0], 0, 32768 - o.width);
+    its.within("window_origin[1]", o.window_origin[1], 0, 32768 - o.height);
+    its.within("compare_epsilon.ulps", o.compare_epsilon.ulps, 0, 1 << 24);
     if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
-        throw InputError("strata", "--compare-epsilon", "a number from 0 to 1",
-                         std::to_string(o.compare_epsilon.absolute));
-    in_range("--max-passes", o.max_passes, 0, 1000000);
-    if (o.termination.rule == TerminationRule::fixed) in_range("--termination fixed", o.termination.passes, 1, 1000000);
+        its.fail(FieldName{"compare_epsilon.absolute"}, "a number from 0 to 1", o.compare_epsilon.absolute);
+    its.within("max_passes", o.max_passes, 0, 1000000);
+    its.listed("termination.rule", o.termination.rule);
+    if (o.termination.rule == TerminationRule::fixed)
+        its.within("termination.passes", o.termination.passes, 1, 1000000);
     if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
-        throw InputError("strata", "--termination ratio", "a number of at least 0",
-                         std::to_string(o.termination.ratio));
+        its.fail(FieldName{"termination.ratio"}, "a number of at least 0", o.termination.ratio);
+    if (o.alpha) its.finite("alpha", *o.alpha);
+    if (o.depth) its.listed("depth", *o.depth);
+    if (o.depth_path) its.listed("depth_path", *o.depth_path);
+    if (o.reference_path) its.listed("reference_path", *o.reference_path);
+    if (o.color_format && (!is_listed(*o.color_format) || !is_color(*o.color_format)))
+        its.fail(FieldName{"color_format"}, "a colour format", static_cast<int>(*o.color_format));
 }
 
 // window_z is the chip's rule for vertex depths in buffer units and fixed-point codes.

@@ -90,7 +90,8 @@ struct FrameFragments {
 // Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
 class Renderer {
   public:
-    // Throws InputError for options that no profile could mean (sizes, tile sizes). `list` must outlive the renderer.
+    // Throws InputError, which names the field, for options that no profile could mean and for a list whose parts do not fit
+    // together. `list` must outlive the renderer.
     Renderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options);
     ~Renderer();

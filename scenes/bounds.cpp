@@ -8,14 +8,14 @@
 namespace strata::scenes {
 namespace {
 
-std::array<double, 3> transformed(const pipeline::Matrix& m, const pipeline::Vec3& p) noexcept {
-    std::array<double, 3> world{};
+Vec3d transformed(const pipeline::Matrix& m, const pipeline::Vec3& p) noexcept {
+    Vec3d world;
     for (std::size_t r = 0; r < 3; ++r)
-        world[r] = ((m[r] * double{p[0]} + m[4 + r] * double{p[1]}) + m[8 + r] * double{p[2]}) + m[12 + r];
+        world[r] = ((m[0][r] * double{p.x} + m[1][r] * double{p.y}) + m[2][r] * double{p.z}) + m[3][r];
     return world;
 }
 
-void include(Bounds& bounds, const std::array<double, 3>& point) noexcept {
+void include(Bounds& bounds, const Vec3d& point) noexcept {
     if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) return;
     if (bounds.is_empty()) bounds = {point, point};
     for (std::size_t i = 0; i < 3; ++i) {

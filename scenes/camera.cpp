@@ -6,47 +6,61 @@
 
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
-#include "rasterizer/base/numerics.h"
+#include "rasterizer/base/vector_arithmetic.h"
 #include "scenes/numbers/elementary.h"
 
 namespace strata::scenes {
 namespace {
 
-Vector normalized(const Vector& a) noexcept { return a / std::sqrt(dot(a, a)); }
+Vec3d normalized(const Vec3d& a) noexcept { return divided(a, std::sqrt(dot_product(a, a))); }
 
-pipeline::Matrix look_at_matrix(const Vector& eye, const Vector& center, const Vector& up) noexcept {
-    const Vector forward = normalized(center - eye);
-    const Vector side = normalized(cross(forward, up));
-    const Vector top = cross(side, forward);
-    return {side[0], top[0], -forward[0], 0, side[1],         top[1],         -forward[1],       0,
-            side[2], top[2], -forward[2], 0, -dot(side, eye), -dot(top, eye), dot(forward, eye), 1};
+pipeline::Matrix look_at_matrix(const Vec3d& eye, const Vec3d& center, const Vec3d& up) noexcept {
+    const Vec3d forward = normalized(minus(center, eye));
+    const Vec3d side = normalized(cross_product(forward, up));
+    const Vec3d top = cross_product(side, forward);
+    return {side[0],
+            top[0],
+            -forward[0],
+            0,
+            side[1],
+            top[1],
+            -forward[1],
+            0,
+            side[2],
+            top[2],
+            -forward[2],
+            0,
+            -dot_product(side, eye),
+            -dot_product(top, eye),
+            dot_product(forward, eye),
+            1};
 }
 
 // The two entries of a perspective matrix's third row; zfar 0: at infinity.
 void set_depth_row(pipeline::Matrix& m, double znear, double zfar) noexcept {
-    m[10] = zfar == 0 ? -1 : -(zfar + znear) / (zfar - znear);
-    m[14] = zfar == 0 ? -2 * znear : -2 * znear * zfar / (zfar - znear);
-    m[11] = -1;
+    m[2][2] = zfar == 0 ? -1 : -(zfar + znear) / (zfar - znear);
+    m[3][2] = zfar == 0 ? -2 * znear : -2 * znear * zfar / (zfar - znear);
+    m[2][3] = -1;
 }
 
 // `half_angle` in radians.
 pipeline::Matrix perspective(double half_angle, double aspect, double znear, double zfar) noexcept {
     const double cotangent = cos(half_angle) / sin(half_angle);
-    pipeline::Matrix m{};
-    m[0] = cotangent / aspect;
-    m[5] = cotangent;
+    pipeline::Matrix m(0.0);
+    m[0][0] = cotangent / aspect;
+    m[1][1] = cotangent;
     set_depth_row(m, znear, zfar);
     return m;
 }
 
 pipeline::Matrix orthographic(const SceneCamera& camera) noexcept {
-    pipeline::Matrix m{};
+    pipeline::Matrix m(0.0);
     const double depth = camera.znear - camera.zfar;
-    m[0] = 1 / camera.xmag;
-    m[5] = 1 / camera.ymag;
-    m[10] = 2 / depth;
-    m[14] = (camera.zfar + camera.znear) / depth;
-    m[15] = 1;
+    m[0][0] = 1 / camera.xmag;
+    m[1][1] = 1 / camera.ymag;
+    m[2][2] = 2 / depth;
+    m[3][2] = (camera.zfar + camera.znear) / depth;
+    m[3][3] = 1;
     return m;
 }
 
@@ -56,17 +70,16 @@ void check_angle(const char* name, double angle, double limit, const char* expec
 }
 
 struct Sphere {
-    Vector center{0, 0, 0};
+    Vec3d center{0, 0, 0};
     double radius = 1;
 };
 
 Sphere bounding_sphere(const Bounds& bounds) noexcept {
     if (bounds.is_empty()) return {};
     Sphere sphere;
-    const Vector lo{bounds.lo[0], bounds.lo[1], bounds.lo[2]}, hi{bounds.hi[0], bounds.hi[1], bounds.hi[2]};
-    sphere.center = (lo + hi) * 0.5;
-    const Vector half = hi - sphere.center;
-    sphere.radius = std::sqrt(dot(half, half));
+    sphere.center = times(plus(bounds.lo, bounds.hi), 0.5);
+    const Vec3d half = minus(bounds.hi, sphere.center);
+    sphere.radius = std::sqrt(dot_product(half, half));
     if (sphere.radius == 0) sphere.radius = 1;
     return sphere;
 }
@@ -84,10 +97,11 @@ LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevati
     check_angle("azimuth", azimuth_degrees, 1e6, "degrees from -1000000 to 1000000");
     check_angle("elevation", elevation_degrees, 90, "degrees from -90 to 90");
     const double azimuth = radians(azimuth_degrees), elevation = radians(elevation_degrees);
-    const Vector outward{cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth)};
+    const Vec3d outward{cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth)};
     const auto [center, radius] = bounding_sphere(bounds);
 
-    LookAt camera{.eye = center + 2.5 * radius * outward, .center = center, .near = 1.4 * radius, .far = 3.6 * radius};
+    LookAt camera{
+        .eye = plus(center, times(outward, 2.5 * radius)), .center = center, .near = 1.4 * radius, .far = 3.6 * radius};
     if (std::abs(outward[1]) > 0x1.ffffffffffp-1) {  // within 10^-6 radians of a pole: +y is the line of sight
         const double sign = outward[1] > 0 ? -1 : 1;
         camera.up = {sign * sin(azimuth), 0, sign * cos(azimuth)};

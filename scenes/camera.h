@@ -6,13 +6,13 @@
 #pragma once
 #include <string>
 
-#include "scenes/numbers/vector.h"
+#include "rasterizer/base/vector.h"
 #include "scenes/scene.h"
 
 namespace strata::scenes {
 
 struct LookAt {  // what a camera file of the first form says
-    Vector eye{0, 0, 1}, center{0, 0, 0}, up{0, 1, 0};
+    Vec3d eye{0, 0, 1}, center{0, 0, 0}, up{0, 1, 0};
     double fovy_degrees = 45, near = 0.1, far = 100;
 };
 

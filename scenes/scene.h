@@ -9,7 +9,7 @@
 namespace strata::scenes {
 
 struct Bounds {  // world space, axis-aligned; empty while lo > hi
-    std::array<double, 3> lo{1, 1, 1}, hi{0, 0, 0};
+    Vec3d lo{1, 1, 1}, hi{0, 0, 0};
     [[nodiscard]] bool is_empty() const noexcept { return lo[0] > hi[0]; }
 };
 

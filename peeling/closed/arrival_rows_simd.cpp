@@ -30,7 +30,7 @@ HWY_INLINE std::uint32_t bits_of(WordMask mask) { return raster::bits_of(hn::Reb
 
 struct AppendState {
     Arrivals& to;
-    rasterizer::DepthConversion to_code;
+    rasterizer::DepthConversion<float> to_code;
     double z_units;
     std::uint64_t fragments = 0;
     bool has_room = true;
@@ -190,7 +190,7 @@ struct AppendOf {
 
         AppendState& state_;
         const Arrivals to_;  // what stands in the state, where a store could not have changed it
-        const rasterizer::DepthConversion to_code_;
+        const rasterizer::DepthConversion<float> to_code_;
         const DrawnTriangle& triangle_;
         const ColorPlanes color_;
         const rasterizer::RationalPlane depth_;
@@ -227,7 +227,7 @@ class CountShade {
 };
 
 bool append_all(Arrivals& to, const pipeline::RowSource& source, std::span<const std::uint32_t> triangles,
-                const rasterizer::Rect& band, rasterizer::DepthConversion to_code, double z_units,
+                const rasterizer::Rect& band, rasterizer::DepthConversion<float> to_code, double z_units,
                 std::uint64_t& fragments) {
     AppendState state{to, to_code, z_units};
     if (to.by_shader_z)

@@ -1,9 +1,10 @@
 #include "pipeline/device/check.h"
 
 #include <array>
-#include <cassert>
 #include <utility>
 #include <vector>
+
+#include "rasterizer/base/enum_values.h"
 
 namespace strata::pipeline {
 namespace {
@@ -43,11 +44,15 @@ constexpr std::array feature_rows{
                &DeviceProfile::has_narrow_surfaces},
 };
 
-const FeatureRow& row(Feature feature) {
-    const FeatureRow& found = feature_rows[static_cast<std::size_t>(feature)];
-    assert(found.feature == feature && "feature_rows follows the order of Feature");
-    return found;
+constexpr bool rows_follow_the_enum() {
+    std::size_t i = 0;
+    for (const Feature feature : enum_values<Feature>)
+        if (i >= feature_rows.size() || feature_rows[i++].feature != feature) return false;
+    return i == feature_rows.size();
 }
+static_assert(rows_follow_the_enum(), "feature_rows has a row for every Feature, in its order");
+
+const FeatureRow& row(Feature feature) { return feature_rows[static_cast<std::size_t>(feature)]; }
 
 // "use geforce8 or ideal": the built-in profiles that `can`.
 std::string way_out(auto can) {

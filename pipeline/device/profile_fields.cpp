@@ -1,5 +1,9 @@
 #include "pipeline/device/profile_fields.h"
 
+#include <utility>
+
+#include "rasterizer/base/enum_values.h"
+
 namespace strata::pipeline {
 namespace {
 
@@ -10,36 +14,7 @@ using Rules = rasterizer::RasterRules;
 using Hypothesis = rasterizer::DepthHypothesis;
 using Interpolation = rasterizer::InterpolationHypothesis;
 
-// In the order of the enums.
-constexpr std::string_view snap_names[] = {"toward_zero", "nearest_even"};
-constexpr std::string_view tie_names[] = {"top_left", "bottom_left", "top_right", "bottom_right"};
-constexpr std::string_view z_clip_names[] = {"per_primitive", "per_fragment"};
-constexpr std::string_view w_clip_names[] = {"clip", "drop"};
-constexpr std::string_view w_divide_names[] = {"quotient", "reciprocal", "nv20"};
-constexpr std::string_view viewport_names[] = {"separate", "fused"};
-constexpr std::string_view origin_names[] = {"snapped", "unsnapped"};
-constexpr std::string_view window_z_names[] = {"unit_interval", "buffer_units"};
-constexpr std::string_view path_names[] = {"window_z", "perspective_rq", "depth_replace",
-                                           "float32",  "float32_plane",  "exact"};
-constexpr std::string_view depth_rounding_names[] = {"floor", "nearest"};
-constexpr std::string_view offset_names[] = {"format", "float_exponent"};
-constexpr std::string_view color_names[] = {"exact_plane", "weights_8bit"};
 constexpr std::string_view interpolant_names[] = {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"};
-constexpr std::string_view divide_names[] = {"exact", "cut_reciprocal", "low_reciprocal"};
-constexpr std::string_view window_z_rule_names[] = {"chip", "exact", "float32"};
-constexpr std::string_view anchor_names[] = {"first_vertex", "window_corner"};
-constexpr std::string_view perspective_color_names[] = {"edge_products", "weight_products"};
-constexpr std::string_view coordinate_names[] = {"exact_plane", "cut_weights"};
-constexpr std::string_view alpha_names[] = {"unorm8", "by_target"};
-constexpr std::string_view blend_names[] = {"nearest", "truncate"};
-constexpr std::string_view half_names[] = {"nearest_even", "toward_zero"};
-constexpr std::string_view nan_names[] = {"other_operand", "propagate"};
-constexpr std::string_view denormal_names[] = {"flush", "keep"};
-constexpr std::string_view filter_names[] = {"unorm8", "single"};
-
-// The last value of each enum has the last name.
-static_assert(std::size(tie_names) == static_cast<std::size_t>(rasterizer::TieRule::bottom_right) + 1);
-static_assert(std::size(path_names) == static_cast<std::size_t>(rasterizer::DepthPath::exact) + 1);
 
 // A member of DeviceProfile, of its RasterRules or of their hypotheses.
 template <auto member>
@@ -74,11 +49,18 @@ constexpr ProfileField boolean(std::string_view key, const Sources& source) {
 }
 
 template <auto member>
-constexpr ProfileField choice(std::string_view key, Names names, const Sources& source) {
+constexpr ProfileField choice_of(std::string_view key, Names names, const Sources& source) {
     ProfileField field = row<member>(key, FieldKind::choice, source);
     field.choices = names;
     field.highest = static_cast<int>(names.size()) - 1;
     return field;
+}
+
+// The values of an enum, by their identifiers: a new one is in the table at once.
+template <auto member>
+constexpr ProfileField choice(std::string_view key, const Sources& source) {
+    using Enum = std::remove_cvref_t<decltype(at<member>(std::declval<Profile&>()))>;
+    return choice_of<member>(key, enum_names<Enum>, source);
 }
 
 struct Range {
@@ -96,7 +78,7 @@ constexpr ProfileField integer(std::string_view key, Range range, const Sources&
 
 // 16 to 24 and full_double, as the names above count them.
 constexpr ProfileField interpolant_bits(std::string_view key, const Sources& source) {
-    ProfileField field = choice<&Hypothesis::interpolant_bits>(key, interpolant_names, source);
+    ProfileField field = choice_of<&Hypothesis::interpolant_bits>(key, interpolant_names, source);
     field.value = [](const Profile& p) {
         const int bits = p.raster.hypothesis.interpolant_bits;
         return bits == rasterizer::full_double ? 9 : bits - 16;
@@ -119,51 +101,41 @@ constexpr std::array fields{
     integer<&Rules::subpixel_bits>("raster.subpixel_bits", {4, 12, 4},
                                    {"[M] coverage.md 1.2: hardware tests on NV2A; the minimum OpenGL allows",
                                     "[S] coverage.md 1.2: D3D 11.3 3.4.1", ours, drawn}),
-    choice<&Rules::snap>("raster.snap", snap_names,
-                         {"[M] coverage.md 4.1: 0.5624 lands on 0.5",
-                          "[A] coverage.md 4.1: 0.6 ULP is allowed, the ideal is taken", ours, drawn}),
-    choice<&Rules::tie_rule>(
-        "raster.tie_rule", tie_names,
-        {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels", "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
+    choice<&Rules::snap>("raster.snap", {"[M] coverage.md 4.1: 0.5624 lands on 0.5",
+                                         "[A] coverage.md 4.1: 0.6 ULP is allowed, the ideal is taken", ours, drawn}),
+    choice<&Rules::tie_rule>("raster.tie_rule", {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels",
+                                                 "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
     integer<&Rules::guard_band_px>(
         "raster.guard_band_px", {1, 32768},
         {"[A] coverage.md 1.3: the fixed-point range", "[S] coverage.md 1.3: D3D 11.3 15.6.1", ours,
          "[A] Mesa cuts at the viewport: compare scenes that lie inside it"}),
-    choice<&Rules::z_clip>("raster.z_clip", z_clip_names,
-                           {"[M] depth.md 5.2: fragments outside zmin..zmax are discarded",
-                            "[S] depth.md 5.2: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
-    choice<&Rules::w_clip>("raster.w_clip", w_clip_names,
+    choice<&Rules::z_clip>("raster.z_clip", {"[M] depth.md 5.2: fragments outside zmin..zmax are discarded",
+                                             "[S] depth.md 5.2: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
+    choice<&Rules::w_clip>("raster.w_clip",
                            {"[A] coverage.md 2.1", "[S] coverage.md 2.1: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
-    choice<&Rules::w_divide>("raster.w_divide", w_divide_names,
-                             {"[S] coverage.md 3.2", "[A] coverage.md 3.2", ours, drawn}),
-    choice<&Rules::viewport>(
-        "raster.viewport", viewport_names,
-        {"[A] coverage.md 3.3", "[A] coverage.md 3.3", ours, "[A] either: half of 1024 scales exactly"}),
-    choice<&Rules::plane_origin>(
-        "raster.plane_origin", origin_names,
-        {"[M] chip-geometry.md 2.2: 99.80 % of 65,536 pixels", "[S] depth.md 3.7: D3D 11.3 15.16.2", ours,
-         "[M] Mesa 22.3: planes start at the float32 positions"}),
-    choice<&Rules::window_z>("raster.window_z", window_z_names,
-                             {"[M] chip-depth.md 1.4", "[A] coverage.md 3.4", ours, unmeasured}),
-    choice<&Rules::depth_path>("raster.depth_path", path_names,
+    choice<&Rules::w_divide>("raster.w_divide", {"[S] coverage.md 3.2", "[A] coverage.md 3.2", ours, drawn}),
+    choice<&Rules::viewport>("raster.viewport", {"[A] coverage.md 3.3", "[A] coverage.md 3.3", ours,
+                                                 "[A] either: half of 1024 scales exactly"}),
+    choice<&Rules::plane_origin>("raster.plane_origin", {"[M] chip-geometry.md 2.2: 99.80 % of 65,536 pixels",
+                                                         "[S] depth.md 3.7: D3D 11.3 15.16.2", ours,
+                                                         "[M] Mesa 22.3: planes start at the float32 positions"}),
+    choice<&Rules::window_z>("raster.window_z", {"[M] chip-depth.md 1.4", "[A] coverage.md 3.4", ours, unmeasured}),
+    choice<&Rules::depth_path>("raster.depth_path",
                                {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words",
                                 "[A] depth.md 4.1: D3D 11.3 16.3.1 fixes all but the last bit", ours,
                                 "[A] Mesa rounds each step of its plane; the exact plane is taken"}),
-    choice<&Rules::depth_rounding>(
-        "raster.depth_rounding", depth_rounding_names,
-        {"[M] chip-depth.md 1.3: NV2A floors integer depth", "[S] depth.md 2.1: D3D 11.3 17.10", ours, unmeasured}),
-    choice<&Rules::offset_unit>(
-        "raster.offset_unit", offset_names,
-        {"[A] coverage.md 9.2: one code", "[S] coverage.md 9.2: D3D 11.3 15.10", ours, unmeasured}),
-    choice<&Rules::color>("raster.color", color_names,
-                          {"[M] chip-fragment.md 3.3: 489,784 of 489,788 pixels",
-                           "[A] attributes.md 1.1: exact plane, one rounding", ours, unmeasured}),
+    choice<&Rules::depth_rounding>("raster.depth_rounding", {"[M] chip-depth.md 1.3: NV2A floors integer depth",
+                                                             "[S] depth.md 2.1: D3D 11.3 17.10", ours, unmeasured}),
+    choice<&Rules::offset_unit>("raster.offset_unit", {"[A] coverage.md 9.2: one code",
+                                                       "[S] coverage.md 9.2: D3D 11.3 15.10", ours, unmeasured}),
+    choice<&Rules::color>("raster.color", {"[M] chip-fragment.md 3.3: 489,784 of 489,788 pixels",
+                                           "[A] attributes.md 1.1: exact plane, one rounding", ours, unmeasured}),
     interpolant_bits("raster.interpolant_bits",
                      {"[A] depth.md 4.5: binary32", "[A] depth.md 4.5: binary32", ours, unmeasured}),
-    choice<&Hypothesis::divide>("raster.divide", divide_names,
+    choice<&Hypothesis::divide>("raster.divide",
                                 {"[A] depth.md 8.2: rounded once; chip-depth.md 6.3 knows no bit-exact rule",
                                  "[A] depth.md 8.2: rounded once", ours, unmeasured}),
-    choice<&Hypothesis::window_z>("raster.window_z_rule", window_z_rule_names,
+    choice<&Hypothesis::window_z>("raster.window_z_rule",
                                   {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words", unused, unused, unused}),
     integer<&Hypothesis::reciprocal_bits>("raster.reciprocal_bits", {24, 30},
                                           {"[M] chip-depth.md 4: fits three areas of four", unused, unused, unused}),
@@ -172,37 +144,33 @@ constexpr std::array fields{
     boolean<&Hypothesis::quantize_reference>(
         "raster.quantize_reference",
         {"[M] chip-depth.md 7.2: R is cut like a depth write", "[S] depth.md 6.2: D3D 11.3 22.4.19", ours, unmeasured}),
-    choice<&Hypothesis::plane_anchor>("raster.plane_anchor", anchor_names,
+    choice<&Hypothesis::plane_anchor>("raster.plane_anchor",
                                       {"[A] depth.md 4.7: either is in use", "[A] depth.md 4.7: either is in use", ours,
                                        "[A] depth.md 4.7: either is in use"}),
     integer<&Interpolation::vertex_color_bits>(
         "raster.vertex_color_bits", {9, 24},
         {"[M] attributes.md 2.2: all of 3,944 greys", unweighted, unweighted, unweighted}),
     choice<&Interpolation::perspective_color>(
-        "raster.perspective_color", perspective_color_names,
+        "raster.perspective_color",
         {"[A] attributes.md 2.5: equal w alone is measured", unweighted, unweighted, unweighted}),
-    choice<&Interpolation::texture_coordinates>("raster.texture_coordinates", coordinate_names,
+    choice<&Interpolation::texture_coordinates>("raster.texture_coordinates",
                                                 {"[M] attributes.md 3.2: 41,274 coordinates, for equal w",
                                                  "[S] attributes.md 3.1: D3D 11.3 15.10", ours, unmeasured}),
-    choice<&Profile::alpha_test>("alpha_test", alpha_names,
-                                 {"[M] chip-fragment.md 2: 16 of 16 pictures",
-                                  "[S] fragment-stages.md 3: ARB_color_buffer_float", ours, unmeasured}),
-    choice<&Profile::blend_rounding>("blend_rounding", blend_names,
+    choice<&Profile::alpha_test>("alpha_test", {"[M] chip-fragment.md 2: 16 of 16 pictures",
+                                                "[S] fragment-stages.md 3: ARB_color_buffer_float", ours, unmeasured}),
+    choice<&Profile::blend_rounding>("blend_rounding",
                                      {"[M] chip-fragment.md 1.2: 1,673 of 1,673",
                                       "[A] fragment-stages.md 8.2: the contract that NV2A confirms", ours, unmeasured}),
     choice<&Profile::half_rounding>(
-        "half_rounding", half_names,
-        {"[A] formats.md 3.2: no float targets", "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero",
-         ours, unmeasured}),
+        "half_rounding", {"[A] formats.md 3.2: no float targets",
+                          "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero", ours, unmeasured}),
     choice<&Profile::min_max_nan>(
-        "min_max_nan", nan_names,
-        {"[A] fragment-stages.md 9.3: no float targets",
-         "[A] fragment-stages.md 9.3: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured}),
+        "min_max_nan", {"[A] fragment-stages.md 9.3: no float targets",
+                        "[A] fragment-stages.md 9.3: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured}),
     choice<&Profile::denormals>(
-        "denormals", denormal_names,
-        {"[A] fragment-stages.md 9.1: no float targets",
-         "[A] fragment-stages.md 9.1: flushed in and out, as the shader does", ours, unmeasured}),
-    choice<&Profile::texture_filter>("texture_filter", filter_names,
+        "denormals", {"[A] fragment-stages.md 9.1: no float targets",
+                      "[A] fragment-stages.md 9.1: flushed in and out, as the shader does", ours, unmeasured}),
+    choice<&Profile::texture_filter>("texture_filter",
                                      {"[A] texturing.md 3.2: one rounding to 8 bits",
                                       "[A] texturing.md 3.1: binary32 in a fixed order", ours, unmeasured}),
     boolean<&Profile::has_d16>("has_d16",

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "rasterizer/base/vector.h"
+
 namespace strata::pipeline {
 
 enum class CompareFunc : std::uint8_t { never, less, equal, lequal, greater, notequal, gequal, always };
@@ -77,7 +79,7 @@ struct BlendTerm {  // for r, g, b or for alpha
 struct Blend {
     bool enabled = false;
     BlendTerm color, alpha;
-    std::array<float, 4> constant{0, 0, 0, 0};
+    Rgba constant{0, 0, 0, 0};
     std::uint8_t write_mask = 0xf;  // bit 0 r, 1 g, 2 b, 3 a
     friend bool operator==(const Blend&, const Blend&) = default;
 };

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "rasterizer/base/enum_values.h"
+
 namespace strata::pipeline {
 
 enum class VertexPath : std::uint8_t {
@@ -20,5 +22,6 @@ enum class VertexPath : std::uint8_t {
 // In the order of the enum.
 inline constexpr std::array<std::string_view, 6> vertex_path_names{"separate", "fused",       "reassociated",
                                                                    "double",   "toward_zero", "nv20"};
+static_assert(vertex_path_names.size() == enum_values<VertexPath>.size());
 
 }  // namespace strata::pipeline

@@ -110,7 +110,7 @@ void CombinerUnit::load(Reg r, const ColorLanes* color, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) at(r)[c][i] = color == nullptr ? 0 : to_unorm8((*color)[c][i]);
 }
 
-void CombinerUnit::set_constants(const std::array<std::array<float, 4>, 2>& constant, std::size_t count) {
+void CombinerUnit::set_constants(const std::array<Rgba, 2>& constant, std::size_t count) {
     for (std::size_t k = 0; k < 2; ++k)
         for (std::size_t c = 0; c < 4; ++c)
             std::fill_n(at(k == 0 ? Reg::constant_color0 : Reg::constant_color1)[c].begin(), count,

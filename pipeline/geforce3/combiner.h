@@ -77,7 +77,7 @@ struct CombinerPortion {
 
 struct CombinerStage {
     CombinerPortion rgb{}, alpha{};
-    std::array<std::array<float, 4>, 2> constant{};  // per stage, as NV_register_combiners2 has them
+    std::array<Rgba, 2> constant{};  // per stage, as NV_register_combiners2 has them
     friend bool operator==(const CombinerStage&, const CombinerStage&) = default;
 };
 
@@ -85,7 +85,7 @@ struct FinalCombiner {
     CombinerInput a{}, b{}, c{}, d{}, e{}, f{}, g{};  // unsigned mappings only
     bool clamps_color_sum = false;
     bool inverts_spare0 = false, inverts_secondary_color = false;  // in their sum; flags of the chip, not of OpenGL
-    std::array<std::array<float, 4>, 2> constant{};
+    std::array<Rgba, 2> constant{};
     friend bool operator==(const FinalCombiner&, const FinalCombiner&) = default;
 };
 
@@ -118,7 +118,7 @@ class CombinerUnit {
     [[nodiscard]] Register& at(CombinerRegister r) noexcept { return registers_[static_cast<std::size_t>(r)]; }
     [[nodiscard]] const Register& value_of(CombinerRegister r) const noexcept;
     void load(CombinerRegister r, const ColorLanes* color, std::size_t count);
-    void set_constants(const std::array<std::array<float, 4>, 2>& constant, std::size_t count);
+    void set_constants(const std::array<Rgba, 2>& constant, std::size_t count);
     void run_stage(const CombinerStage& stage, std::size_t count);
     void run_portion(const CombinerPortion& portion, bool is_alpha, std::size_t count);
     void commit(const CombinerPortion& portion, bool is_alpha, std::size_t count);

@@ -34,8 +34,8 @@ struct CombineState {
 
 struct TexEnv {
     TexEnvMode mode = TexEnvMode::none;
-    std::array<float, 4> color{0, 0, 0, 0};  // TEXTURE_ENV_COLOR
-    CombineState rgb, alpha;                 // of COMBINE
+    Rgba color{0, 0, 0, 0};   // TEXTURE_ENV_COLOR
+    CombineState rgb, alpha;  // of COMBINE
     friend bool operator==(const TexEnv&, const TexEnv&) = default;
 };
 

@@ -132,26 +132,23 @@ void dot(const StageRun& run) {
 }
 
 // The range and the conversion of a replaced depth, in the units that the device's quotient has.
-struct DepthRule {
-    double least, greatest, units, half;
-    bool is_float, clamps;
+class DepthRule {
+  public:
+    rasterizer::DepthConversion<double> to_code;
+    bool clamps;
 
-    explicit DepthRule(const ShaderMachine& m) : is_float{m.depth.format == DepthFormat::d32f}, clamps{m.depth_clamp} {
-        const rasterizer::RasterRules& rules = m.profile->raster;
-        const bool scaled = rules.window_z == rasterizer::WindowZ::buffer_units && !is_float;
-        const double max = is_float ? 1.0 : rasterizer::max_code(m.depth.format), range = scaled ? max : 1.0;
-        least = std::min(m.depth_near, m.depth_far) * range;
-        greatest = std::max(m.depth_near, m.depth_far) * range;
-        units = scaled ? 1.0 : max;
-        half = rules.depth_rounding == DepthRounding::nearest && !is_float ? 0.5 : 0.0;
-    }
+    explicit DepthRule(const ShaderMachine& m) : to_code{conversion(m)}, clamps{m.depth_clamp} {}
     [[nodiscard]] bool accepts(float z) const noexcept {
-        return rasterizer::is_in_depth_range(z, least, greatest) || (clamps && z == z);
+        return rasterizer::is_in_depth_range(z, to_code.least, to_code.greatest) || (clamps && z == z);
     }
-    [[nodiscard]] std::uint32_t code(float z) const noexcept {
-        const double clamped = std::clamp(double{z}, least, greatest);
-        if (is_float) return std::bit_cast<std::uint32_t>(static_cast<float>(clamped) + 0.0f);  // -0 is 0
-        return static_cast<std::uint32_t>(clamped * units + half);
+    [[nodiscard]] std::uint32_t code(float z) const noexcept { return rasterizer::depth_code(double{z}, to_code); }
+
+  private:
+    static rasterizer::DepthConversion<double> conversion(const ShaderMachine& m) noexcept {
+        const rasterizer::RasterRules& rules = m.profile->raster;
+        const bool scaled = rules.window_z == rasterizer::WindowZ::buffer_units;
+        const double units = scaled ? rasterizer::buffer_units(m.depth.format) : 1.0;
+        return rasterizer::depth_conversion(m.depth.format, rules.depth_rounding, units, m.depth_near, m.depth_far);
     }
 };
 

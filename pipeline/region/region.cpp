@@ -17,7 +17,7 @@ namespace strata::pipeline {
 
 namespace {
 
-std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const std::array<float, 4>& color) {
+std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color) {
     std::array<std::uint32_t, 4> codes{};
     for (std::size_t c = 0; c < 4; ++c) {
         switch (info(format).type) {

@@ -14,11 +14,15 @@ struct Surface::State {
         : profile{p},
           layout{l},
           list{empty(l)},
-          frame{make_frame(p, l, list)},
+          frame{make_frame(profile, l, list)},
           region{frame, frame.rect(), 0, Extent::frame},
           color{region.make(l.color)},
           depth{region.make_depth()},
           stencil{region.make(Format::s8)} {}
+
+    // The region points to the frame, and the frame to the profile and the list: they stay where they are made.
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
 
     static PreparedDraw empty(const SurfaceLayout& layout) {
         PreparedDraw list;

@@ -38,13 +38,11 @@ struct DepthCompare {
         const std::uint64_t sum = std::uint64_t{stored} + static_cast<std::uint64_t>(epsilon.ulps);
         return static_cast<std::uint32_t>(std::min<std::uint64_t>(sum, rasterizer::max_code(format)));
     }
-    // In codes of a fixed format, in [0,1] of D32F; exact.
-    [[nodiscard]] double value(std::uint32_t code) const noexcept {
-        return is_float() ? double{std::bit_cast<float>(code)} : static_cast<double>(code);
-    }
+    // In the buffer's own units; exact.
+    [[nodiscard]] double value(std::uint32_t code) const noexcept { return rasterizer::buffer_value(code, format); }
     [[nodiscard]] bool is_behind(std::uint32_t code, double z, std::uint32_t stored) const noexcept {
         if (quantizes && epsilon.absolute == 0.0) return code > raised(stored);
-        const double one = is_float() ? 1.0 : rasterizer::max_code(format);
+        const double one = rasterizer::buffer_units(format);
         const double own = quantizes ? value(code) : std::min(z > 0.0 ? z : 0.0, one);
         return own > value(raised(stored)) + epsilon.absolute * one;
     }
@@ -59,9 +57,6 @@ struct DepthCompare {
                                  std::uint32_t stored) const noexcept {
         return is_behind(in.reference_code[i], in.reference_z[i], stored);
     }
-
-  private:
-    [[nodiscard]] bool is_float() const noexcept { return format == rasterizer::DepthFormat::d32f; }
 };
 
 }  // namespace strict

@@ -12,7 +12,7 @@ namespace {
 
 struct SumState {
     SumPlanes planes;
-    rasterizer::DepthConversion to_code;
+    rasterizer::DepthConversion<float> to_code;
     double z_units;
     rasterizer::DepthDrawn drawn{};
 };
@@ -120,12 +120,12 @@ struct SumOf {
             V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
             if constexpr (!unsnapped) z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, row);
             return raster::nearer(raster::codes(z, to_code_), hn::LoadU(U32{}, planes_.opaque + row.pixel),
-                                  to_code_.is_fixed);
+                                  to_code_.is_fixed());
         }
 
         SumState& state_;
         const SumPlanes planes_;
-        const rasterizer::DepthConversion to_code_;
+        const rasterizer::DepthConversion<float> to_code_;
         const DrawnTriangle& triangle_;
         const ColorPlanes color_;
         RationalPlane depth_;
@@ -148,7 +148,7 @@ void add_all(const rasterizer::Geometry&, std::span<const std::uint32_t>, const 
 #endif
 
 rasterizer::DepthDrawn add_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
-                                const rasterizer::Rect& region, const rasterizer::DepthConversion& to_code,
+                                const rasterizer::Rect& region, const rasterizer::DepthConversion<float>& to_code,
                                 double units, const SumPlanes& planes, bool flushes) {
     SumState state{planes, to_code, units};
     if (planes.opaque == nullptr && flushes) add_all<false, true>(geometry, triangles, region, state);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "rasterizer/base/vector.h"
 #include "rasterizer/coverage/fragment_batch.h"
 
 namespace strata::pipeline {
@@ -19,7 +20,7 @@ struct Target {
 };
 
 struct ClearValue {
-    std::array<float, 4> color{0, 0, 0, 0};
+    Rgba color{0, 0, 0, 0};
     float depth = 1.0f;
     std::uint8_t stencil = 0;
 };

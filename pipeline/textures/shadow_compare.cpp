@@ -40,33 +40,28 @@ void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail,
 [[nodiscard]] bool has(const DepthTexels& depth, DepthFormat format) noexcept {
     return depth.format == format && !depth.is_eight_bit;
 }
-// A fixed-point or D16F texel in buffer units.
+// A texel in the texture's own units.
 [[nodiscard]] double value_of(const DepthTexels& depth, std::uint32_t code) noexcept {
-    return has(depth, DepthFormat::d16f) ? double{rasterizer::d16f_value(code)} : static_cast<double>(code);
+    return depth.is_eight_bit ? static_cast<double>(code) : rasterizer::buffer_value(code, depth.format);
 }
 // What R is multiplied with to be in buffer units.
 [[nodiscard]] double units_of(const DepthTexels& depth, const rasterizer::RasterRules& rules) noexcept {
     return rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : value_of(depth, depth.max());
 }
 
-// R as the texels' format would store it; binary32 bits, unclamped, for D32F. A product of [0,1] with 2^n - 1 is exact in
-// binary64.
+// R as the texels' format would store it; binary32 bits, unclamped, for D32F.
 void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, const Lanes<float>& r,
               Lanes<std::uint32_t>& codes, std::size_t count) noexcept {
     if (has(depth, DepthFormat::d32f)) {
         for (std::size_t i = 0; i < count; ++i) codes[i] = std::bit_cast<std::uint32_t>(r[i]);
         return;
     }
-    const double max = depth.max(), half = rules.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
-    const double units = units_of(depth, rules);
-    if (has(depth, DepthFormat::d16f)) {
-        for (std::size_t i = 0; i < count; ++i) codes[i] = rasterizer::to_d16f_code(r[i] * static_cast<float>(units));
-        return;
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const double scaled = r[i] > 0.0f ? double{r[i]} * units : 0.0;  // 0 for NaN
-        codes[i] = static_cast<std::uint32_t>(scaled < max ? scaled + half : max);
-    }
+    const double units = units_of(depth, rules), greatest = value_of(depth, depth.max()) / units;
+    auto to = rasterizer::depth_conversion(depth.format, rules.depth_rounding, greatest);
+    if (depth.is_eight_bit)
+        to = {rasterizer::CodeKind::fixed, 0.0, greatest, units,
+              rules.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0};
+    for (std::size_t i = 0; i < count; ++i) codes[i] = rasterizer::depth_code(double{r[i]}, to);
 }
 
 void route(DepthTextureMode mode, const Lanes<float>& result, std::array<Lanes<float>, 4>& rgba,

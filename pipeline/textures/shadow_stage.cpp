@@ -17,7 +17,7 @@ CoordinateUnits shadow_units(const ShadowLight& light, const Matrix& camera_view
     units[shadow_unit].depth_units[2] = rasterizer::z_units(state, profile.raster);
     for (std::size_t c = 0; c < 4; ++c)
         units[shadow_unit].gen[c] = {TexGenMode::eye_linear,
-                                     eye_plane({rows[c], rows[4 + c], rows[8 + c], rows[12 + c]}, camera_view)};
+                                     eye_plane({rows[0][c], rows[1][c], rows[2][c], rows[3][c]}, camera_view)};
     return units;
 }
 

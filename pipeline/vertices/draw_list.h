@@ -1,6 +1,5 @@
 // pipeline/vertices/draw_list.h - what a scene hands to the machine: meshes, materials, textures, instances and a view. Plain values.
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,15 +7,15 @@
 
 #include "pipeline/device/vertex_path.h"
 #include "pipeline/formats/texture.h"
+#include "rasterizer/base/vector.h"
 
 namespace strata::pipeline {
 
-using Matrix = std::array<double, 16>;  // column-major, as OpenGL writes it: m[4 * column + row]
-inline constexpr Matrix identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-using Vec2 = std::array<float, 2>;
-using Vec3 = std::array<float, 3>;
-using Rgba = std::array<float, 4>;  // straight (not premultiplied) unless a name says otherwise
+using strata::identity;
+using strata::Matrix;
+using strata::Rgba;
+using strata::Vec2;
+using strata::Vec3;
 
 // Object space. `normals` is never empty when the material is lit; `colors` and `texcoords` may be empty.
 struct Mesh {

@@ -7,11 +7,10 @@ namespace strata::pipeline {
 inline namespace strict {
 
 [[nodiscard]] inline Matrix product(const Matrix& a, const Matrix& b) noexcept {
-    Matrix m{};
+    Matrix m;
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t r = 0; r < 4; ++r)
-            m[4 * c + r] =
-                ((a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1]) + a[8 + r] * b[4 * c + 2]) + a[12 + r] * b[4 * c + 3];
+            m[c][r] = ((a[0][r] * b[c][0] + a[1][r] * b[c][1]) + a[2][r] * b[c][2]) + a[3][r] * b[c][3];
     return m;
 }
 

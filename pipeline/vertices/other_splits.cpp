@@ -4,20 +4,12 @@
 #include <array>
 #include <optional>
 
-#include "rasterizer/base/numerics.h"
+#include "rasterizer/base/vector_arithmetic.h"
 
 namespace strata::pipeline {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-[[nodiscard]] Vector between(const Vec3& from, const Vec3& to) {
-    return {double{to[0]} - from[0], double{to[1]} - from[1], double{to[2]} - from[2]};
-}
-[[nodiscard]] Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-[[nodiscard]] double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+[[nodiscard]] Vec3d between(const Vec3& from, const Vec3& to) { return minus(Vec3d{to}, Vec3d{from}); }
 
 // Corners a, b, c, d in walking order, the triangles being (a, b, c) and (c, d, a).
 using Quad = std::array<std::uint32_t, 4>;
@@ -38,13 +30,15 @@ using Quad = std::array<std::uint32_t, 4>;
     const auto side = [&](std::size_t i, std::size_t k) {
         return between(mesh.positions[quad[i]], mesh.positions[quad[k]]);
     };
-    const Vector normal = cross(side(0, 1), side(0, 2));
+    const Vec3d normal = cross_product(side(0, 1), side(0, 2));
     double longest = 0.0;  // squared
-    for (std::size_t i = 0; i < 4; ++i) longest = std::max(longest, dot(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
-    const double off = dot(normal, side(0, 3));  // times |normal|
-    if (off * off > 0x1p-40 * longest * dot(normal, normal)) return false;
     for (std::size_t i = 0; i < 4; ++i)
-        if (!(dot(normal, cross(side(i, (i + 1) % 4), side((i + 1) % 4, (i + 2) % 4))) > 0.0)) return false;
+        longest = std::max(longest, dot_product(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
+    const double off = dot_product(normal, side(0, 3));  // times |normal|
+    if (off * off > 0x1p-40 * longest * dot_product(normal, normal)) return false;
+    for (std::size_t i = 0; i < 4; ++i)
+        if (!(dot_product(normal, cross_product(side(i, (i + 1) % 4), side((i + 1) % 4, (i + 2) % 4))) > 0.0))
+            return false;
     return true;
 }
 

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "pipeline/vertices/check_list.h"
 #include "pipeline/vertices/matrix.h"
 #include "pipeline/vertices/quotient_rows.h"
 #include "pipeline/vertices/vertex_stage.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/numerics.h"
 #include "rasterizer/base/parallel.h"
+#include "rasterizer/set_up/check_input.h"
 #include "rasterizer/set_up/depth_bound.h"
 #include "rasterizer/set_up/window.h"
 
@@ -17,8 +19,8 @@ namespace strata::pipeline {
 
 namespace {
 
-double determinant(const Matrix& m) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+double linear_determinant(const Matrix& m) {
+    const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
            a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
 }
@@ -55,7 +57,7 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .material = instance.material,
                          .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
                          .double_sided = material.double_sided,
-                         .mirrored = determinant(instance.model) < 0});
+                         .mirrored = linear_determinant(instance.model) < 0});
 }
 
 // What the options ask for beside the soup's vertices, in their order: r and q, texture units.
@@ -115,6 +117,8 @@ MaterialStage material_stage(const DrawList& list, const Material& material, flo
 }  // namespace
 
 rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options) {
+    check(list);
+    check(view);
     rasterizer::TriangleSoup soup;
     for (const Instance& instance : list.instances)
         if (is_selected(list.materials[instance.material], options.selection))
@@ -125,6 +129,8 @@ rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const
 PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                      const DeviceProfile& profile, const PrepareOptions& options) {
     const FloatEnvironment ours;
+    check(profile);
+    check(state);  // before the transform, whose quotient rows look at it
     rasterizer::TriangleSoup soup = transform(list, view, options);
     SubmissionOrder order;
     if (options.order) order = options.order(soup);
@@ -134,7 +140,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     soup.extras = vertex_extras(list, view, state, rules, options);
     PreparedDraw prepared;
     prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
-    if (options.tile_size > 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
+    if (options.tile_size != 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
     for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));
     for (const Material& material : list.materials) {

@@ -74,7 +74,8 @@ struct PrepareOptions {
     bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h
 };
 
-// Inverts nothing it need not: mirrored instances keep their winding and flip their facing.
+// Inverts nothing it need not: mirrored instances keep their winding and flip their facing. Throws InputError for a list, a view,
+// a state or a profile that no rule covers (check_list.h, rasterizer/set_up/check_input.h).
 [[nodiscard]] PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                                    const DeviceProfile& profile, const PrepareOptions& options);
 

@@ -8,7 +8,7 @@ namespace {
 
 // Row r of a column-major matrix times a factor.
 [[nodiscard]] Matrix with_scaled_row(Matrix m, std::size_t r, double factor) {
-    for (std::size_t c = 0; c < 4; ++c) m[4 * c + r] *= factor;
+    for (std::size_t c = 0; c < 4; ++c) m[c][r] *= factor;
     return m;
 }
 

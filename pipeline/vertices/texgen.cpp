@@ -15,27 +15,28 @@ float row(const Rows& m, std::size_t r, const std::array<float, 4>& p) noexcept 
 
 // The matrix whose rows are the planes of a unit, over object coordinates.
 Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
-    Matrix object{}, eye{};
+    Matrix object(0.0), eye(0.0);
     for (std::size_t r = 0; r < 4; ++r)
         for (std::size_t c = 0; c < 4; ++c)
-            (unit.gen[r].mode == TexGenMode::eye_linear ? eye : object)[4 * c + r] = unit.gen[r].plane[c];
+            (unit.gen[r].mode == TexGenMode::eye_linear ? eye : object)[c][r] = unit.gen[r].plane[c];
     const Matrix seen = product(eye, modelview);
-    Matrix rows{};
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i] = unit.gen[i % 4].mode == TexGenMode::eye_linear ? seen[i] : object[i];
+    Matrix rows;
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t r = 0; r < 4; ++r)
+            rows[c][r] = (unit.gen[r].mode == TexGenMode::eye_linear ? seen : object)[c][r];
     return rows;
 }
 
 // Behind the product, as quotient_rows.h scales its row r: the same bits from the same matrices.
 Matrix in_depth_units(const CoordinateUnit& unit, Matrix m) {
-    for (std::size_t i = 0; i < m.size(); ++i)
-        if (i % 4 != 3) m[i] *= unit.depth_units[i % 4];
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t r = 0; r < 3; ++r) m[c][r] *= unit.depth_units[r];
     return m;
 }
 
 // (-1)^(r + c) times the determinant without row r and column c; three rows in cyclic order are an even permutation.
 double cofactor(const Matrix& m, std::size_t r, std::size_t c) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * ((c + column) % 4) + (r + row) % 4]; };
+    const auto a = [&](std::size_t row, std::size_t column) { return m[(c + column) % 4][(r + row) % 4]; };
     const double minor = a(1, 1) * (a(2, 2) * a(3, 3) - a(2, 3) * a(3, 2)) -
                          a(1, 2) * (a(2, 1) * a(3, 3) - a(2, 3) * a(3, 1)) +
                          a(1, 3) * (a(2, 1) * a(3, 2) - a(2, 2) * a(3, 1));
@@ -47,7 +48,7 @@ double cofactor(const Matrix& m, std::size_t r, std::size_t c) {
 // plane M^-1, M^-1 = adjugate / determinant.
 Plane4 eye_plane(const Plane4& plane, const Matrix& modelview) {
     double determinant = 0;
-    for (std::size_t c = 0; c < 4; ++c) determinant += modelview[4 * c] * cofactor(modelview, 0, c);
+    for (std::size_t c = 0; c < 4; ++c) determinant += modelview[c][0] * cofactor(modelview, 0, c);
     if (determinant == 0) throw std::logic_error("an eye plane under a singular modelview matrix");
     Plane4 solution{};
     for (std::size_t c = 0; c < 4; ++c) {

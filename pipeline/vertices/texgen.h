@@ -23,8 +23,9 @@ inline constexpr rasterizer::UnitMask shadow_coordinates = 0xf << (4 * shadow_un
 
 enum class TexGenMode : std::uint8_t { off, object_linear, eye_linear };
 
-using Plane4 = std::array<double, 4>;
-inline constexpr std::array<Plane4, 4> identity_planes{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+using Plane4 = Vec4d;
+inline constexpr std::array<Plane4, 4> identity_planes{Plane4{1, 0, 0, 0}, Plane4{0, 1, 0, 0}, Plane4{0, 0, 1, 0},
+                                                       Plane4{0, 0, 0, 1}};
 
 struct TexGen {
     TexGenMode mode = TexGenMode::off;
@@ -39,7 +40,7 @@ struct CoordinateUnit {
     Matrix matrix = identity;
     // Factors of s, t and r behind the texture matrix: 2^n - 1 where a quotient by q, or by another unit, is to be in the
     // units of a depth buffer. OpenGL has none of it: its driver scales the rows of a GeForce3, and so do we.
-    std::array<double, 3> depth_units{1, 1, 1};
+    Vec3d depth_units{1, 1, 1};
     friend bool operator==(const CoordinateUnit&, const CoordinateUnit&) = default;
 };
 using CoordinateUnits = std::array<CoordinateUnit, rasterizer::texture_units>;

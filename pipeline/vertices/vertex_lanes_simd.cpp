@@ -22,7 +22,7 @@ HWY_INLINE V sum_of_three(V a, float ma, V b, float mb, V c, float mc) {
 void transform(const std::array<float, 16>& m, const Vec3* positions, VertexLanes& out) noexcept {
     for (std::size_t i = 0; i < vertex_lane_count; i += hn::Lanes(F{})) {
         V x, y, z;
-        hn::LoadInterleaved3(F{}, positions[i].data(), x, y, z);
+        hn::LoadInterleaved3(F{}, &positions[i].x, x, y, z);
         for (std::size_t r = 0; r < 4; ++r)
             hn::Store(hn::Add(sum_of_three(x, m[r], y, m[4 + r], z, m[8 + r]), set(m[12 + r])), F{},
                       &out.position[r][i]);
@@ -32,7 +32,7 @@ void transform(const std::array<float, 16>& m, const Vec3* positions, VertexLane
 void light(const std::array<float, 9>& m, const Vec3& toward_eye, const Vec3* normals, VertexLanes& out) noexcept {
     for (std::size_t i = 0; i < vertex_lane_count; i += hn::Lanes(F{})) {
         V n[3], world[3];
-        hn::LoadInterleaved3(F{}, normals[i].data(), n[0], n[1], n[2]);
+        hn::LoadInterleaved3(F{}, &normals[i].x, n[0], n[1], n[2]);
         for (std::size_t r = 0; r < 3; ++r) world[r] = sum_of_three(n[0], m[r], n[1], m[3 + r], n[2], m[6 + r]);
         const auto [x, y, z] = world;
         const V length = hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z)));

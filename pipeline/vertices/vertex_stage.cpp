@@ -12,7 +12,7 @@ namespace {
 // Cofactors of the upper 3x3, column-major: the direction in which normals transform, up to a positive factor and, for mirrored
 // models, a sign that |N.L| does not see.
 std::array<float, 9> normal_matrix(const Matrix& m) {
-    const auto a = [&](std::size_t row, std::size_t column) { return m[4 * column + row]; };
+    const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     std::array<float, 9> n{};
     for (std::size_t column = 0; column < 3; ++column)
         for (std::size_t row = 0; row < 3; ++row) {
@@ -24,7 +24,7 @@ std::array<float, 9> normal_matrix(const Matrix& m) {
 
 // The unit vector from the view's centre to the eye: the view's third row.
 Vec3 light_direction(const Matrix& view) {
-    const double x = view[2], y = view[6], z = view[10];
+    const double x = view[0][2], y = view[1][2], z = view[2][2];
     const double length = std::sqrt((x * x + y * y) + z * z);
     if (!(length > 0)) return {0, 0, 1};
     return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
@@ -44,7 +44,7 @@ VertexStage::VertexStage(const Mesh& mesh, const Material& material, const View&
       is_lit_{!material.unlit && !mesh.normals.empty()} {}
 
 float VertexStage::light_of(const Vec3& n) const {
-    Vec3 world{};
+    float world[3];
     for (std::size_t r = 0; r < 3; ++r) world[r] = (normal_[r] * n[0] + normal_[3 + r] * n[1]) + normal_[6 + r] * n[2];
     const float squared = (world[0] * world[0] + world[1] * world[1]) + world[2] * world[2];
     const float length = std::sqrt(squared);
@@ -62,7 +62,7 @@ rasterizer::ClipVertex VertexStage::vertex(std::size_t i, const std::array<float
     }
     v.front[3] = (material_.front[3] * color[3]) * alpha_scale_;
     v.back[3] = (material_.back[3] * color[3]) * alpha_scale_;
-    if (!mesh_.texcoords.empty()) v.texcoord = mesh_.texcoords[i];
+    if (!mesh_.texcoords.empty()) v.texcoord = {mesh_.texcoords[i].x, mesh_.texcoords[i].y};
     return v;
 }
 

@@ -1,7 +1,5 @@
 #include "pipeline/vertices/vertex_transform.h"
 
-#include <algorithm>
-
 #include "rasterizer/base/nv20_arithmetic.h"
 #include "rasterizer/base/two_terms.h"
 #include "rasterizer/set_up/window.h"
@@ -48,7 +46,8 @@ using Row = std::array<float, 4>;
 
 std::array<float, 16> to_binary32(const Matrix& m) {
     std::array<float, 16> rounded{};
-    std::transform(m.begin(), m.end(), rounded.begin(), [](double x) { return static_cast<float>(x); });
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t r = 0; r < 4; ++r) rounded[4 * c + r] = static_cast<float>(m[c][r]);
     return rounded;
 }
 
@@ -66,8 +65,8 @@ std::array<float, 4> VertexTransform::by_path(const Vec3& p) const {
             case VertexPath::fused: out[r] = fused(m, p); break;
             case VertexPath::reassociated: out[r] = in_pairs(row_of(outer_, r), eye); break;
             case VertexPath::double_precision: {
-                const double sum = (exact_[r] * p[0] + exact_[4 + r] * p[1]) + exact_[8 + r] * p[2];
-                out[r] = static_cast<float>(sum + exact_[12 + r]);
+                const double sum = (exact_[0][r] * p[0] + exact_[1][r] * p[1]) + exact_[2][r] * p[2];
+                out[r] = static_cast<float>(sum + exact_[3][r]);
                 break;
             }
             case VertexPath::toward_zero: out[r] = toward_zero(m, p); break;

@@ -37,8 +37,8 @@ struct alignas(64) FragmentBatch {
     int count = 0;
     std::uint32_t material = 0;
     // The depth that a program compares with stored ones: DepthRequest::reference's, or the stored path's own.
-    Lanes<std::uint32_t> reference_code;  // quantised like a depth write
-    Lanes<double> reference_z;            // before that, not clamped: in codes of a fixed format, in [0,1] of D32F
+    Lanes<std::uint32_t> reference_code;                          // quantised like a depth write
+    Lanes<double> reference_z;                                    // before that, not clamped, in the buffer's own units
     std::array<std::array<Lanes<float>, 4>, texture_units> unit;  // s t r q of each texture unit, not divided by q
 };
 

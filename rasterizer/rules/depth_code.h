@@ -2,13 +2,14 @@
 //
 // Rule     D16, D24: clamp to [0,1], scale by 2^n - 1, round by the profile's rule (a half goes up); NaN is 0.
 //          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned
-//          integers. D16F: depth 1 is its greatest value, 511.9375; the float cut to 12 bits of mantissa, an exponent
-//          field of 0 flushed to 0, whatever the rule.
+//          integers. D16F: depth 1 is its greatest value, 511.9375; the depth cut to 12 bits of mantissa, an exponent
+//          field of 0 flushed to 0, whatever the rule. The text of it all is depth_text-inl.h's.
 // Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F:
 //          chip-float-depth.md 3.2: 4,187,584 words of captures, 99.72 % equal and the rest one unit off.
 // Numbers  Scaling in binary64: 24 by 24 bits are exact, while binary32 has no half left above z = 0.5.
-// Tests    tests/rasterizer/rules/depth_code_test.cpp
+// Tests    tests/rasterizer/rules/depth_code_test.cpp, tests/rasterizer/values/d16f_paths_test.cpp
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -19,6 +20,18 @@ namespace strata::rasterizer {
 // d16f: 4 bits of exponent, 12 of mantissa, no sign; values below its smallest normal one are 0.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f };
 enum class DepthRounding : std::uint8_t { floor, nearest };
+
+// The ways in which formats make a code of a value.
+enum class CodeKind : std::uint8_t { fixed, binary32, d16f };
+
+// How values of one unit become codes of one format. `Limit` is binary32 for values in [0,1], whose range it holds exactly.
+template <class Limit>
+struct DepthConversion {
+    CodeKind kind;
+    Limit least, greatest;  // the depth range, in the values' unit
+    double scale, half;     // the buffer's units in one of the values', and what rounding adds before the cut
+    [[nodiscard]] constexpr bool is_fixed() const noexcept { return kind == CodeKind::fixed; }
+};
 
 inline namespace strict {
 
@@ -35,34 +48,99 @@ inline namespace strict {
 
 inline constexpr float max_d16f = 511.9375f;
 
-// D16F's own values, [0, 511.9375]: code = bits >> 11, less the code of 2^-7.
-[[nodiscard]] constexpr std::uint32_t to_d16f_code(float value) noexcept {
-    if (!(value > 0.0f)) return 0;  // negative, -0 and NaN
+[[nodiscard]] constexpr CodeKind code_kind(DepthFormat format) noexcept {
+    switch (format) {
+        case DepthFormat::d16:
+        case DepthFormat::d24: return CodeKind::fixed;
+        case DepthFormat::d32f: return CodeKind::binary32;
+        case DepthFormat::d16f: return CodeKind::d16f;
+    }
+    return CodeKind::fixed;  // unreachable: the enum is closed
+}
+
+// What depth 1.0 is in the buffer's own units: 2^n - 1, 1, or 511.9375.
+[[nodiscard]] constexpr double buffer_units(DepthFormat format) noexcept {
+    switch (code_kind(format)) {
+        case CodeKind::fixed: return max_code(format);
+        case CodeKind::binary32: return 1.0;
+        case CodeKind::d16f: return max_d16f;
+    }
+    return 1.0;  // unreachable: the enum is closed
+}
+
+// D16F's own values, [0, 511.9375]: the leading bits of the binary64, less the code of 2^-7. Only 0 and above.
+[[nodiscard]] constexpr std::uint32_t to_d16f_code(double value) noexcept {
+    if (!(value > 0.0)) return 0;
     if (value >= max_d16f) return 0xffffu;
-    constexpr std::uint32_t least = 0x3c000000u, least_normal = 0x1000;
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    const std::uint32_t code = bits < least ? 0 : (bits - least) >> 11;
+    constexpr std::uint64_t least = std::bit_cast<std::uint64_t>(0x1p-7);
+    constexpr std::uint32_t least_normal = 0x1000;
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    const auto code = static_cast<std::uint32_t>(bits < least ? 0 : (bits - least) >> 40);
     return code < least_normal ? 0 : code;
 }
 [[nodiscard]] constexpr float d16f_value(std::uint32_t code) noexcept {
     return code == 0 ? 0.0f : std::bit_cast<float>((code << 11) + 0x3c000000u);
 }
 
+// The operations of one lane.
+template <class Value>
+struct OneLane {
+    static constexpr Value all(Value v) noexcept { return v; }
+    static constexpr Value greater_or_second(Value a, Value b) noexcept { return a > b ? a : b; }
+    static constexpr Value less_or_second(Value a, Value b) noexcept { return a < b ? a : b; }
+    static constexpr std::uint32_t bits(Value v) noexcept {
+        return std::bit_cast<std::uint32_t>(static_cast<float>(v));
+    }
+    static constexpr double times(Value v, double scale) noexcept { return double{v} * scale; }
+    static constexpr std::uint32_t cut_sum(double v, double half) noexcept {
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(v + half));  // vectors have no unsigned cast
+    }
+    static constexpr std::uint32_t cut_to_d16f(double v) noexcept { return to_d16f_code(v); }
+};
+
+#include "rasterizer/rules/depth_text-inl.h"
+
+// The code of one value; where many are converted, the kind is chosen outside the loop.
+template <class Value>
+[[nodiscard]] constexpr std::uint32_t depth_code(Value z, const DepthConversion<Value>& to) noexcept {
+    switch (to.kind) {
+        case CodeKind::fixed: return depth_code<CodeKind::fixed>(OneLane<Value>{}, z, to);
+        case CodeKind::binary32: return depth_code<CodeKind::binary32>(OneLane<Value>{}, z, to);
+        case CodeKind::d16f: return depth_code<CodeKind::d16f>(OneLane<Value>{}, z, to);
+    }
+    return 0;  // unreachable: the enum is closed
+}
+
+// A limit of the depth range, within [0,1] as glDepthRange clamps it; -0 and NaN become 0.
+[[nodiscard]] constexpr float range_limit(float z) noexcept { return z > 0.0f ? std::min(z, 1.0f) : 0.0f; }
+
+// Of values whose unit is such that depth 1.0 is `units`: 1, or the buffer's own units.
+template <class Limit>
+[[nodiscard]] constexpr DepthConversion<Limit> depth_conversion(DepthFormat format, DepthRounding rounding, Limit units,
+                                                                float near = 0.0f, float far = 1.0f) noexcept {
+    const bool rounds = rounding == DepthRounding::nearest && code_kind(format) == CodeKind::fixed;
+    const float n = range_limit(near), f = range_limit(far);
+    return {code_kind(format), std::min(n, f) * units, std::max(n, f) * units, buffer_units(format) / units,
+            rounds ? 0.5 : 0.0};
+}
+
 [[nodiscard]] constexpr std::uint32_t to_depth_code(float z, DepthFormat format, DepthRounding rounding) noexcept {
-    if (!(z > 0.0f)) return 0;  // negative, -0 and NaN
-    if (z >= 1.0f) return max_code(format);
-    if (format == DepthFormat::d32f) return std::bit_cast<std::uint32_t>(z);
-    if (format == DepthFormat::d16f) return to_d16f_code(z * max_d16f);
-    const double scaled = double{z} * max_code(format);
-    return static_cast<std::uint32_t>(scaled +
-                                      (rounding == DepthRounding::nearest ? 0.5 : 0.0));  // >= 0: the cast floors
+    return depth_code(z, depth_conversion(format, rounding, 1.0f));
+}
+
+// A code in the buffer's own units, exact.
+[[nodiscard]] constexpr double buffer_value(std::uint32_t code, DepthFormat format) noexcept {
+    switch (code_kind(format)) {
+        case CodeKind::fixed: return code;
+        case CodeKind::binary32: return double{std::bit_cast<float>(code)};
+        case CodeKind::d16f: return double{d16f_value(code)};
+    }
+    return 0.0;  // unreachable: the enum is closed
 }
 
 // k / (2^n - 1) rounded once to binary64, for pictures and reports; comparisons use codes.
 [[nodiscard]] constexpr double depth_value(std::uint32_t code, DepthFormat format) noexcept {
-    if (format == DepthFormat::d32f) return double{std::bit_cast<float>(code)};
-    if (format == DepthFormat::d16f) return double{d16f_value(code)} / max_d16f;
-    return static_cast<double>(code) / max_code(format);
+    return buffer_value(code, format) / buffer_units(format);
 }
 
 }  // namespace strict

@@ -4,11 +4,11 @@
 // Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <span>
 #include <stdexcept>
 
 #include "rasterizer/base/parallel.h"
+#include "rasterizer/base/require.h"
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/geometry.h"
@@ -116,7 +116,8 @@ Rect tile_rect(const Geometry& geometry, std::size_t tile) {
 }
 
 void bin_triangles(Geometry& geometry, int tile_size, int threads) {
-    assert(tile_size > 0 && std::has_single_bit(static_cast<unsigned>(tile_size)) && "tiles are powers of two");
+    if (tile_size < 8 || tile_size > 128 || !std::has_single_bit(static_cast<unsigned>(tile_size)))
+        Requirements{"bins"}.fail(FieldName{"tile_size"}, "8, 16, 32, 64 or 128", tile_size);
     geometry.tile_size = tile_size;
     geometry.tiles_x = (geometry.state.viewport.width() + tile_size - 1) / tile_size;
     geometry.tiles_y = (geometry.state.viewport.height() + tile_size - 1) / tile_size;

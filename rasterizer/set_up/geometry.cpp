@@ -1,12 +1,12 @@
 #include "rasterizer/set_up/geometry.h"
 
 #include <algorithm>
-#include <cassert>
 #include <numeric>
 #include <utility>
 
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
+#include "rasterizer/set_up/check_input.h"
 #include "rasterizer/set_up/setup.h"
 
 namespace strata::rasterizer {
@@ -38,7 +38,6 @@ class Listing {
             run = static_cast<std::size_t>(std::ranges::upper_bound(start_, number) - start_.begin()) - 1;
         const std::uint32_t* index =
             &soup_.indices[soup_.runs[run].first_index + std::size_t{3} * (number - start_[run])];
-        assert(std::max({index[0], index[1], index[2]}) < soup_.vertices.size() && "indices name vertices of the soup");
         return {{index[0], index[1], index[2]}, number, primitive, &soup_.runs[run]};
     }
 
@@ -118,9 +117,8 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
 
 Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads) {
     const FloatEnvironment ours;
-    assert(soup.extras.values.size() == soup.extras.stride * soup.vertices.size() && soup.extras.stride <= max_extras &&
-           "extras are those of the soup's vertices");
-    assert(std::max(state.viewport.width(), state.viewport.height()) <= 0xffff && "a PixelBox holds the viewport");
+    check(state);
+    check(soup);
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
     for_chunks(soup.vertices.size(), threads,
                [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });

@@ -113,7 +113,7 @@ struct Geometry {
 };
 
 // Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`.
-// The vertices become the geometry's: who moves the soup in saves their copy.
+// The vertices become the geometry's: who moves the soup in saves their copy. Throws InputError (check_input.h).
 [[nodiscard]] Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads);
 
 // Sorts the set-up triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport,

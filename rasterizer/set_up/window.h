@@ -25,11 +25,9 @@ struct WindowVertex {
     float x, y, z, inverse_w;
 };
 
-// The number of vertex z units in depth 1.0: 2^n - 1 for buffer units of a fixed-point format, else 1.
+// The number of vertex z units in depth 1.0: the depth buffer's own, or 1.
 [[nodiscard]] constexpr double z_units(const RasterState& state, const RasterRules& rules) noexcept {
-    const bool scaled = rules.window_z == WindowZ::buffer_units && state.depth_format != DepthFormat::d32f;
-    if (scaled && state.depth_format == DepthFormat::d16f) return max_d16f;
-    return scaled ? max_code(state.depth_format) : 1.0;
+    return rules.window_z == WindowZ::buffer_units ? buffer_units(state.depth_format) : 1.0;
 }
 
 // a * b + c rounded once to binary32.

@@ -13,27 +13,21 @@
 namespace strata::rasterizer {
 namespace {
 
-// A depth range limit, within [0,1] as glDepthRange clamps it; -0 becomes 0.
-[[nodiscard]] float range_limit(float z) noexcept { return z > 0.0f ? std::min(z, 1.0f) : 0.0f; }
-
 [[nodiscard]] bool same_bits(float a, float b) noexcept {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-void to_codes(const float* __restrict z, int count, float least, float greatest, DepthFormat format, double half,
-              std::uint32_t* __restrict out) noexcept {
-    if (format == DepthFormat::d32f) {
-        for (int i = 0; i < padded(count); ++i) {
-            const float above = z[i] > least ? z[i] : least;  // also turns -0 and NaN into `least`
-            out[i] = std::bit_cast<std::uint32_t>(above < greatest ? above : greatest);
-        }
-        return;
-    }
-    const double max = max_code(format);
-    for (int i = 0; i < padded(count); ++i) {
-        const float above = z[i] > least ? z[i] : least;
-        const float clamped = above < greatest ? above : greatest;
-        out[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(double{clamped} * max + half));
+template <CodeKind kind>
+void to_codes_of(const float* __restrict z, int count, const DepthConversion<float> to,
+                 std::uint32_t* __restrict out) noexcept {
+    for (int i = 0; i < padded(count); ++i) out[i] = depth_code<kind>(OneLane<float>{}, z[i], to);
+}
+
+void to_codes(const float* z, int count, const DepthConversion<float>& to, std::uint32_t* out) noexcept {
+    switch (to.kind) {
+        case CodeKind::fixed: return to_codes_of<CodeKind::fixed>(z, count, to, out);
+        case CodeKind::binary32: return to_codes_of<CodeKind::binary32>(z, count, to, out);
+        case CodeKind::d16f: return to_codes_of<CodeKind::d16f>(z, count, to, out);
     }
 }
 
@@ -79,13 +73,12 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
       depth_{depth},
       needs_{needs},
       z_units_{z_units(geometry.state, geometry.rules)},
-      code_units_{depth.format == DepthFormat::d32f ? 1.0 : max_code(depth.format)} {
+      code_units_{buffer_units(depth.format)},
+      to_code_{depth_conversion(depth.format, rules_.depth_rounding, 1.0f, geometry.state.depth_near,
+                                geometry.state.depth_far)},
+      value_to_code_{depth_conversion(depth.format, rules_.depth_rounding, code_units_, geometry.state.depth_near,
+                                      geometry.state.depth_far)} {
     needs_.code |= needs.reference;
-    const float n = range_limit(geometry.state.depth_near), f = range_limit(geometry.state.depth_far);
-    least_ = std::min(n, f);
-    greatest_ = std::max(n, f);
-    least_code_ = to_depth_code(least_, depth.format, rules_.depth_rounding);
-    greatest_code_ = to_depth_code(greatest_, depth.format, rules_.depth_rounding);
     rejects_ = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
     clips_fragments_ = rules_.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
     const bool is_float = depth.format == DepthFormat::d32f;
@@ -93,9 +86,8 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
                      (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
     is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code && !needs.reference && !rejects_ &&
-                (!needs.code || depth.path == DepthPath::float32);
-    assert((depth.path != DepthPath::window_z || (z_units_ == max_code(depth.format) && z_units_ != 1.0) ||
-            z_units_ == max_d16f) &&
+                (!needs.code || (depth.path == DepthPath::float32 && depth.format != DepthFormat::d16f));
+    assert((depth.path != DepthPath::window_z || (z_units_ == code_units_ && !is_float)) &&
            "window_z works in the buffer units of the format that is stored, which is no d32f");
     assert((geometry.extras.has_rq || !is_quotient(depth.path)) &&
            (geometry.extras.has_rq || !depth.reference || !is_quotient(*depth.reference)) &&
@@ -124,11 +116,6 @@ void FragmentValues::fill_weights(const DrawnTriangle& triangle, int first, cons
     }
 }
 
-DepthConversion FragmentValues::to_code() const noexcept {
-    return {depth_.format != DepthFormat::d32f, least_, greatest_, static_cast<double>(max_code(depth_.format)),
-            rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0};
-}
-
 bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                 WeightLanes& weights) const noexcept {
     const auto f = static_cast<std::size_t>(first);
@@ -139,7 +126,7 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
     }
     const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
     if (plane.is_constant()) return false;
-    const DepthLanes out{to_code(), needs_.shader_z ? &batch.shader_z[f] : nullptr,
+    const DepthLanes out{to_code_, needs_.shader_z ? &batch.shader_z[f] : nullptr,
                          needs_.code ? &batch.code[f] : nullptr, needs_attributes_ ? &weights.b1[f] : nullptr,
                          needs_attributes_ ? &weights.b2[f] : nullptr};
     return !kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.is_exact()}, &batch.x[f], &batch.y[f],
@@ -149,14 +136,14 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
 // A convex combination leaves the range only if a corner does; the products are exact.
 bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcept {
     const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
-    return low < least_ * z_units_ || high > greatest_ * z_units_;
+    return low < to_code_.least * z_units_ || high > to_code_.greatest * z_units_;
 }
 
 // ZClip::per_fragment compares shader_z with the range [A]: what rounds to n or f is inside.
 void FragmentValues::drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept {
     auto kept = static_cast<std::size_t>(first);
     for (auto i = kept; i < static_cast<std::size_t>(batch.count); ++i) {
-        if (!(batch.shader_z[i] >= least_ && batch.shader_z[i] <= greatest_)) continue;
+        if (!(batch.shader_z[i] >= to_code_.least && batch.shader_z[i] <= to_code_.greatest)) continue;
         move_lane(i, kept++, batch, weights);
     }
     batch.count = static_cast<int>(kept);
@@ -166,67 +153,61 @@ void FragmentValues::drop_outside_depth_range(int first, FragmentBatch& batch, W
 void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights,
                                    double* depth) const noexcept {
     const auto begin = static_cast<std::size_t>(first);
-    const double least = least_ * code_units_, greatest = greatest_ * code_units_;
     std::size_t kept = begin;
     for (std::size_t i = begin; i < static_cast<std::size_t>(batch.count); ++i) {
-        if (!is_in_depth_range(depth[i - begin], least, greatest)) continue;
+        if (!is_in_depth_range(depth[i - begin], value_to_code_.least, value_to_code_.greatest)) continue;
         depth[kept - begin] = depth[i - begin];
         move_lane(i, kept++, batch, weights);
     }
     batch.count = static_cast<int>(kept);
 }
 
+// The exact plane in the buffer's own units, rounded once to binary32, and that cut: D16F.
+int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLanes& lanes,
+                                       std::uint32_t* out) const noexcept {
+    const bool in_units = z_units_ == code_units_;
+    alignas(64) Lanes<float> z;
+    const RationalPlane plane{t.z, in_units ? 1.0 : code_units_, in_units ? 1.0 : z_units_};
+    const int fallbacks = round_plane(plane, lanes, z.data());
+    for (int i = 0; i < lanes.count; ++i) out[i] = code_of(double{z[static_cast<std::size_t>(i)]});
+    return fallbacks;
+}
+
 int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes& lanes, const float* shader_z,
                                      std::uint32_t* out) const noexcept {
-    if (depth_.format == DepthFormat::d32f) {
-        to_codes(shader_z, lanes.count, least_, greatest_, depth_.format, 0.0, out);
-        return 0;
+    switch (to_code_.kind) {
+        case CodeKind::binary32: to_codes(shader_z, lanes.count, to_code_, out); return 0;
+        case CodeKind::d16f: return fill_rounded_codes(t, lanes, out);
+        case CodeKind::fixed: break;
     }
     const std::uint32_t max = max_code(depth_.format);
     const bool in_codes = z_units_ == max;
     const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
-    const double half = rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0;
-    const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
-    for (int i = 0; i < padded(lanes.count); ++i) out[i] = std::clamp(out[i], least_code_, greatest_code_);
+    const int fallbacks = round_plane(plane, lanes, CodeRounding{to_code_.half, max}, out);
+    const std::uint32_t least = depth_code(to_code_.least, to_code_),
+                        greatest = depth_code(to_code_.greatest, to_code_);
+    for (int i = 0; i < padded(lanes.count); ++i) out[i] = std::clamp(out[i], least, greatest);
     return fallbacks;
 }
 
 int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
                                const float* shader_z, std::uint32_t* out) const {
-    const bool by_chip = path == DepthPath::window_z && rules_.hypothesis.window_z == WindowZRule::chip;
-    if (depth_.format == DepthFormat::d16f && by_chip) {  // [M] Depth_buffer: every word of four captures
-        const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
-        for (int i = 0; i < lanes.count; ++i)
-            out[i] = std::clamp(to_d16f_code(cut_to_binary32(rule.value(lanes.edge_values(i)))), least_code_,
-                                greatest_code_);
-        return 0;
-    }
-    if (depth_.format == DepthFormat::d16f) {
-        alignas(64) Lanes<float> z;
-        const int fallbacks = round_plane(RationalPlane{t.z}, lanes, z.data());
-        for (int i = 0; i < lanes.count; ++i)
-            out[i] = std::clamp(to_d16f_code(z[static_cast<std::size_t>(i)]), least_code_, greatest_code_);
-        return fallbacks;
-    }
     if (path == DepthPath::float32) {
-        to_codes(shader_z, lanes.count, least_, greatest_, depth_.format,
-                 rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0, out);
+        to_codes(shader_z, lanes.count, to_code_, out);
         return 0;
     }
-    if (!by_chip) return fill_exact_codes(t, lanes, shader_z, out);
+    if (path != DepthPath::window_z || rules_.hypothesis.window_z != WindowZRule::chip)
+        return fill_exact_codes(t, lanes, shader_z, out);
     const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
+    if (to_code_.kind == CodeKind::d16f) {  // [M] Depth_buffer: every word of four captures
+        for (int i = 0; i < lanes.count; ++i) out[i] = code_of(rule.value(lanes.edge_values(i)));
+        return 0;
+    }
+    // The exact sum is floored before it is clamped to the codes of the depth range.
+    const double least = depth_code(to_code_.least, to_code_), greatest = depth_code(to_code_.greatest, to_code_);
     for (int i = 0; i < lanes.count; ++i)
-        out[i] = static_cast<std::uint32_t>(
-            std::clamp(rule.at(lanes.edge_values(i)), double{1.0} * least_code_, double{1.0} * greatest_code_));
+        out[i] = static_cast<std::uint32_t>(std::clamp(rule.at(lanes.edge_values(i)), least, greatest));
     return 0;
-}
-
-std::uint32_t FragmentValues::code_of(double value) const noexcept {
-    const double least = least_ * code_units_, greatest = greatest_ * code_units_;
-    const double above = value > least ? value : least;  // also turns -0 and NaN into `least`
-    const double clamped = above < greatest ? above : greatest;
-    if (depth_.format == DepthFormat::d32f) return std::bit_cast<std::uint32_t>(static_cast<float>(clamped));
-    return static_cast<std::uint32_t>(clamped + (rules_.depth_rounding == DepthRounding::nearest ? 0.5 : 0.0));
 }
 
 int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,

@@ -45,7 +45,7 @@ class FragmentValues {
     [[nodiscard]] int fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const;
 
     // What DepthPath::float32 makes of shader_z.
-    [[nodiscard]] DepthConversion to_code() const noexcept;
+    [[nodiscard]] const DepthConversion<float>& to_code() const noexcept { return to_code_; }
 
   private:
     [[nodiscard]] TriangleLanes lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
@@ -60,15 +60,18 @@ class FragmentValues {
     [[nodiscard]] bool may_leave_depth_range(const SetupTriangle& triangle) const noexcept;
     void drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept;
     void drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights, double* depth) const noexcept;
+    [[nodiscard]] int fill_rounded_codes(const SetupTriangle& triangle, const TriangleLanes& lanes,
+                                         std::uint32_t* out) const noexcept;
     [[nodiscard]] int fill_exact_codes(const SetupTriangle& triangle, const TriangleLanes& lanes, const float* shader_z,
                                        std::uint32_t* out) const noexcept;
     // `path` is one of those that go from the plane to the code.
     [[nodiscard]] int fill_codes(DepthPath path, const SetupTriangle& triangle, const TriangleLanes& lanes,
                                  const float* shader_z, std::uint32_t* out) const;
-    // Depth as a value, in codes of a fixed format or in [0,1]; not clamped.
+    // Depth as a value in the buffer's own units, not clamped.
     [[nodiscard]] int fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                         const TriangleLanes& lanes, const float* shader_z, double* out) const;
-    [[nodiscard]] std::uint32_t code_of(double value) const noexcept;
+    // Of a value in the buffer's own units.
+    [[nodiscard]] std::uint32_t code_of(double value) const noexcept { return depth_code(value, value_to_code_); }
     // The stored path, if it is one of depth_paths.h; drops what depth_replace rejects.
     [[nodiscard]] int fill_value_codes(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                        FragmentBatch& batch, WeightLanes& weights) const;
@@ -85,10 +88,10 @@ class FragmentValues {
     RasterRules rules_;
     DepthRequest depth_;
     FragmentNeeds needs_;
-    double z_units_;          // vertex z of depth 1.0
-    double code_units_;       // value in codes (D32F: depth) of depth 1.0
-    float least_, greatest_;  // the depth range, ordered
-    std::uint32_t least_code_, greatest_code_;
+    double z_units_;                         // vertex z of depth 1.0
+    double code_units_;                      // the buffer's own units in depth 1.0
+    DepthConversion<float> to_code_;         // of shader_z
+    DepthConversion<double> value_to_code_;  // of values in the buffer's own units
     bool clips_fragments_;
     bool rejects_;  // depth_replace
     bool needs_float_z_, needs_attributes_;

@@ -25,19 +25,12 @@ struct RowRun {
     std::uint32_t primitive;
 };
 
-// How a binary32 depth becomes its code.
-struct DepthConversion {
-    bool is_fixed;          // a fixed-point format; else binary32
-    float least, greatest;  // the depth range
-    double max, half;       // fixed-point: the code of 1.0, and what the conversion adds
-};
-
 // What `depth` makes of a plane of depth: its binary32 value, and the code of that.
 struct DepthLanes {
-    DepthConversion to_code;
-    float* shader_z;      // null: not wanted
-    std::uint32_t* code;  // null: not wanted
-    double* b1;           // null: no one looks at the weights
+    DepthConversion<float> to_code;  // fixed point or D32F
+    float* shader_z;                 // null: not wanted
+    std::uint32_t* code;             // null: not wanted
+    double* b1;                      // null: no one looks at the weights
     double* b2;
 };
 

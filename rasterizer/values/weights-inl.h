@@ -1,7 +1,7 @@
 // rasterizer/values/weights-inl.h - weights, planes and codes of neighbouring or scattered pixels, a vector of binary64 at a
 // time. For *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks.
 //
-// Rule     The operations and their order are those of PixelWeights, FilterPlane and to_codes: every set gives the bits
+// Rule     The operations and their order are those of PixelWeights, FilterPlane and depth_text-inl.h: every set gives the bits
 //          of the twins in lane_kernels.h.
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
 #include "hwy/highway.h"
@@ -104,18 +104,27 @@ HWY_INLINE V32 less_or_second(V32 a, V32 b) {
     return HWY_ARCH_X86 ? hn::Min(a, b) : hn::IfThenElse(hn::Lt(a, b), a, b);
 }
 
+// The operations of depth_text-inl.h. D16F is not among them: its passes go lane by lane.
+struct VectorLanes {
+    HWY_INLINE static V32 all(float v) { return hn::Set(F32{}, v); }
+    HWY_INLINE static V32 greater_or_second(V32 a, V32 b) { return HWY_NAMESPACE::greater_or_second(a, b); }
+    HWY_INLINE static V32 less_or_second(V32 a, V32 b) { return HWY_NAMESPACE::less_or_second(a, b); }
+    HWY_INLINE static hn::Vec<U32> bits(V32 v) { return hn::BitCast(U32{}, v); }
+    HWY_INLINE static V64 times(V32 v, double scale) { return hn::Mul(hn::PromoteTo(F64{}, v), hn::Set(F64{}, scale)); }
+    HWY_INLINE static hn::Vec<U32> cut_sum(V64 v, double half) {
+        return hn::BitCast(U32{}, hn::DemoteTo(I32{}, hn::Add(v, hn::Set(F64{}, half))));
+    }
+};
+
+#include "rasterizer/rules/depth_text-inl.h"
+
 template <bool is_fixed>
-HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion& to) {
-    const F32 d;
-    const V32 above = greater_or_second(z, hn::Set(d, to.least));  // as the twin: NaN and -0 become `least`
-    const V32 clamped = less_or_second(above, hn::Set(d, to.greatest));
-    if constexpr (!is_fixed) return hn::BitCast(U32{}, clamped);
-    const F64 d64;
-    const V64 scaled = hn::Mul(hn::PromoteTo(d64, clamped), hn::Set(d64, to.max));
-    return hn::BitCast(U32{}, hn::DemoteTo(I32{}, hn::Add(scaled, hn::Set(d64, to.half))));
+HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion<float>& to) {
+    constexpr CodeKind kind = is_fixed ? CodeKind::fixed : CodeKind::binary32;
+    return HWY_NAMESPACE::depth_code<kind>(VectorLanes{}, z, to);
 }
-HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion& to) {
-    return to.is_fixed ? codes<true>(z, to) : codes<false>(z, to);
+HWY_INLINE hn::Vec<U32> codes(V32 z, const DepthConversion<float>& to) {
+    return to.is_fixed() ? codes<true>(z, to) : codes<false>(z, to);
 }
 
 }  // namespace strata::rasterizer::HWY_NAMESPACE

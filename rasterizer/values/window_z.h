@@ -75,7 +75,8 @@ struct Dyadic {
 
 class WindowZ24 {
   public:
-    WindowZ24(const std::array<double, 3>& z, std::int64_t area, const DepthHypothesis& hypothesis = {}) noexcept
+    constexpr WindowZ24(const std::array<double, 3>& z, std::int64_t area,
+                        const DepthHypothesis& hypothesis = {}) noexcept
         : reciprocal_{static_cast<std::uint64_t>(area), hypothesis.reciprocal_bits}, sum_bits_{hypothesis.sum_bits} {
         for (std::size_t i = 0; i < 3; ++i) z_[i] = static_cast<float>(z[i]);
         for (std::size_t i = 0; i < 3; ++i) {
@@ -87,13 +88,13 @@ class WindowZ24 {
                                          [](const Dyadic& d) { return bit_width(d.magnitude) <= 39; });
     }
     // The depth code at a fragment with edge values `e`, before the clamp to the buffer's range.
-    [[nodiscard]] double at(const EdgeValues& e) const noexcept {
+    [[nodiscard]] constexpr double at(const EdgeValues& e) const noexcept {
         const TwoTerms s = sum(e);
         const double whole = floor(s.high);
         return whole == s.high && s.low < 0.0 ? whole - 1.0 : whole;
     }
     // The sum that `at` floors, rounded to binary64.
-    [[nodiscard]] double value(const EdgeValues& e) const noexcept { return sum(e).high; }
+    [[nodiscard]] constexpr double value(const EdgeValues& e) const noexcept { return sum(e).high; }
 
   private:
     static constexpr int none = -10000;  // the exponent of 0
@@ -110,15 +111,17 @@ class WindowZ24 {
         int exponent = 0;
         bool is_negative = false;
 
-        Term(CutWeight b, const Dyadic& z) noexcept
+        constexpr Term(CutWeight b, const Dyadic& z) noexcept
             : magnitude{static_cast<Integer>(z.magnitude) * b.mantissa},
               exponent{b.exponent + z.exponent},
               is_negative{z.is_negative} {}
-        [[nodiscard]] int leading_exponent() const noexcept {
+        [[nodiscard]] constexpr int leading_exponent() const noexcept {
             return magnitude == 0 ? none : bit_width(magnitude) - 1 + exponent;
         }
-        // In units of 2^unit, toward zero; below 2^29 because the unit is 28 places under the largest term.
-        [[nodiscard]] std::int64_t cut(int unit) const noexcept {
+        // In units of 2^unit, toward zero; below 2^29 because the unit is 28 places under the largest term. The exponent of
+        // a zero means nothing: two corners at depth 0 put it any number of places above the unit.
+        [[nodiscard]] constexpr std::int64_t cut(int unit) const noexcept {
+            if (magnitude == 0) return 0;
             const int right = unit - exponent;
             constexpr int width = static_cast<int>(sizeof(Integer)) * 8;
             const Integer kept = right >= width ? 0 : (right >= 0 ? magnitude >> right : magnitude << -right);
@@ -126,12 +129,8 @@ class WindowZ24 {
         }
     };
 
-    [[nodiscard]] TwoTerms sum(const EdgeValues& e) const noexcept {
-        return is_narrow_ ? sum_of<std::uint64_t>(e) : sum_of<Wide>(e);
-    }
-
     template <class Integer>
-    [[nodiscard]] TwoTerms sum_of(const EdgeValues& e) const noexcept {
+    [[nodiscard]] constexpr TwoTerms sum_of(const EdgeValues& e) const noexcept {
         const std::size_t r = reference(e), j = r == 0 ? 1 : 0, k = r == 2 ? 1 : 2;
         const Term<Integer> pj{reciprocal_.weight(static_cast<std::uint64_t>(e[j])), difference_[r][j]};
         const Term<Integer> pk{reciprocal_.weight(static_cast<std::uint64_t>(e[k])), difference_[r][k]};
@@ -142,7 +141,12 @@ class WindowZ24 {
         return two_sum(double{z_[r]}, products);
     }
 
-    [[nodiscard]] static double floor(double v) noexcept {  // |v| < 2^62; a larger one is far outside every buffer
+    [[nodiscard]] constexpr TwoTerms sum(const EdgeValues& e) const noexcept {
+        return is_narrow_ ? sum_of<std::uint64_t>(e) : sum_of<Wide>(e);
+    }
+
+    // |v| < 2^62; a larger one is far outside every buffer.
+    [[nodiscard]] static constexpr double floor(double v) noexcept {
         const double bounded = std::clamp(v, -0x1p62, 0x1p62);
         const auto toward_zero = static_cast<double>(static_cast<std::int64_t>(bounded));
         return toward_zero > bounded ? toward_zero - 1.0 : toward_zero;

@@ -12,7 +12,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 struct DepthState {
-    DepthConversion to_code;
+    DepthConversion<float> to_code;
     double z_units;
     std::uint32_t* codes;
     DepthDrawn drawn;
@@ -50,7 +50,7 @@ struct DepthOf {
 
       private:
         DepthState& state_;
-        const DepthConversion to_code_;
+        const DepthConversion<float> to_code_;
         std::uint32_t* const codes_;
         const Geometry& geometry_;
         const std::uint32_t index_;
@@ -66,9 +66,9 @@ void draw(const Geometry& geometry, std::span<const std::uint32_t> triangles, co
 }
 
 DepthDrawn draw_depth(const Geometry& geometry, std::span<const std::uint32_t> triangles,
-                      const DepthConversion& to_code, double units, const Rect& region, std::uint32_t* codes) {
+                      const DepthConversion<float>& to_code, double units, const Rect& region, std::uint32_t* codes) {
     DepthState state{to_code, units, codes, {}};
-    if (to_code.is_fixed)
+    if (to_code.is_fixed())
         draw<true>(geometry, triangles, region, state);
     else
         draw<false>(geometry, triangles, region, state);

@@ -9,8 +9,8 @@ namespace strata::rasterizer {
 bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
     // With two lanes of binary64 batches are faster.
-    return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && !clips_fragments &&
-           geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
+    return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && depth.format != DepthFormat::d16f &&
+           !clips_fragments && geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
 }
 
 void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,

@@ -13,6 +13,7 @@
 
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
+#include "rasterizer/base/vector_arithmetic.h"
 #include "scenes/camera.h"
 #include "scenes/files/text_file.h"
 #include "scenes/nearest_name.h"
@@ -92,13 +93,13 @@ void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
 }
 
 // |a x b| relative to both lengths, squared.
-double squared_sine(const Vector& a, const Vector& b) noexcept {
-    const double aa = dot(a, a), bb = dot(b, b);
-    const Vector c = cross(a, b);
-    return aa > 0 && bb > 0 ? dot(c, c) / aa / bb : 0;
+double squared_sine(const Vec3d& a, const Vec3d& b) noexcept {
+    const double aa = dot_product(a, a), bb = dot_product(b, b);
+    const Vec3d c = cross_product(a, b);
+    return aa > 0 && bb > 0 ? dot_product(c, c) / aa / bb : 0;
 }
 
-Vector vector(const Place& place) {
+Vec3d vector(const Place& place) {
     const auto [x, y, z] = numbers<3>(place);
     return {x, y, z};
 }
@@ -116,7 +117,7 @@ LookAt parse_look_at(const Place& camera) {
     if (!(result.near > 0)) camera["near"].fail("a distance above 0");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
     if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
-    if (!(squared_sine(result.center - result.eye, result.up) > 1e-24))
+    if (!(squared_sine(minus(result.center, result.eye), result.up) > 1e-24))
         camera["up"].fail("a direction across the line of sight");
     return result;
 }
@@ -139,7 +140,8 @@ std::string hex_float(double value) {
 
 std::string to_json(const pipeline::Matrix& matrix) {
     std::string text;
-    for (const double entry : matrix) text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", hex_float(entry));
+    for (const double entry : entries_of(matrix))
+        text += fmt::format("{}\"{}\"", text.empty() ? "" : ",", hex_float(entry));
     return "[" + text + "]";
 }
 
@@ -157,7 +159,7 @@ pipeline::View parse_camera(const std::string& text, const std::string& name, do
     }
     if (!document.contains("view") && !document.contains("projection")) return look_at(parse_look_at(camera), aspect);
     check_keys(camera, matrix_keys);
-    return {numbers<16>(camera["view"]), numbers<16>(camera["projection"])};
+    return {matrix_of(numbers<16>(camera["view"])), matrix_of(numbers<16>(camera["projection"]))};
 }
 
 pipeline::View load_camera(const std::string& path, double aspect) {

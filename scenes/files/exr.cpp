@@ -13,6 +13,7 @@
 #include <cstring>
 #include <optional>
 
+#include "rasterizer/base/enum_values.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_formats.h"
@@ -133,9 +134,8 @@ std::optional<Source> find_channel(const OIIO::ImageSpec& spec, const std::strin
 }
 
 std::optional<Format> format_named(std::string_view name) {
-    for (int i = 0; i <= static_cast<int>(Format::s8); ++i) {
-        if (pipeline::info(static_cast<Format>(i)).name == name) return static_cast<Format>(i);
-    }
+    for (const Format format : enum_values<Format>)
+        if (pipeline::info(format).name == name) return format;
     return std::nullopt;
 }
 

@@ -59,7 +59,7 @@ pipeline::Vec2 TextureTransform::apply(pipeline::Vec2 uv) const noexcept {
 
 pipeline::Rgba frame_color(const pipeline::Rgba& linear, pipeline::ColorSpace space) {
     pipeline::Rgba color = linear;
-    for (float& channel : color) channel = std::clamp(channel, 0.0f, 1.0f);
+    for (std::size_t c = 0; c < 4; ++c) color[c] = std::clamp(color[c], 0.0f, 1.0f);
     return from_linear(color, space);
 }
 

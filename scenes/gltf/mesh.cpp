@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "rasterizer/base/numerics.h"
+#include "rasterizer/base/vector_arithmetic.h"
 
 namespace strata::scenes {
 namespace {
@@ -76,10 +76,9 @@ Selection select_unshared(Indices corners) {
 }
 
 Vec3 flat_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-    std::array<double, 3> u{}, v{};
-    for (std::size_t i = 0; i < 3; ++i) u[i] = double{b[i]} - double{a[i]}, v[i] = double{c[i]} - double{a[i]};
-    const std::array<double, 3> n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    const double length = std::sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
+    const Vec3d origin{a};
+    const Vec3d n = cross_product(minus(Vec3d{b}, origin), minus(Vec3d{c}, origin));
+    const double length = std::sqrt(dot_product(n, n));
     if (!(length > 0) || !std::isfinite(length)) return {0, 0, 1};
     return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length), static_cast<float>(n[2] / length)};
 }
@@ -114,7 +113,7 @@ std::vector<pipeline::Rgba> read_colors(const PrimitiveSource& s, const Indices&
     read_finite(s, "COLOR_0", vertices, [&](std::array<float, 4> value, std::size_t components) {
         if (components == 3 || s.material.is_opaque) value[3] = 1;
         is_clamped |= std::any_of(value.begin(), value.end(), [](float f) { return f < 0 || f > 1; });
-        colors.push_back(frame_color(value, s.color_space));
+        colors.push_back(frame_color({value[0], value[1], value[2], value[3]}, s.color_space));
     });
     if (is_clamped) s.warnings.add(s.place.pointer, "vertex colours outside 0 to 1 are clamped");
     return colors;

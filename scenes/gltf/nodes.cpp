@@ -5,29 +5,29 @@
 #include <cmath>
 
 #include "pipeline/vertices/matrix.h"
-#include "scenes/numbers/vector.h"
+#include "rasterizer/base/vector_arithmetic.h"
 
 namespace strata::scenes {
 namespace {
 
 using pipeline::Matrix;
-Vector column(const Matrix& m, std::size_t c) { return {m[4 * c], m[4 * c + 1], m[4 * c + 2]}; }
+Vec3d column(const Matrix& m, std::size_t c) { return {m[c].x, m[c].y, m[c].z}; }
 
-Vector unit(const Vector& v, const Place& place) {
+Vec3d unit(const Vec3d& v, const Place& place) {
     const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
-    const Vector scaled = v / largest;  // so that no square over- or underflows
-    const double length = std::sqrt(dot(scaled, scaled));
+    const Vec3d scaled = divided(v, largest);  // so that no square over- or underflows
+    const double length = std::sqrt(dot_product(scaled, scaled));
     if (!(largest > 0) || !std::isfinite(length))
         place.fail("VALUE_NOT_IN_RANGE", "a camera with a direction", "a transform that flattens it");
-    return scaled / length;
+    return divided(scaled, length);
 }
 
 // The quaternion x y z w as it is written: the check has allowed it to be off unit length by little.
 Matrix from_parts(const std::array<double, 3>& t, const std::array<double, 4>& q, const std::array<double, 3>& s) {
     const auto [x, y, z, w] = q;
-    const Vector c0{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
-    const Vector c1{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
-    const Vector c2{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
+    const Vec3d c0{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
+    const Vec3d c1{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
+    const Vec3d c2{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
     return {c0[0] * s[0], c0[1] * s[0], c0[2] * s[0], 0, c1[0] * s[1], c1[1] * s[1], c1[2] * s[1], 0,
             c2[0] * s[2], c2[1] * s[2], c2[2] * s[2], 0, t[0],         t[1],         t[2],         1};
 }
@@ -42,7 +42,7 @@ std::array<double, n> values_or(const std::vector<double>& given, const std::arr
 }  // namespace
 
 Matrix local_transform(const tinygltf::Node& node) noexcept {
-    if (node.matrix.size() == 16) return values_or<16>(node.matrix, pipeline::identity);
+    if (node.matrix.size() == 16) return matrix_of(values_or<16>(node.matrix, {}));
     return from_parts(values_or<3>(node.translation, {0, 0, 0}), values_or<4>(node.rotation, {0, 0, 0, 1}),
                       values_or<3>(node.scale, {1, 1, 1}));
 }
@@ -55,7 +55,7 @@ std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<cons
         waiting.pop_back();
         const tinygltf::Node& node = model.nodes[static_cast<std::size_t>(next.node)];
         next.world = pipeline::product(next.world, local_transform(node));
-        if (!std::all_of(next.world.begin(), next.world.end(), [](double v) { return std::isfinite(v); }))
+        if (!std::ranges::all_of(entries_of(next.world), [](double v) { return std::isfinite(v); }))
             Place{file, "/nodes/" + std::to_string(next.node)}.fail("VALUE_NOT_IN_RANGE", "a finite world transform",
                                                                     "an overflow");
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
@@ -66,12 +66,27 @@ std::vector<PlacedNode> place_nodes(const tinygltf::Model& model, std::span<cons
 }
 
 Matrix view_of(const Matrix& world, const Place& place) {
-    const Vector z = unit(column(world, 2), place);
-    const Vector right = unit(column(world, 0), place);
-    const double along = dot(right, z);
-    const Vector x = unit(right - along * z, place);
-    const Vector y = cross(z, x), eye = column(world, 3);
-    return {x[0], y[0], z[0], 0, x[1], y[1], z[1], 0, x[2], y[2], z[2], 0, -dot(x, eye), -dot(y, eye), -dot(z, eye), 1};
+    const Vec3d z = unit(column(world, 2), place);
+    const Vec3d right = unit(column(world, 0), place);
+    const double along = dot_product(right, z);
+    const Vec3d x = unit(minus(right, times(z, along)), place);
+    const Vec3d y = cross_product(z, x), eye = column(world, 3);
+    return {x[0],
+            y[0],
+            z[0],
+            0,
+            x[1],
+            y[1],
+            z[1],
+            0,
+            x[2],
+            y[2],
+            z[2],
+            0,
+            -dot_product(x, eye),
+            -dot_product(y, eye),
+            -dot_product(z, eye),
+            1};
 }
 
 }  // namespace strata::scenes

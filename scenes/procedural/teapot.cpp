@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "rasterizer/base/vector_arithmetic.h"
 #include "scenes/bounds.h"
 #include "scenes/numbers/srgb_encode.h"
-#include "scenes/numbers/vector.h"
 #include "scenes/procedural/teapot_patches.h"
 
 namespace strata::scenes {
@@ -29,8 +29,8 @@ double weighted_sum(const Basis& w, double a, double b, double c, double d) noex
     return (w[0] * a + w[3] * d) + (w[1] * b + w[2] * c);
 }
 
-Vector evaluate(const std::uint16_t (&patch)[16], const Basis& u, const Basis& v) noexcept {
-    Vector result{};
+Vec3d evaluate(const std::uint16_t (&patch)[16], const Basis& u, const Basis& v) noexcept {
+    Vec3d result;
     for (int axis = 0; axis < 3; ++axis) {
         double row[4];
         for (std::size_t r = 0; r < 4; ++r) {
@@ -42,20 +42,20 @@ Vector evaluate(const std::uint16_t (&patch)[16], const Basis& u, const Basis& v
     return result;
 }
 
-pipeline::Vec3 y_up(const Vector& p) noexcept {
+pipeline::Vec3 y_up(const Vec3d& p) noexcept {
     return {static_cast<float>(p[0]), static_cast<float>(p[2]), static_cast<float>(-p[1])};
 }
 
 // d/dv x d/du points outwards on every patch. Where a patch's first row is one point, d/dv is 0 there and its limit has
 // the direction of the mixed derivative.
-Vector outward_normal(const std::uint16_t (&patch)[16], int i, int j, int n) noexcept {
+Vec3d outward_normal(const std::uint16_t (&patch)[16], int i, int j, int n) noexcept {
     const Basis u = bernstein(i, n), v = bernstein(j, n);
     const Basis du = bernstein_derivative(i, n), dv = bernstein_derivative(j, n);
-    const Vector a = evaluate(patch, du, v);
-    Vector b = evaluate(patch, u, dv);
-    if (dot(b, b) < 1e-20) b = evaluate(patch, du, dv);
-    const Vector c = cross(b, a);
-    return c / std::sqrt(dot(c, c));
+    const Vec3d a = evaluate(patch, du, v);
+    Vec3d b = evaluate(patch, u, dv);
+    if (dot_product(b, b) < 1e-20) b = evaluate(patch, du, dv);
+    const Vec3d c = cross_product(b, a);
+    return divided(c, std::sqrt(dot_product(c, c)));
 }
 
 void add_triangle(pipeline::Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -70,7 +70,7 @@ void write_blend(std::ostream& out, std::uint64_t cases, std::uint64_t seed) {
             line.word(factors[static_cast<std::size_t>(term->src)]);
             line.word(factors[static_cast<std::size_t>(term->dst)]);
         }
-        for (float& c : state.constant) line.bits(c = random_value(random));
+        for (float& c : components(state.constant)) line.bits(c = random_value(random));
         for (auto& channel : source) line.bits(channel[0] = random_value(random));
         for (auto& channel : codes) line.half(channel[0] = random_half(random));
         blend(state, ChannelType::half, profile, 4, source, codes, 1);

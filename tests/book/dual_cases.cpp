@@ -31,7 +31,7 @@ testing::FragmentScene random_scene(testing::Random& random) {
 }
 
 Line& color(Line& line, const pipeline::Rgba& rgba) {
-    for (const float c : rgba) line.bits(c);
+    for (const float c : components(rgba)) line.bits(c);
     return line;
 }
 

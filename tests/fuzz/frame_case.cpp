@@ -112,7 +112,7 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     choose_comparison(bytes, profile, o);
     if (bytes.one_in(6)) o.alpha = bytes.fraction();
     if (bytes.one_in(2))
-        for (float& channel : o.background) channel = bytes.fraction();
+        for (float& channel : components(o.background)) channel = bytes.fraction();
     o.termination = termination(bytes);
     if (bytes.one_in(6)) o.max_passes = 1 + bytes.below(8);
     o.keep_layers = algorithm != nullptr && algorithm->makes_layers && bytes.one_in(4);

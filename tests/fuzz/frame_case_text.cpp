@@ -33,7 +33,7 @@ void print_options(std::ostream& out, const peeling::RenderOptions& o) {
     out << ", formulation " << number(o.formulation) << ", sort " << number(o.sort.rule) << ' ' << o.sort.buckets << ' '
         << o.sort.fraction << ' ' << o.sort.seed;
     out << ", keep_layers " << o.keep_layers << ", audit " << o.audit << ", nearest_depth " << o.nearest_depth;
-    print_numbers(out, ", background", o.background);
+    print_numbers(out, ", background", components(o.background));
     const rasterizer::RasterState& r = o.raster;
     out << "\nraster: depth range " << r.depth_near << " to " << r.depth_far << ", clip_depth " << number(r.clip_depth)
         << ", y " << number(r.y_direction) << ", depth_clamp " << r.depth_clamp << ", cull " << number(r.cull)
@@ -55,17 +55,17 @@ void print_mesh(std::ostream& out, const pipeline::Mesh& mesh) {
     out << '\n';
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
         if (std::ranges::find(mesh.indices, v) == mesh.indices.end()) continue;
-        print_numbers(out, ("  vertex " + std::to_string(v) + ": position").c_str(), mesh.positions[v]);
-        print_numbers(out, " normal", mesh.normals[v]);
-        print_numbers(out, " texcoord", mesh.texcoords[v]);
-        if (!mesh.colors.empty()) print_numbers(out, " color", mesh.colors[v]);
+        print_numbers(out, ("  vertex " + std::to_string(v) + ": position").c_str(), components(mesh.positions[v]));
+        print_numbers(out, " normal", components(mesh.normals[v]));
+        print_numbers(out, " texcoord", components(mesh.texcoords[v]));
+        if (!mesh.colors.empty()) print_numbers(out, " color", components(mesh.colors[v]));
         out << '\n';
     }
 }
 
 void print_material(std::ostream& out, const pipeline::Material& m) {
-    print_numbers(out, "  material: front", m.front);
-    print_numbers(out, " back", m.back);
+    print_numbers(out, "  material: front", components(m.front));
+    print_numbers(out, " back", components(m.back));
     out << " mode " << static_cast<int>(m.alpha_mode) << " cutoff " << m.alpha_cutoff << " texture " << m.texture
         << " double_sided " << m.double_sided << " unlit " << m.unlit << '\n';
 }
@@ -96,14 +96,14 @@ void print(std::ostream& out, const FrameCase& f) {
         print(out, way);
         out << '\n';
     }
-    print_numbers(out, "view", f.view.view);
-    print_numbers(out, " projection", f.view.projection);
+    print_numbers(out, "view", entries_of(f.view.view));
+    print_numbers(out, " projection", entries_of(f.view.projection));
     out << '\n';
     bool is_textured = false;
     for (const pipeline::Instance& i : f.list.instances) {
         const pipeline::Material& material = f.list.materials[i.material];
         is_textured |= material.texture >= 0;
-        print_numbers(out, "instance: model", i.model);
+        print_numbers(out, "instance: model", entries_of(i.model));
         out << '\n';
         print_material(out, material);
         print_mesh(out, f.list.meshes[i.mesh]);

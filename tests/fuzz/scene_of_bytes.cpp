@@ -121,10 +121,10 @@ Material material(ByteSource& bytes, int number, int textures) {
 
 Matrix model(ByteSource& bytes) {
     Matrix m = identity;
-    if (bytes.one_in(2)) m[14] = (bytes.below(17) - 8) / 16.0;
-    if (bytes.one_in(4)) m[12] = (bytes.below(17) - 8) / 16.0;
-    if (bytes.one_in(6)) m[0] = -1;
-    if (bytes.one_in(6)) m[5] = bytes.fraction() * 2.0;
+    if (bytes.one_in(2)) m[3][2] = (bytes.below(17) - 8) / 16.0;
+    if (bytes.one_in(4)) m[3][0] = (bytes.below(17) - 8) / 16.0;
+    if (bytes.one_in(6)) m[0][0] = -1;
+    if (bytes.one_in(6)) m[1][1] = bytes.fraction() * 2.0;
     return m;
 }
 

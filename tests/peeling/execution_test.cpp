@@ -220,7 +220,7 @@ TEST_CASE("alpha for everything, other formats and the whole state of the raster
 TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back") {
     TriangleScene scene = random_triangles(78, 30);
     scene.view.view = {0.95, 0.02, 0.1, 0, -0.03, 0.99, 0.05, 0, -0.1, -0.04, 0.97, 0, 0.01, 0.02, -0.03, 1};
-    for (auto& instance : scene.list.instances) instance.model[0] = 1.1;  // the matrices' product must be rounded
+    for (auto& instance : scene.list.instances) instance.model[0][0] = 1.1;  // the matrices' product must be rounded
     for (const Machine& machine : machines) {
         RenderOptions options = small_frame();
         options.threads = 2;

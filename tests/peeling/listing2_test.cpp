@@ -41,8 +41,8 @@ CoordinateUnits listing_2(const Matrix& projection, double depth_units) {
     CoordinateUnits units{};
     units[0].enabled = true;
     units[1] = unit(TextureMatrix{}.translate(0, 0, 0.5).scale(0, 0, 0.5).multiply(projection), depth_units, false);
-    Matrix m{};  // row r takes what was q
-    m[14] = 1;
+    Matrix m(0.0);  // row r takes what was q
+    m[3][2] = 1;
     units[2] = unit(TextureMatrix{}.multiply(m).multiply(projection), 1, false);
     units[3] =
         unit(TextureMatrix{}.scale(width, height, 1).translate(0.5, 0.5, 0.5).scale(0.5, 0.5, 0.5).multiply(projection),

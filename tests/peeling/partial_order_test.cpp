@@ -19,7 +19,7 @@ constexpr Rgba background{0.25f, 0.5f, 0.8f, 1};
 
 Rgba behind(const GivenPixel& pixel, const TargetModel& target) {
     Rgba color = pixel.opaque && pixel.opaque->depth < 1.0f ? pixel.opaque->color : background;
-    for (float& c : color) c = target.stored(c);
+    for (float& c : strata::components(color)) c = target.stored(c);
     return color;
 }
 

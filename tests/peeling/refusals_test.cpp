@@ -1,5 +1,6 @@
 // Who runs what: the table of devices.md 10, row by row, and the sentence of every refusal.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "rasterizer/base/input_error.h"
 #include "tests/peeling/rendering.h"
@@ -205,7 +206,7 @@ TEST_CASE("fragments of a refused run are refused with the same sentence") {
     CHECK_THROWS_WITH(renderer.fragments(*strata::peeling::find_algorithm("dual")), no_float);
 }
 
-TEST_CASE("options that no profile could mean are input errors that name the option, what it takes and what it got") {
+TEST_CASE("options that no profile could mean are input errors that name the field, what it takes and what it got") {
     const auto message = [](auto change) -> std::string {
         RenderOptions options = options_for(one_fragment());
         change(options);
@@ -216,16 +217,24 @@ TEST_CASE("options that no profile could mean are input errors that name the opt
         }
         return "";
     };
-    CHECK(message([](RenderOptions& o) { o.width = 0; }) == "strata: --size: width: expected 1 to 16384, found 0");
+    CHECK(message([](RenderOptions& o) { o.width = 0; }) == "render options: width: expected 1 to 16384, found 0");
     CHECK(message([](RenderOptions& o) { o.height = 16385; }) ==
-          "strata: --size: height: expected 1 to 16384, found 16385");
+          "render options: height: expected 1 to 16384, found 16385");
     CHECK(message([](RenderOptions& o) { o.tile_size = 24; }) ==
-          "strata: --tile: expected 8, 16, 32, 64 or 128, found 24");
-    CHECK(message([](RenderOptions& o) { o.threads = -1; }) == "strata: --threads: expected 0 to 1024, found -1");
+          "render options: tile_size: expected 8, 16, 32, 64 or 128, found 24");
+    CHECK(message([](RenderOptions& o) { o.threads = -1; }) == "render options: threads: expected 0 to 1024, found -1");
     CHECK(message([](RenderOptions& o) { o.max_passes = -1; }) ==
-          "strata: --max-passes: expected 0 to 1000000, found -1");
+          "render options: max_passes: expected 0 to 1000000, found -1");
     CHECK(message([](RenderOptions& o) { o.termination = {.rule = TerminationRule::fixed}; }) ==
-          "strata: --termination fixed: expected 1 to 1000000, found 0");  // it would never end
+          "render options: termination.passes: expected 1 to 1000000, found 0");  // it would never end
     CHECK(message([](RenderOptions& o) { o.termination = {.rule = TerminationRule::ratio, .ratio = -0.5}; }) ==
-          "strata: --termination ratio: expected a number of at least 0, found -0.500000");
+          "render options: termination.ratio: expected a number of at least 0, found -0.500000");
+    CHECK(message([](RenderOptions& o) { o.alpha = std::nanf(""); }) ==
+          "render options: alpha: expected a finite number, found nan");
+    CHECK(message([](RenderOptions& o) { o.raster.clip_plane_count = 7; }) ==
+          "raster state: clip_plane_count: expected 0 to 6, found 7");
+    strata::pipeline::DrawList broken;
+    broken.instances.push_back({.mesh = 3});
+    CHECK(message([&](RenderOptions& o) { o.second_list = &broken; }) ==
+          "draw list: instances[0].mesh: expected less than 0, found 3");
 }

@@ -51,7 +51,7 @@ Statistics statistics(const FragmentScene& scene) {
 Rgba behind(const GivenPixel& pixel, const TargetModel& target) {
     const bool opaque = pixel.opaque && pixel.opaque->depth < 1.0f;
     Rgba color = opaque ? pixel.opaque->color : background;
-    for (float& c : color) c = target.stored(c);
+    for (float& c : strata::components(color)) c = target.stored(c);
     return color;
 }
 
@@ -91,7 +91,7 @@ FragmentScene without_alpha_zero(FragmentScene scene, Format format) {
 FragmentScene as_interpolated(FragmentScene scene, const Machine& machine) {
     if (machine.profile != "geforce3") return scene;
     const auto cut = [](Rgba& color) {
-        for (float& c : color) {
+        for (float& c : strata::components(color)) {
             int exponent = 0;
             const float mantissa = std::frexp(c, &exponent);
             c = std::ldexp(std::trunc(std::ldexp(mantissa, 14)), exponent - 14);

@@ -29,7 +29,7 @@ using Colors = std::array<rasterizer::Lanes<float>, 4>;
     Blend state{!one_in(random, 8), any_term(random), any_term(random), {}, 0xf};
     if (one_in(random, 2)) state.alpha = state.color;
     if (one_in(random, 4)) state.write_mask = static_cast<std::uint8_t>(below(random, 16));
-    for (float& c : state.constant) c = any_float(random);
+    for (float& c : strata::components(state.constant)) c = any_float(random);
     return state;
 }
 

@@ -21,7 +21,7 @@ using Point = std::array<double, 4>;
 Point operator*(const Matrix& m, const Point& p) {
     Point result{};
     for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t c = 0; c < 4; ++c) result[r] += m[4 * c + r] * p[c];
+        for (std::size_t c = 0; c < 4; ++c) result[r] += m[c][r] * p[c];
     return result;
 }
 
@@ -35,7 +35,7 @@ Bounds box(double x0, double y0, double z0, double x1, double y1, double z1) { r
 std::array<double, 3> eye_of(const View& view) {
     std::array<double, 3> eye{};
     for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t r = 0; r < 3; ++r) eye[c] -= view.view[4 * c + r] * view.view[12 + r];
+        for (std::size_t r = 0; r < 3; ++r) eye[c] -= view.view[c][r] * view.view[3][r];
     return eye;
 }
 
@@ -82,10 +82,10 @@ TEST_CASE("an orbit's eye, depth range and angle are those of scenes.md 7.2 to t
                                           3 + Wide{2.5} * radius * cos(e) * cos(a)};
             for (std::size_t i = 0; i < 3; ++i) CHECK(abs(eye[i] - Wide{eye_of(view)[i]}) < 1e-13);
             const double n = 1.4 * 3.5, f = 3.6 * 3.5;
-            CHECK(view.projection[10] == Approx(-(f + n) / (f - n)).epsilon(1e-15));
-            CHECK(view.projection[14] == Approx(-2 * f * n / (f - n)).epsilon(1e-15));
-            CHECK(view.projection[5] == Approx(1 + std::sqrt(2.0)).epsilon(1e-15));  // cot 22.5 degrees
-            CHECK(view.projection[0] == Approx((1 + std::sqrt(2.0)) / 1.5).epsilon(1e-15));
+            CHECK(view.projection[2][2] == Approx(-(f + n) / (f - n)).epsilon(1e-15));
+            CHECK(view.projection[3][2] == Approx(-2 * f * n / (f - n)).epsilon(1e-15));
+            CHECK(view.projection[1][1] == Approx(1 + std::sqrt(2.0)).epsilon(1e-15));  // cot 22.5 degrees
+            CHECK(view.projection[0][0] == Approx((1 + std::sqrt(2.0)) / 1.5).epsilon(1e-15));
         }
     }
 }
@@ -94,13 +94,13 @@ TEST_CASE("straight above and below the orbit's up is its limit, so that the pic
     for (const double sign : {1.0, -1.0}) {
         const View at = orbit_view(box(-1, -1, -1, 1, 1, 1), 25, sign * 90, 1);
         const View beside = orbit_view(box(-1, -1, -1, 1, 1, 1), 25, sign * 89.999, 1);
-        for (std::size_t i = 0; i < 16; ++i) CHECK(std::abs(at.view[i] - beside.view[i]) < 1e-3);
+        for (std::size_t i = 0; i < 16; ++i) CHECK(std::abs(at.view[i / 4][i % 4] - beside.view[i / 4][i % 4]) < 1e-3);
     }
 }
 
 TEST_CASE("an orbit sees a box without extent, an empty one and a single point") {
     for (const Bounds& bounds : {Bounds{}, box(1, 2, 3, 1, 2, 3)}) {
-        for (const double entry : orbit_view(bounds, 30, 20, 1).view) CHECK(std::isfinite(entry));
+        for (const double entry : strata::entries_of(orbit_view(bounds, 30, 20, 1).view)) CHECK(std::isfinite(entry));
     }
     CHECK_THROWS_WITH(orbit_view({}, 0, 91, 1), "--orbit: elevation: expected degrees from -90 to 90, found 91");
     CHECK_THROWS_AS(orbit_view({}, NAN, 0, 1), strata::InputError);
@@ -109,16 +109,16 @@ TEST_CASE("an orbit sees a box without extent, an empty one and a single point")
 TEST_CASE("a glTF camera projects as section 3.10.3 says: finite, infinite and orthographic") {
     const SceneCamera finite{.yfov = 0.7, .aspect = 2, .znear = 0.1, .zfar = 10};
     const Matrix m = camera_view(finite, 1).projection;
-    CHECK(m[0] == Approx(1 / (2 * std::tan(0.35))).epsilon(1e-15));
-    CHECK(m[5] == Approx(1 / std::tan(0.35)).epsilon(1e-15));
-    CHECK(m[10] == Approx((10 + 0.1) / (0.1 - 10)).epsilon(1e-15));
-    CHECK(m[14] == Approx(2 * 10 * 0.1 / (0.1 - 10)).epsilon(1e-15));
-    CHECK(m[11] == -1);
+    CHECK(m[0][0] == Approx(1 / (2 * std::tan(0.35))).epsilon(1e-15));
+    CHECK(m[1][1] == Approx(1 / std::tan(0.35)).epsilon(1e-15));
+    CHECK(m[2][2] == Approx((10 + 0.1) / (0.1 - 10)).epsilon(1e-15));
+    CHECK(m[3][2] == Approx(2 * 10 * 0.1 / (0.1 - 10)).epsilon(1e-15));
+    CHECK(m[2][3] == -1);
 
     const SceneCamera infinite{.yfov = 0.7, .znear = 0.25};
-    CHECK(camera_view(infinite, 1.5).projection[10] == -1);
-    CHECK(camera_view(infinite, 1.5).projection[14] == -0.5);
-    CHECK(camera_view(infinite, 1.5).projection[0] == Approx(1 / (1.5 * std::tan(0.35))).epsilon(1e-15));
+    CHECK(camera_view(infinite, 1.5).projection[2][2] == -1);
+    CHECK(camera_view(infinite, 1.5).projection[3][2] == -0.5);
+    CHECK(camera_view(infinite, 1.5).projection[0][0] == Approx(1 / (1.5 * std::tan(0.35))).epsilon(1e-15));
 
     const SceneCamera flat{.perspective = false, .xmag = 2, .ymag = 4, .znear = 1, .zfar = 3};
     const Matrix o = camera_view(flat, 1).projection;

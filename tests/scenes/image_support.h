@@ -15,11 +15,11 @@ inline pipeline::Image wild_image(pipeline::Format format, int width, int height
     constexpr std::uint32_t single[] = {0,          0x80000000, 0x3f800000, 0x7f800000, 0xff800000, 0x7f800001,
                                         0x7fbfffff, 0xffc12345, 0xffffffff, 0x00000001, 0x807fffff, 0x7f7fffff};
     const ChannelType type = pipeline::info(format).type;
-    const std::uint32_t mask = type == ChannelType::unorm8       ? 0xffu
-                               : type == ChannelType::half       ? 0xffffu
-                               : format == pipeline::Format::d16 ? 0xffffu
-                               : format == pipeline::Format::d24 ? 0xffffffu
-                                                                 : 0xffffffffu;
+    const std::uint32_t mask = type == ChannelType::unorm8                                           ? 0xffu
+                               : type == ChannelType::half                                           ? 0xffffu
+                               : format == pipeline::Format::d16 || format == pipeline::Format::d16f ? 0xffffu
+                               : format == pipeline::Format::d24                                     ? 0xffffffu
+                                                                                                     : 0xffffffffu;
     pipeline::Image image{format, width, height};
     std::mt19937 random{seed};
     for (std::size_t i = 0; i < image.codes.size(); ++i) {

@@ -31,7 +31,7 @@ using Random = std::mt19937_64;
 
 [[nodiscard]] inline pipeline::Rgba random_color(Random& random) {
     pipeline::Rgba color{};
-    for (float& channel : color) channel = random_channel(random);
+    for (float& channel : components(color)) channel = random_channel(random);
     return color;
 }
 

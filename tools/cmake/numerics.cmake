@@ -3,12 +3,15 @@ add_library(strata_numerics INTERFACE)
 add_library(strata::numerics ALIAS strata_numerics)
 target_compile_features(strata_numerics INTERFACE cxx_std_20)
 target_compile_options(strata_numerics INTERFACE -ffp-contract=off -fno-fast-math)
+target_compile_definitions(strata_numerics INTERFACE GLM_FORCE_CTOR_INIT)  # rasterizer/base/vector.h
 target_include_directories(strata_numerics INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
 # strata::warnings - what our own code must compile without.
 add_library(strata_warnings INTERFACE)
 add_library(strata::warnings ALIAS strata_warnings)
 target_compile_options(strata_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wswitch $<$<BOOL:${STRATA_WERROR}>:-Werror>)
+# GLM's operators are deleted in our own code (rasterizer/base/no_arithmetic.h), not in programs that use the package.
+target_compile_definitions(strata_warnings INTERFACE $<BUILD_INTERFACE:STRATA_GLM_IS_STORAGE>)
 
 # Instrumented builds (presets asan, tsan, fuzz). They ride on strata::numerics because every target links that one.
 set(STRATA_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")

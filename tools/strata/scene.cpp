@@ -57,7 +57,7 @@ ordered_json to_json(const scenes::Scene& scene) {
     }
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
     ordered_json bounds = nullptr;
-    if (!scene.bounds.is_empty()) bounds = {{"lo", scene.bounds.lo}, {"hi", scene.bounds.hi}};
+    if (!scene.bounds.is_empty()) bounds = {{"lo", components(scene.bounds.lo)}, {"hi", components(scene.bounds.hi)}};
     const Drawn all = drawn(scene.list, std::nullopt);
     return {{"name", scene.name},
             {"scene", scene.scene_index},

@@ -166,7 +166,7 @@ TEST_CASE("general combiners compute what the tables of the extension say, one r
         for (std::uint32_t k = below(random, 4); k-- > 0;) {
             CombinerStage stage{any_portion(random, false), any_portion(random, true), {}};
             for (auto& constant : stage.constant)
-                for (float& c : constant) c = static_cast<float>(any_byte(random)) / 255.0f;
+                for (float& c : strata::components(constant)) c = static_cast<float>(any_byte(random)) / 255.0f;
             state.stages.push_back(stage);
         }
         const Reg shown = static_cast<Reg>(3 + below(random, 8));

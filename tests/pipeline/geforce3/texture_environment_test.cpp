@@ -55,8 +55,8 @@ Color formula(TexEnvMode mode, const Inputs& in) {
 }
 
 Color any_color(Random& random) { return {any_byte(random), any_byte(random), any_byte(random), any_byte(random)}; }
-std::array<float, 4> floats(const Color& c) {
-    std::array<float, 4> out;
+strata::Rgba floats(const Color& c) {
+    strata::Rgba out;
     for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<float>(c[k]) / 255.0f;
     return out;
 }

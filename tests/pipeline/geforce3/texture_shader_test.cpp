@@ -375,3 +375,25 @@ TEST_CASE("a pass computes the coordinates that its operations look at and no ot
     CHECK(coordinates_of(stages, consistent_operations(stages)) == 0xf07b);
     CHECK(coordinates_of({}, {}) == 0);
 }
+
+// 4 bits of exponent, 12 of mantissa: (1 + m / 4096) 2^(e - 7), in units of which depth 1 is 511.9375.
+TEST_CASE("a replaced depth of a 16-bit float buffer is cut to the buffer's 4 bits of exponent and 12 of mantissa") {
+    DepthReplaceBench bench;
+    bench.machine.depth.format = DepthFormat::d16f;
+    const auto code_of = [&](float depth) {
+        bench.divide(depth, 1);
+        return bench.code();
+    };
+    CHECK(code_of(32.0f) == 0xc000);
+    CHECK(code_of(511.9375f) == 0xffff);
+    CHECK((code_of(0x1p-6f) == 0x1000 && code_of(0x1.fffffep-7f) == 0));
+    for (std::uint32_t code = 0x1000; code < 0xffff; code += 5) {
+        const float low = std::ldexp(static_cast<float>(4096 + (code & 0xfff)), static_cast<int>(code >> 12) - 19);
+        const float high = std::ldexp(static_cast<float>(4097 + (code & 0xfff)), static_cast<int>(code >> 12) - 19);
+        if (code_of(low) != code || code_of(std::nextafter(high, 0.0f)) != code) FAIL("code " << code);
+    }
+    bench.divide(512, 1);
+    CHECK_FALSE(bench.alive());
+    bench.machine.depth_clamp = true;
+    CHECK(code_of(512) == 0xffff);
+}

@@ -23,7 +23,7 @@ constexpr std::uint32_t max_code = 0xffffff;
 CoordinateUnit screen_aligned(double dx, double dy, const Plane4& r) {
     CoordinateUnit unit{.enabled = true, .gen = eye_position()};
     unit.matrix = product(translation(dx + width / 2.0, dy + height / 2.0, 0), scaling(width / 2.0, height / 2.0, 1));
-    for (std::size_t c = 0; c < 4; ++c) unit.matrix[4 * c + 2] = r[c];
+    for (std::size_t c = 0; c < 4; ++c) unit.matrix[c][2] = r[c];
     return unit;
 }
 
@@ -148,11 +148,11 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
     for (GivenPixel& pixel : scene.pixels) pixel.fragments.push_back({0.75f, {1, 1, 1, 1}});
     CoordinateUnits units{};
     for (const std::size_t u : {0u, 1u, 2u}) units[u] = {.enabled = true, .gen = eye_position()};
-    units[1].matrix = Matrix{};  // r1 = 2^20 (x + 1/2) of the clip position: below 0 on the left quarter
-    units[1].matrix[2] = 0x1p20;
-    units[1].matrix[14] = 0x1p19;
-    units[2].matrix = Matrix{};  // r2 = w
-    units[2].matrix[14] = 1;
+    units[1].matrix = Matrix(0.0);  // r1 = 2^20 (x + 1/2) of the clip position: below 0 on the left quarter
+    units[1].matrix[0][2] = 0x1p20;
+    units[1].matrix[3][2] = 0x1p19;
+    units[2].matrix = Matrix(0.0);  // r2 = w
+    units[2].matrix[3][2] = 1;
     TestFrame test{draw_list(scene), {}, width, height, "geforce3", 8, units};
     Region region{test.frame, test.frame.rect(), 0, Extent::frame};
     HiloTexture zero;

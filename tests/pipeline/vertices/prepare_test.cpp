@@ -18,17 +18,16 @@ using strata::rasterizer::ClipVertex;
 
 // Multiples of 2^-10 below 4: products of three and their sums are exact in binary64, but not in binary32.
 Matrix random_matrix(Random& random) {
-    Matrix m{};
+    std::array<double, 16> m{};
     for (double& x : m) x = random_int(random, -4095, 4095) / 1024.0;
-    return m;
+    return strata::matrix_of(m);
 }
 
 // Entry (row, column) of projection * view * model; exact in any order.
 double product(const View& view, const Matrix& model, std::size_t row, std::size_t column) {
     double sum = 0;
     for (std::size_t j = 0; j < 4; ++j)
-        for (std::size_t k = 0; k < 4; ++k)
-            sum += view.projection[4 * j + row] * view.view[4 * k + j] * model[4 * column + k];
+        for (std::size_t k = 0; k < 4; ++k) sum += view.projection[j][row] * view.view[k][j] * model[column][k];
     return sum;
 }
 
@@ -81,12 +80,12 @@ double light_factor(const Vec3& n, const Matrix& m, const Matrix& view) {
     for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c) {
             const std::size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
-            world[r] += (m[4 * c1 + r1] * m[4 * c2 + r2] - m[4 * c2 + r1] * m[4 * c1 + r2]) * n[c];
+            world[r] += (m[c1][r1] * m[c2][r2] - m[c2][r1] * m[c1][r2]) * n[c];
         }
     const double length = std::sqrt(world[0] * world[0] + world[1] * world[1] + world[2] * world[2]);
-    const double towards = std::sqrt(view[2] * view[2] + view[6] * view[6] + view[10] * view[10]);
-    return 0.25 +
-           0.75 * std::fabs((world[0] * view[2] + world[1] * view[6] + world[2] * view[10]) / (length * towards));
+    const double towards = std::sqrt(view[0][2] * view[0][2] + view[1][2] * view[1][2] + view[2][2] * view[2][2]);
+    return 0.25 + 0.75 * std::fabs((world[0] * view[0][2] + world[1] * view[1][2] + world[2] * view[2][2]) /
+                                   (length * towards));
 }
 
 }  // namespace
@@ -98,8 +97,9 @@ TEST_CASE("vertices are multiplied by the matrix product, rounded once, with eve
         DrawList list = one_triangle({.name = "", .unlit = true}, random_matrix(random));
         const View view{random_matrix(random), random_matrix(random)};
         list.meshes[0].positions.resize(several_vertices);
+        list.meshes[0].normals.clear();
         for (Vec3& p : list.meshes[0].positions)
-            for (float& x : p) x = random_float(random, -3, 3);
+            for (float& x : strata::components(p)) x = random_float(random, -3, 3);
         const auto soup = transform(list, view, {});
         for (std::size_t i = 0; i < several_vertices; ++i) {
             const ClipVertex& v = soup.vertices[i];
@@ -123,7 +123,7 @@ TEST_CASE("lighting is 1/4 + 3/4 |N.L| towards the eye, under any model matrix, 
         list.meshes[0].positions.resize(several_vertices);
         list.meshes[0].normals.resize(several_vertices);
         for (Vec3& n : list.meshes[0].normals)
-            for (float& x : n) x = random_float(random, -2, 2);
+            for (float& x : strata::components(n)) x = random_float(random, -2, 2);
         const auto vertices = transform(list, view, {}).vertices;
         for (std::size_t i = 0; i < several_vertices; ++i) {
             const ClipVertex& v = vertices[i];
@@ -158,12 +158,13 @@ TEST_CASE("every instruction set lights and transforms vertices to the same bits
     list.meshes[0].positions.resize(500);
     list.meshes[0].normals.resize(500);
     for (Vec3& p : list.meshes[0].positions)
-        for (float& x : p) x = random_float(random, -3, 3);
+        for (float& x : strata::components(p)) x = random_float(random, -3, 3);
     const float not_a_number = std::numeric_limits<float>::quiet_NaN(),
                 infinity = std::numeric_limits<float>::infinity();
     for (Vec3& n : list.meshes[0].normals) {
         const auto one_of = std::array{0.0f, -0.0f, 1.0f, 0x1p-80f, 0x1p80f, not_a_number, infinity};
-        for (float& x : n) x = random() % 4 == 0 ? one_of[random() % one_of.size()] : random_float(random, -2, 2);
+        for (float& x : strata::components(n))
+            x = random() % 4 == 0 ? one_of[random() % one_of.size()] : random_float(random, -2, 2);
         if (random() % 8 == 0) n = {0.0f, -0.0f, 0.0f};
     }
     const View view{random_matrix(random), random_matrix(random)};
@@ -183,15 +184,15 @@ TEST_CASE("vertex colours multiply the material's") {
     DrawList list = one_triangle({.name = "", .front = {0.5f, 1, 0.25f, 0.5f}, .unlit = true});
     list.meshes[0].colors = {{0.5f, 0.25f, 1, 0.5f}, {1, 1, 1, 1}, {0, 0, 0, 0}};
     const auto soup = transform(list, {}, {});
-    CHECK(soup.vertices[0].front == Rgba{0.25f, 0.25f, 0.25f, 0.25f});
-    CHECK(soup.vertices[0].back == Rgba{0.5f, 0.25f, 1, 0.5f});
+    CHECK(soup.vertices[0].front == std::array{0.25f, 0.25f, 0.25f, 0.25f});
+    CHECK(soup.vertices[0].back == std::array{0.5f, 0.25f, 1.0f, 0.5f});
 }
 
 TEST_CASE("a mirrored instance turns its winding, and its front stays its front") {
     const auto prepared = [](double x_scale, double y_scale) {
         Matrix model = identity;
-        model[0] = x_scale;
-        model[5] = y_scale;
+        model[0][0] = x_scale;
+        model[1][1] = y_scale;
         const DrawList list = one_triangle({.name = ""}, model);
         strata::rasterizer::RasterState raster;  // culls back faces
         raster.viewport = {0, 0, 16, 16};

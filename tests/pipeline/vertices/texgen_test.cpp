@@ -17,17 +17,17 @@ double small(Random& random) { return (static_cast<int>(below(random, 65)) - 32)
 Plane4 any_plane(Random& random) { return {small(random), small(random), small(random), small(random)}; }
 
 Matrix any_matrix(Random& random) {
-    Matrix m{};
+    std::array<double, 16> m{};
     for (double& entry : m) entry = small(random);
-    return m;
+    return strata::matrix_of(m);
 }
 
 // Quarter turns, powers of two and shifts: its inverse is exact.
 Matrix any_modelview(Random& random) {
-    Matrix turn{};
+    Matrix turn(0.0);
     const std::size_t first = below(random, 3);
-    for (std::size_t c = 0; c < 3; ++c) turn[4 * c + (c + first) % 3] = one_in(random, 2) ? 1 : -1;
-    turn[15] = 1;
+    for (std::size_t c = 0; c < 3; ++c) turn[c][(c + first) % 3] = one_in(random, 2) ? 1 : -1;
+    turn[3][3] = 1;
     const double k = one_in(random, 2) ? 2.0 : 0.25;
     return product(product(translation(small(random), small(random), small(random)), turn), scaling(k, k, 2 * k));
 }
@@ -36,7 +36,7 @@ Rational dot(const std::array<Rational, 4>& a, const std::array<Rational, 4>& b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 std::array<Rational, 4> row(const Matrix& m, std::size_t r) {
-    return {Rational{m[r]}, Rational{m[4 + r]}, Rational{m[8 + r]}, Rational{m[12 + r]}};
+    return {Rational{m[0][r]}, Rational{m[1][r]}, Rational{m[2][r]}, Rational{m[3][r]}};
 }
 std::array<Rational, 4> times(const Matrix& m, const std::array<Rational, 4>& v) {
     return {dot(row(m, 0), v), dot(row(m, 1), v), dot(row(m, 2), v), dot(row(m, 3), v)};
@@ -93,7 +93,7 @@ TEST_CASE("an eye plane holds in eye space what it held in the space of the mode
     }
     INFO(tally.first());
     CHECK(tally.wrong() == 0);
-    CHECK_THROWS_AS(eye_plane({1, 0, 0, 0}, Matrix{}), std::logic_error);
+    CHECK_THROWS_AS(eye_plane({1, 0, 0, 0}, Matrix(0.0)), std::logic_error);
     CHECK(eye_position()[2].plane == Plane4{0, 0, 1, 0});
 }
 
@@ -102,8 +102,9 @@ TEST_CASE("a coordinate is rounded to binary32 after every operation, its matrix
     units[1] = {.enabled = true, .gen = eye_position(), .matrix = scaling(1 + 0x1p-30, 1, 1)};
     const Vec3 p{1 + 0x1p-23f, 0x1p-24f, 0x1p-24f};
     CHECK(VertexCoordinates{units, {}, identity}.at(p, {})[1][0] == p[0]);  // 1 + 2^-30 is 1 in binary32
-    units[1].matrix[4] = 1;  // s = x + y + z: each half of a unit in the last place is lost, though both together count
-    units[1].matrix[8] = 1;
+    units[1].matrix[1][0] =
+        1;  // s = x + y + z: each half of a unit in the last place is lost, though both together count
+    units[1].matrix[2][0] = 1;
     const Vec3 halves{1, 0x1p-24f, 0x1p-24f};
     CHECK(VertexCoordinates{units, {}, identity}.at(halves, {})[1][0] == 1.0f);
 }

@@ -22,9 +22,9 @@ constexpr std::array paths{VertexPath::separate,         VertexPath::fused,     
                            VertexPath::double_precision, VertexPath::toward_zero, VertexPath::nv20};
 
 [[nodiscard]] Matrix random_matrix(Random& random) {
-    Matrix m{};
+    std::array<double, 16> m{};
     for (double& x : m) x = double{random_float(random, -3, 3)} + double{random_float(random, -1, 1)} * 0x1p-30;
-    return m;
+    return strata::matrix_of(m);
 }
 
 [[nodiscard]] Vec3 random_position(Random& random) {
@@ -66,8 +66,8 @@ using Row = std::array<float, 4>;
 struct Matrices {
     Matrix whole, outer, inner;
     [[nodiscard]] static Row rounded(const Matrix& m, std::size_t r) {
-        return {static_cast<float>(m[r]), static_cast<float>(m[4 + r]), static_cast<float>(m[8 + r]),
-                static_cast<float>(m[12 + r])};
+        return {static_cast<float>(m[0][r]), static_cast<float>(m[1][r]), static_cast<float>(m[2][r]),
+                static_cast<float>(m[3][r])};
     }
 };
 
@@ -88,7 +88,7 @@ struct Matrices {
             return down(Rational{down(Rational{xy} + Rational{down(exact(2))})} + Rational{row[3]});
         }
         case VertexPath::double_precision:
-            return in_binary64({m.whole[r], m.whole[4 + r], m.whole[8 + r], m.whole[12 + r]}, p);
+            return in_binary64({m.whole[0][r], m.whole[1][r], m.whole[2][r], m.whole[3][r]}, p);
         case VertexPath::reassociated: {
             Row eye{};
             for (std::size_t i = 0; i < 4; ++i) eye[i] = in_pairs(Matrices::rounded(m.inner, i), {p[0], p[1], p[2], 1});
@@ -188,16 +188,14 @@ TEST_CASE("r over q is the window depth of the vertex, in the units of vertex z,
 
 TEST_CASE("the rows of r and q are Listing 2's matrices multiplied out, row r times 2^n - 1") {
     Random random{934};
-    Matrix p{}, v{}, m{};  // multiples of 2^-6 below 4: every product and sum is exact in binary64
+    Matrix p, v, m;  // multiples of 2^-6 below 4: every product and sum is exact in binary64
     for (Matrix* each : {&p, &v, &m})
-        for (double& x : *each) x = random_int(random, -255, 255) / 64.0;
+        for (std::size_t i = 0; i < 16; ++i) (*each)[i / 4][i % 4] = random_int(random, -255, 255) / 64.0;
     strata::rasterizer::RasterState state;
     state.depth_format = DepthFormat::d16;
     const View view{.view = v, .projection = p};
     const VertexTransform rows = quotient_rows(view, m, state, find_profile("geforce3")->raster);
-    const auto entry = [&](const Matrix& a, std::size_t row, std::size_t column) {
-        return Rational{a[4 * column + row]};
-    };
+    const auto entry = [&](const Matrix& a, std::size_t row, std::size_t column) { return Rational{a[column][row]}; };
     std::array<float, 4> r{}, q{};
     for (std::size_t column = 0; column < 4; ++column) {
         Rational z{0}, w{0};

@@ -2,6 +2,7 @@
 // The scene of the silicon captures (chip-depth.md 2) gives counts of its own.
 #include "rasterizer/values/window_z.h"
 
+#include <bit>
 #include <catch2/catch.hpp>
 
 #include "tests/rasterizer/rational.h"
@@ -13,8 +14,9 @@ using namespace strata::rasterizer;
 
 constexpr int bits = 4;
 
-[[nodiscard]] Integer model_window_z(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z, int x, int y,
-                                     int subpixel_bits, int reciprocal_bits = 28, int sum_bits = 29) {
+// The sum before its floor.
+[[nodiscard]] Rational model_sum(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z, int x, int y,
+                                 int subpixel_bits, int reciprocal_bits = 28, int sum_bits = 29) {
     const std::array<Rational, 3> weight = barycentric(p, x, y, subpixel_bits);
     Rational area{doubled_area(p[0], p[1], p[2])};
     if (area < 0) area = -area;
@@ -36,7 +38,12 @@ constexpr int bits = 4;
     Rational sum{z[reference]};  // step 7
     for (std::size_t i = 0; i < 3; ++i)
         if (i != reference && product[i] != 0) sum += cut(product[i], largest - (sum_bits - 1));
-    return floor(sum);
+    return sum;
+}
+
+[[nodiscard]] Integer model_window_z(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z, int x, int y,
+                                     int subpixel_bits, int reciprocal_bits = 28, int sum_bits = 29) {
+    return floor(model_sum(p, z, x, y, subpixel_bits, reciprocal_bits, sum_bits));
 }
 
 [[nodiscard]] Geometry geometry_of(const std::vector<SetupTriangle>& triangles, int width, int height,
@@ -188,6 +195,38 @@ TEST_CASE("window_z is the rule of the captures for triangles of every shape, wi
     INFO("seed " << seed << ", fragments " << sum.fragments);
     CHECK(sum.fragments > 3000);
     CHECK(sum.from_model == 0);
+}
+
+// A constant expression may not shift by more than an integer's width.
+static_assert(WindowZ24{{0.0, 0.0, 0x1p-100}, 256}.value({64, 128, 64}) == 0x1p-102);
+static_assert(WindowZ24{{0.0, 0x1p-140, 0.0}, 256}.at({128, 64, 64}) == 0.0);
+static_assert(WindowZ24{{-0x1p-120, 0.0, 0.0}, 256}.at({64, 128, 64}) == -1.0);
+
+TEST_CASE("where two corners have depth 0 the sum is the rule's, however small the third one's is") {
+    constexpr std::uint64_t seed = 46;
+    Random random{seed};
+    std::uint64_t fragments = 0, wrong = 0;
+    for (int n = 0; n < 120; ++n) {
+        std::array<SubpixelPoint, 3> p;
+        for (SubpixelPoint& c : p) c = random_point(random, 12, 12, bits, 40);
+        if (doubled_area(p[0], p[1], p[2]) <= 0) std::swap(p[1], p[2]);
+        if (doubled_area(p[0], p[1], p[2]) == 0) continue;
+        std::array<float, 3> z{};
+        const int exponent = random_int(random, -126, 23);
+        z[static_cast<std::size_t>(n % 3)] = random_float(random, -2, 2) * std::bit_cast<float>((exponent + 127) << 23);
+        const TriangleEdges edges{p, TieRule::top_left};
+        const WindowZ24 rule{{z[0], z[1], z[2]}, edges.area()};
+        for (int y = 0; y < 12; ++y)
+            for (int x = 0; x < 12; ++x) {
+                const EdgeValues e = edges.at(pixel_centre(x, y, bits));
+                if (std::min({e[0], e[1], e[2]}) < 0) continue;
+                wrong += Rational{rule.value(e)} != model_sum(p, z, x, y, bits) ? 1 : 0;
+                ++fragments;
+            }
+    }
+    INFO("seed " << seed << ", fragments " << fragments);
+    CHECK(fragments > 2000);
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("GeForce3 depth depends on the order of a triangle's vertices") {

@@ -15,12 +15,10 @@ using strata::pipeline::View;
 namespace {
 
 bool same_bits(const View& a, const View& b) {
-    for (std::size_t i = 0; i < 16; ++i) {
-        if (std::bit_cast<std::uint64_t>(a.view[i]) != std::bit_cast<std::uint64_t>(b.view[i])) return false;
-        if (std::bit_cast<std::uint64_t>(a.projection[i]) != std::bit_cast<std::uint64_t>(b.projection[i]))
-            return false;
-    }
-    return true;
+    const auto bits = [](const strata::Matrix& m) {
+        return std::bit_cast<std::array<std::uint64_t, 16>>(strata::entries_of(m));
+    };
+    return bits(a.view) == bits(b.view) && bits(a.projection) == bits(b.projection);
 }
 
 constexpr const char* good =
@@ -37,13 +35,15 @@ TEST_CASE("a camera written as JSON reads back to the same bits, whatever finite
     for (int i = 0; i < 1000; ++i) {
         View view;
         for (auto* matrix : {&view.view, &view.projection}) {
-            for (double& x : *matrix) {
+            std::array<double, 16> entries{};
+            for (double& x : entries) {
                 do x = std::bit_cast<double>(random());
                 while (!std::isfinite(x));
             }
+            *matrix = strata::matrix_of(entries);
         }
-        view.view[0] = -0.0;
-        view.view[1] = 0x1p-1074;
+        view.view[0][0] = -0.0;
+        view.view[0][1] = 0x1p-1074;
         if (!same_bits(parse_camera(to_json(view), "camera", 1), view)) FAIL(to_json(view));
     }
 }

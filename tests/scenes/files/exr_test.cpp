@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "pipeline/formats/half.h"
+#include "rasterizer/base/enum_values.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/system_error.h"
@@ -21,9 +22,13 @@ using strata::test::wild_image;
 
 namespace {
 
-constexpr Format colors[] = {Format::rgba8, Format::rgba16f, Format::rgba32f,
-                             Format::r16f,  Format::r32f,    Format::rg32f};
-constexpr Format depths[] = {Format::d16, Format::d24, Format::d24s8, Format::d32f};
+std::vector<Format> formats(bool (*is_one)(Format)) {
+    std::vector<Format> all;
+    for (const Format format : strata::enum_values<Format>)
+        if (is_one(format)) all.push_back(format);
+    return all;
+}
+const std::vector<Format> colors = formats(strata::pipeline::is_color), depths = formats(strata::pipeline::is_depth);
 
 std::vector<float> channel(OIIO::ImageInput& input, const std::string& name) {
     const OIIO::ImageSpec spec = input.spec();

@@ -71,7 +71,7 @@ TEST_CASE("without normals each triangle is flat, and one without area has a nor
     const Vec3s expected{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 0, 1}};
     for (std::size_t i = 0; i < 12; ++i) CHECK(normals[i] == expected[i / 3]);
     CHECK(std::isnan(scene.list.meshes[0].positions[9][0]));  // the rasterizer drops and counts it
-    CHECK(scene.bounds.hi == std::array<double, 3>{2, 8, 6});
+    CHECK(scene.bounds.hi == strata::Vec3d{2, 8, 6});
 }
 
 TEST_CASE("vertex colours are linear, clamped, and encoded once") {

@@ -67,7 +67,7 @@ TEST_CASE("a scene is the same as .glb, with data uris and with files beside it"
     CHECK(is_same(binary, data));
     CHECK(external.name == "scene.gltf");
     CHECK(data.list.meshes.at(0).colors.at(1) == strata::pipeline::Rgba{0, 0, 1, 1});  // sparse
-    CHECK(data.bounds.lo == std::array<double, 3>{0, 0, -5});
+    CHECK(data.bounds.lo == strata::Vec3d{0, 0, -5});
     CHECK(data.warnings.empty());
 }
 

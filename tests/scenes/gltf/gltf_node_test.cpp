@@ -12,7 +12,7 @@ using Point = std::array<double, 3>;
 
 Point transformed(const Matrix& m, const Point& p) {
     Point q{};
-    for (std::size_t r = 0; r < 3; ++r) q[r] = m[r] * p[0] + m[4 + r] * p[1] + m[8 + r] * p[2] + m[12 + r];
+    for (std::size_t r = 0; r < 3; ++r) q[r] = m[0][r] * p[0] + m[1][r] * p[1] + m[2][r] * p[2] + m[3][r];
     return q;
 }
 
@@ -30,9 +30,9 @@ GltfFile triangle(Json node) {
     return file;
 }
 
-double determinant(const Matrix& m) {
-    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[4] * (m[1] * m[10] - m[2] * m[9]) +
-           m[8] * (m[1] * m[6] - m[2] * m[5]);
+double determinant_of(const Matrix& m) {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[1][0] * (m[0][1] * m[2][2] - m[0][2] * m[2][1]) +
+           m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1]);
 }
 
 const double half = 0.7071067811865476;  // sine and cosine of half a right angle
@@ -54,11 +54,12 @@ TEST_CASE("a node scales, then rotates, then translates, and a parent comes last
 
 TEST_CASE("a matrix is taken as written, column by column, and a mirror stays one") {
     const Json matrix{1, 2, 3, 0, 4, 5, 6, 0, 7, 8, -10, 0, 11, 12, 13, 1};
-    CHECK(triangle({{"matrix", matrix}}).load().list.instances.at(0).model == matrix.get<Matrix>());
+    CHECK(triangle({{"matrix", matrix}}).load().list.instances.at(0).model ==
+          strata::matrix_of(matrix.get<std::array<double, 16>>()));
     const auto mirrored = triangle({{"scale", {-1, 1, 1}}}).load();
-    CHECK(determinant(mirrored.list.instances.at(0).model) == -1);
-    CHECK(mirrored.bounds.lo == Point{-1, 0, 0});
-    CHECK(mirrored.bounds.hi == Point{0, 1, 0});
+    CHECK(determinant_of(mirrored.list.instances.at(0).model) == -1);
+    CHECK(mirrored.bounds.lo == strata::Vec3d{-1, 0, 0});
+    CHECK(mirrored.bounds.hi == strata::Vec3d{0, 1, 0});
 }
 
 TEST_CASE("a mesh that two nodes show is stored once, and instances keep the order of the walk") {
@@ -70,14 +71,14 @@ TEST_CASE("a mesh that two nodes show is stored once, and instances keep the ord
     const auto list = file.load().list;
     CHECK(list.meshes.size() == 1);
     REQUIRE(list.instances.size() == 4);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(list.instances[i].model[12] == static_cast<double>(i + 1));
+    for (std::size_t i = 0; i < 4; ++i) CHECK(list.instances[i].model[3][0] == static_cast<double>(i + 1));
 }
 
 TEST_CASE("nodes may nest 100,000 deep, and a transform that overflows is refused") {
     GltfFile file = triangle({{"translation", {1, 0, 0}}});
     for (int i = 1; i <= 100000; ++i) file.add("nodes", {{"children", {i - 1}}, {"translation", {1, 0, 0}}});
     file.json["scenes"][0]["nodes"] = {100000};
-    CHECK(file.load().list.instances.at(0).model[12] == 100001);
+    CHECK(file.load().list.instances.at(0).model[3][0] == 100001);
     GltfFile large = triangle({{"scale", {1e308, 1, 1}}});
     large.json["scenes"][0]["nodes"] = {1};
     large.add("nodes", {{"children", {0}}, {"scale", {1e308, 1, 1}}});
@@ -91,7 +92,7 @@ TEST_CASE(
     file.add("nodes", {{"mesh", 0}, {"translation", {2, 0, 0}}});
     file.add("scenes", {{"nodes", {1}}});
     const auto x = [&](const strata::scenes::SceneOptions& options) {
-        return file.load(options).list.instances.at(0).model[12];
+        return file.load(options).list.instances.at(0).model[3][0];
     };
     CHECK(x({}) == 1);
     CHECK(x({.scene = 1}) == 2);
@@ -118,7 +119,7 @@ TEST_CASE("a camera looks along its node's -z, whatever scale or mirror the node
         CHECK(camera.name == "front");
         CHECK(
             (camera.perspective && camera.yfov == 0.5 && camera.znear == 1 && camera.zfar == 0 && camera.aspect == 2));
-        CHECK(determinant(camera.view) == Approx(1));
+        CHECK(determinant_of(camera.view) == Approx(1));
         check_near(transformed(camera.view, {1, 2, 3}), {0, 0, 0});
         // Turned by a right angle about y, -z is -x; a negative scale of x turns "right" round, and with it "up".
         const double side = scale[0] < 0 ? -1 : 1;

@@ -42,15 +42,15 @@ TEST_CASE("the teapot is as large as the published table says, stands upright an
 }
 
 TEST_CASE("neighbouring patches of the body, lid and bottom meet without cracks") {
-    // An edge is the set of its two ends, compared by their bits. Two triangles share it, save on the rims of body and
+    // An edge is the set of its two ends, equal if all their coordinates are. Two triangles share it, save on the rims of body and
     // lid (four patches each) and at both ends of handle and spout (two patches each): 4 + 4 + 2 * 2 + 2 * 2 = 16 rows
     // of n open edges.
     for (const int n : {4, 7, 16}) {
         const Mesh pot = make_teapot({}, n).list.meshes[0];
-        std::map<std::set<Vec3>, int> edges;
+        std::map<std::set<Point>, int> edges;
         for (std::size_t t = 0; t < pot.indices.size(); t += 3)
             for (std::size_t k = 0; k < 3; ++k)
-                ++edges[{pot.positions[pot.indices[t + k]], pot.positions[pot.indices[t + (k + 1) % 3]]}];
+                ++edges[{wide(pot.positions[pot.indices[t + k]]), wide(pot.positions[pot.indices[t + (k + 1) % 3]])}];
         int open = 0, crowded = 0;
         for (const auto& [ends, count] : edges) {
             open += count == 1 ? 1 : 0;

@@ -26,7 +26,7 @@ constexpr CombinerInput blue(CombinerInput input) {
     return input;
 }
 
-std::array<float, 4> codes(int r, int g, int b, int a) {
+Rgba codes(int r, int g, int b, int a) {
     const auto value = [](int code) { return static_cast<float>(code) / 255.0f; };
     return {value(r), value(g), value(b), value(a)};
 }
@@ -108,7 +108,7 @@ Picture mux(const pipeline::DeviceProfile& profile) {
 }
 
 // One general stage that leaves `ab` and `cd` in registers, and a final one.
-Combiners sum_of(const CombinerPortion& rgb, const std::array<float, 4>& constant, const FinalCombiner& final_stage) {
+Combiners sum_of(const CombinerPortion& rgb, const Rgba& constant, const FinalCombiner& final_stage) {
     Combiners combiners;
     combiners.stages.resize(1);
     combiners.stages[0].rgb = rgb;
@@ -119,7 +119,7 @@ Combiners sum_of(const CombinerPortion& rgb, const std::array<float, 4>& constan
 
 // The final stage's sum of spare0 and secondary colour, clamped or not, with either of them inverted.
 Picture flags(const pipeline::DeviceProfile& profile) {
-    const std::array<float, 4> half = codes(127, 127, 127, 127), most = codes(191, 191, 191, 191);
+    const Rgba half = codes(127, 127, 127, 127), most = codes(191, 191, 191, 191);
     const CombinerPortion both{.a = one, .b = one, .c = one, .d = one, .ab = Reg::secondary_color, .cd = Reg::spare0};
     const CombinerPortion to_spare0{.c = constant0, .d = one, .ab = Reg::secondary_color, .cd = Reg::spare0};
     const CombinerPortion to_secondary{.c = constant0, .d = one, .ab = Reg::spare0, .cd = Reg::secondary_color};

@@ -1,0 +1,21 @@
+// rasterizer/rules/depth_text-inl.h - the one text of how a depth becomes its code. depth_code.h includes it for a lane at a time, and
+// weights-inl.h for vectors, each inside a namespace of its own: the kernels must be compiled for their instruction set.
+//
+// Rule     The value is clamped to the depth range, and NaN and -0 become its lower end. Fixed point: times `scale`, plus
+//          `half`, cut. D32F: the bits of the binary32. D16F: times `scale`, cut to the format.
+//          `Lanes` holds the operations; `a or b` means a where the comparison holds, else b, as x86's MAX and MIN do.
+// Numbers  Fixed point and D16F are scaled in binary64, where 24 by 24 bits are exact; codes are below 2^31.
+template <CodeKind kind, class Lanes, class Value, class Limit>
+[[gnu::always_inline]] constexpr auto depth_code(Lanes lanes, Value z, const DepthConversion<Limit>& to) {
+    const auto above = lanes.greater_or_second(z, lanes.all(to.least));
+    const auto clamped = lanes.less_or_second(above, lanes.all(to.greatest));
+    if constexpr (kind == CodeKind::binary32) {
+        return lanes.bits(clamped);
+    } else {
+        const auto scaled = lanes.times(clamped, to.scale);
+        if constexpr (kind == CodeKind::d16f)
+            return lanes.cut_to_d16f(scaled);
+        else
+            return lanes.cut_sum(scaled, to.half);
+    }
+}

@@ -1,0 +1,89 @@
+#include "rasterizer/set_up/check_input.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "rasterizer/base/require.h"
+
+namespace strata::rasterizer {
+namespace {
+
+void check_viewport(const Requirements& state, const Rect& v) {
+    state.within("viewport.x0", v.x0, 0, greatest_coordinate_px);
+    state.within("viewport.y0", v.y0, 0, greatest_coordinate_px);
+    state.within("viewport.x1", v.x1, v.x0, greatest_coordinate_px);
+    state.within("viewport.y1", v.y1, v.y0, greatest_coordinate_px);
+}
+
+// Far outside of every viewport, and still to be moved about in an int.
+void check_scissor(const Requirements& state, const Rect& s) {
+    constexpr int most = 1 << 30;
+    state.within("scissor.x0", s.x0, -most, most);
+    state.within("scissor.y0", s.y0, -most, most);
+    state.within("scissor.x1", s.x1, -most, most);
+    state.within("scissor.y1", s.y1, -most, most);
+}
+
+// Every number is below `limit`.
+void check_numbers(const Requirements& soup, const char* list, std::span<const std::uint32_t> numbers,
+                   std::uint64_t limit) {
+    std::uint32_t greatest = 0;
+    for (const std::uint32_t n : numbers) greatest = std::max(greatest, n);
+    if (numbers.empty() || greatest < limit) return;
+    const auto wrong = std::ranges::find_if(numbers, [limit](std::uint32_t n) { return n >= limit; });
+    soup.below({list, static_cast<std::size_t>(wrong - numbers.begin())}, *wrong, limit);
+}
+
+void check_extras(const Requirements& soup, const VertexExtras& extras, std::size_t vertices) {
+    const std::size_t needed = (extras.has_rq ? 2 : 0) + (extras.has_units ? 4 * texture_units : 0);
+    soup.within("extras.stride", extras.stride, needed, max_extras);
+    if (extras.values.size() != extras.stride * vertices)
+        soup.fail(FieldName{"extras.values"},
+                  std::to_string(extras.stride) + " numbers for each of " + std::to_string(vertices) + " vertices",
+                  extras.values.size());
+}
+
+}  // namespace
+
+void check(const RasterState& state) {
+    const Requirements its{"raster state"};
+    check_viewport(its, state.viewport);
+    if (state.scissor) check_scissor(its, *state.scissor);
+    its.finite("depth_near", state.depth_near);
+    its.finite("depth_far", state.depth_far);
+    its.finite("polygon_offset.factor", state.polygon_offset.factor);
+    its.finite("polygon_offset.units", state.polygon_offset.units);
+    its.within("clip_plane_count", state.clip_plane_count, 0, static_cast<int>(state.clip_planes.size()));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(state.clip_plane_count); ++i) {
+        const ClipPlane& plane = state.clip_planes[i];
+        for (const float value : {plane.a, plane.b, plane.c, plane.d}) its.finite({"clip_planes", i}, value);
+    }
+    its.listed("clip_depth", state.clip_depth);
+    its.listed("y_direction", state.y_direction);
+    its.listed("cull", state.cull);
+    its.listed("front_face", state.front_face);
+    its.listed("depth_format", state.depth_format);
+}
+
+void check(const TriangleSoup& soup) {
+    const Requirements its{"triangle soup"};
+    constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+    its.within("vertices", std::uint64_t{soup.vertices.size()}, 0, most);
+    check_extras(its, soup.extras, soup.vertices.size());
+    check_numbers(its, "indices", soup.indices, soup.vertices.size());
+    std::uint64_t triangles = 0;
+    for (std::size_t i = 0; i < soup.runs.size(); ++i) {
+        const TriangleRun& run = soup.runs[i];
+        if (run.index_count % 3 != 0) its.fail(FieldName{"runs", i, "index_count"}, "a multiple of 3", run.index_count);
+        if (std::uint64_t{run.first_index} + run.index_count > soup.indices.size())
+            its.fail(FieldName{"runs", i}, "an end within " + std::to_string(soup.indices.size()) + " indices",
+                     std::uint64_t{run.first_index} + run.index_count);
+        triangles += run.index_count / 3;
+    }
+    its.within("runs", triangles, 0, most);
+    its.within("order", std::uint64_t{soup.order.size()}, 0, most);
+    check_numbers(its, "order", soup.order, triangles);
+}
+
+}  // namespace strata::rasterizer

@@ -1,0 +1,42 @@
+// A surface is a value of its own: what its maker does with the profile afterwards changes no pixel.
+#include "pipeline/region/surface.h"
+
+#include <catch2/catch.hpp>
+
+using namespace strata::pipeline;
+
+namespace {
+
+// Half of grey 101 over half of 50 by the profile's blend rounding: 75.5 rounds up, or is cut.
+std::uint8_t blended(Surface& surface) {
+    surface.clear_color({50, 50, 50, 255});
+    strata::rasterizer::TriangleSoup soup;
+    for (const auto& [x, y] : {std::pair{-8.0f, -8.0f}, std::pair{40.0f, -8.0f}, std::pair{-8.0f, 40.0f}})
+        soup.vertices.push_back({.x = x,
+                                 .y = y,
+                                 .front = {101 / 255.0f, 101 / 255.0f, 101 / 255.0f, 0.5f},
+                                 .back = {101 / 255.0f, 101 / 255.0f, 101 / 255.0f, 0.5f}});
+    soup.indices = {0, 1, 2};
+    DrawState state;
+    state.blend = blend_mode::over;
+    CHECK(surface.draw(state, soup) == 64);
+    return static_cast<std::uint8_t>(surface.color().codes[0]);
+}
+
+}  // namespace
+
+TEST_CASE("a surface draws by the profile that it was made with, though that is changed or gone") {
+    const DeviceProfile& geforce3 = *find_profile("geforce3");
+    auto profile = std::make_unique<DeviceProfile>(geforce3);
+    Surface surface{*profile, {.width = 8, .height = 8}};
+    const std::uint8_t before = blended(surface);
+    profile->blend_rounding =
+        geforce3.blend_rounding == BlendRounding::nearest ? BlendRounding::truncate : BlendRounding::nearest;
+    CHECK(blended(surface) == before);
+    Surface changed{*profile, {.width = 8, .height = 8}};
+    CHECK(blended(changed) != before);  // the two roundings can be told apart here
+    profile.reset();
+    CHECK(blended(surface) == before);
+    Surface moved = std::move(surface);
+    CHECK(blended(moved) == before);
+}
