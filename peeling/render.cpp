@@ -122,6 +122,8 @@ struct Renderer::State {
         return algorithm.whole_frame ? Execution::literal : options.execution;
     }
 
+    [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
+
     // What an algorithm stores and compares.
     [[nodiscard]] rasterizer::DepthRequest depth_of(const Algorithm& algorithm) const {
         rasterizer::DepthRequest request = depth;
@@ -195,7 +197,11 @@ struct Renderer::State {
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
         f.trust_idle = options.trust_idle;
-        f.trace = options.audit;
+        const AuditMemory memory{audit_memory(),
+                                 execution(algorithm) == Execution::literal ? 1 : thread_count(options.threads)};
+        f.trace = options.audit && algorithm.ties != TiePolicy::none;
+        f.trace_bytes = memory.trace_bytes();
+        f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
         f.pass_log = options.pass_log;
         f.nearest_depth = options.nearest_depth;
         f.max_passes = algorithm.compares_own_codes ? options.max_passes : pass_limit(f);
@@ -225,6 +231,50 @@ struct Renderer::State {
         const bool quantizes = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         return lists.second() == nullptr && quantizes && options.compare_epsilon == CompareEpsilon{} &&
                depth.reference.value_or(depth.path) == depth.path;
+    }
+
+    // The frame; its audit, if there is to be one, looks at regions as they end. `traces`: instead of an audit.
+    void run_frame(const Algorithm& algorithm, const std::function<void(double)>& progress,
+                   std::vector<RegionTrace>* traces, RenderResult& result) {
+        Frame f = frame(algorithm);
+        if (traces != nullptr) {
+            f.trace = true;
+            f.trace_bytes = ~std::uint64_t{0};
+        }
+        const Body body = body_of(algorithm);
+        std::optional<Audit> audit;
+        if (options.audit && traces == nullptr) audit.emplace(f, body, algorithm, audit_memory(), options.threads);
+        const Watch watch = traces != nullptr ? keep_traces(f, *traces) : audit ? audit->watch() : Watch{};
+        {
+            const Stopwatch stopwatch{result.seconds.passes};
+            result.frame = run(f, body, execution(algorithm), options.threads, progress, watch);
+        }
+        result.seconds.audit = result.frame.watched * result.seconds.passes;
+        result.seconds.passes -= result.seconds.audit;
+        if (!algorithm.compares_own_codes) note_endless(f, result.frame);
+        if (!audit) return;
+        const Stopwatch stopwatch{result.seconds.audit};
+        result.audit = audit->finish(result.frame);
+    }
+
+    [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress,
+                                      std::vector<RegionTrace>* traces) {
+        RenderResult result;
+        result.refusal = refusal(algorithm);
+        if (!result.refusal) try {
+                run_frame(algorithm, progress, traces, result);
+            } catch (const Refused& refused) {
+                result.refusal = refused.refusal;
+            }
+        result.seconds.geometry = lists.seconds();
+        if (result.refusal) {
+            result.outcome = Outcome::refused;
+            return result;
+        }
+        note_machine(algorithm, result.frame.diagnostics);
+        if (options.audit && traces == nullptr)
+            add_audit_diagnostics(algorithm, options, result.audit, result.frame.diagnostics);
+        return result;
     }
 
     void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
@@ -283,32 +333,11 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
 Renderer::~Renderer() = default;
 
 RenderResult Renderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress) {
-    RenderResult result;
-    result.refusal = state_->refusal(algorithm);
-    if (!result.refusal) {
-        try {
-            const Frame frame = state_->frame(algorithm);
-            const Stopwatch watch{result.seconds.passes};
-            result.frame =
-                run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
-            if (!algorithm.compares_own_codes) state_->note_endless(frame, result.frame);
-        } catch (const Refused& refused) {
-            result.refusal = refused.refusal;
-        }
-    }
-    result.seconds.geometry = state_->lists.seconds();
-    if (result.refusal) {
-        result.outcome = Outcome::refused;
-        return result;
-    }
-    state_->note_machine(algorithm, result.frame.diagnostics);
-    if (state_->options.audit) {
-        Frame frame = state_->frame(algorithm);
-        frame.replay = {};  // it looks at the fragments once
-        result.audit = audit(frame, algorithm, result.frame, state_->options.threads);
-        add_audit_diagnostics(algorithm, state_->options, result.audit, result.frame.diagnostics);
-    }
-    return result;
+    return state_->render(algorithm, progress, nullptr);
+}
+
+RenderResult Renderer::render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces) {
+    return state_->render(algorithm, {}, &traces);
 }
 
 RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
@@ -332,6 +361,12 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
 FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
+    const std::uint64_t count = fragment_count(*frame.transparent), bytes = FrameFragments::bytes_a_fragment * count;
+    if (bytes > state_->audit_memory())
+        throw InputError("strata", "--fragment-memory",
+                         "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(count) +
+                             " fragments all together",
+                         std::to_string(state_->audit_memory()));
     FrameFragments found;
     const Body capture = [&](Region& region) {
         found.all = region.capture(Bookkeeping::counted);

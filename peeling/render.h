@@ -6,6 +6,7 @@
 #include <string>
 
 #include "peeling/audit/audit.h"
+#include "peeling/audit/region_trace.h"
 #include "peeling/registry.h"
 #include "peeling/sort.h"
 #include "pipeline/region/executor.h"
@@ -13,6 +14,7 @@
 namespace strata::peeling {
 
 inline constexpr int tile_sizes[] = {8, 16, 32, 64, 128};
+inline constexpr std::uint64_t least_audit_memory = std::uint64_t{16} << 20;
 
 // How the first pass of a peel computes its positions (default: as the view says), and how further ones do (default: alike).
 struct VertexPaths {
@@ -42,8 +44,9 @@ struct RenderOptions {
         sorted;  // meshes or materials that arrive front to back, for hybrid; beside those that the scene names
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
-    std::uint64_t fragment_memory = std::uint64_t{256} << 20;  // bytes that replay may hold in captured fragments
-    std::optional<int> tile_size;                              // pixels; default: tile_size_of
+    // Bytes that replay may hold in captured fragments; and the audit as many, but no fewer than least_audit_memory.
+    std::uint64_t fragment_memory = std::uint64_t{256} << 20;
+    std::optional<int> tile_size;  // pixels; default: tile_size_of
     int threads = 0;
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Effect once_more = pipeline::Effect::none;  // pipeline/frame/frame.h; never replayed
@@ -67,6 +70,7 @@ enum class Outcome : std::uint8_t { done, refused };
 
 struct Seconds {
     double geometry = 0, passes = 0;
+    double audit = 0;  // of what the audit looked at while regions ran: its share of the wall clock
 };
 
 struct RenderResult {
@@ -80,6 +84,7 @@ struct RenderResult {
 struct FrameFragments {
     std::vector<pipeline::CapturedFragment> all;  // in submission order; `pixel` is row-major in the frame
     std::vector<std::uint32_t> opaque;            // of each pixel: the opaque surface's depth in the algorithm's key
+    static constexpr std::uint64_t bytes_a_fragment = 64;  // itself, and beside it what a file's writer makes of it
 };
 
 // Holds what is done once for all algorithms of a command: transform, clip, set-up and bins.
@@ -91,13 +96,18 @@ class Renderer {
              const RenderOptions& options);
     ~Renderer();
 
-    // A combination that the profile cannot run is refused: an outcome, not an exception.
+    // A combination that the profile cannot run is refused: an outcome, not an exception. Throws InputError if the fragments of
+    // one pixel are more than the audit's memory holds.
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {});
+
+    // The same without an audit; `traces` gets the trace of every region.
+    [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces);
 
     // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in frame.depth.
     [[nodiscard]] RenderResult depth_pass(const std::function<void(double)>& progress = {});
 
-    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused.
+    // Every fragment of the frame, with key and colour: what `strata layers --deep` writes. Throws Refused, and InputError if the
+    // fragments take more than the audit's memory.
     [[nodiscard]] FrameFragments fragments(const Algorithm& algorithm);
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "peeling/audit/audit.h"
-#include "pipeline/region/executor.h"
+#include "peeling/audit/region_trace.h"
 
 namespace strata::peeling {
 
@@ -35,7 +35,7 @@ struct PeelErrors {
 };
 
 // `fragments` are the visible ones, by pixel and in submission order; `traces` a run's, of a frame `width` x `height`.
-[[nodiscard]] PeelErrors peel_errors(std::span<const LayerFragment> fragments,
-                                     std::span<const pipeline::RegionTrace> traces, int width, int height);
+[[nodiscard]] PeelErrors peel_errors(std::span<const LayerFragment> fragments, std::span<const RegionTrace> traces,
+                                     int width, int height);
 
 }  // namespace strata::peeling

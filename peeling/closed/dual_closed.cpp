@@ -250,7 +250,7 @@ bool dual_closed(Region& region) {
     const std::size_t traced = region.trace().size();
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) { course.run(block); });
     if (!fragments || has_foreign_depths(*fragments, region.profile())) {
-        region.trace().resize(traced);
+        region.trace().shorten(traced);
         return false;
     }
     region.count({.bytes_read = 4 * area, .bytes_written = (4 + 4 + 8) * area}, {.copies = 1});  // front, back, min-max

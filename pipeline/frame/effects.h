@@ -73,6 +73,8 @@ void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const
           int threads);
 // The fragments of the deepest pixel, before any test.
 [[nodiscard]] std::uint32_t deepest_pixel(const PreparedDraw& list);
+// The fragments of all pixels, before any test.
+[[nodiscard]] std::uint64_t fragment_count(const PreparedDraw& list);
 [[nodiscard]] TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque);
 
 }  // namespace strata::pipeline

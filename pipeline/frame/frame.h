@@ -82,6 +82,9 @@ struct Frame {
     Replay replay;
     bool keep_layers = false;
     bool trace = false;
+    std::uint64_t trace_bytes = ~std::uint64_t{0};  // what a region's trace may take (pipeline/region/trace.h)
+    std::uint64_t list_bytes =
+        ~std::uint64_t{0};       // what an algorithm without a machine may keep of a region's fragments
     bool nearest_depth = false;  // also make the frame's Z
     PassLog* pass_log =
         nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/frame/effects.h)

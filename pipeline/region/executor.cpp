@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 
 #include "pipeline/frame/verdict.h"
 #include "pipeline/region/region_scratch.h"
@@ -17,7 +18,6 @@ struct RegionRun {
     std::vector<Decision> decisions;
     std::vector<IterationRecord> records;
     std::vector<KeptLayer> layers;
-    std::vector<TraceEntry> trace;
     std::vector<Diagnostic> diagnostics;
     int iterations = 0;
     int idle_from = -1;
@@ -30,11 +30,12 @@ struct RegionRun {
 class FrameRun {
   public:
     FrameRun(const Frame& frame, const Body& body, Execution execution, int threads,
-             const std::function<void(double)>& progress)
+             const std::function<void(double)>& progress, const Watch& watch)
         : frame_{frame},
           body_{body},
           threads_{threads},
           progress_{progress},
+          watch_{watch},
           extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
         const auto& geometry = frame.transparent->geometry;
         const std::size_t tiles =
@@ -112,6 +113,7 @@ class FrameRun {
         regions_[r] = regions_[twin_[r]];
         regions_[r].fragments = 0;
         copy(twin_[r], r, result_.color);
+        if (watch_.alike) watch_.alike(twin_[r], r);
         if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
     }
 
@@ -125,6 +127,7 @@ class FrameRun {
     }
 
     void run_region(std::size_t r, const std::vector<bool>& script) {
+        const Clock::time_point start = Clock::now();
         Region region{frame_, rect(r), r, extent_, script, &scratch_};
         body_(region);
         region.write_image(region.published(), result_.color);
@@ -133,7 +136,6 @@ class FrameRun {
         kept.decisions = region.decisions();
         kept.records = region.records();
         kept.layers = std::move(region.layers());
-        kept.trace = std::move(region.trace());
         kept.diagnostics = std::move(region.diagnostics());
         kept.iterations = region.iterations();
         kept.idle_from = region.idle_from();
@@ -141,6 +143,10 @@ class FrameRun {
         kept.idle_layers = region.idle_layers();
         kept.fragments += region.fragments_drawn();
         ++kept.runs;
+        const Clock::time_point ended = Clock::now();
+        if (watch_.ended) watch_.ended(region, r, result_.color);
+        time_in_bodies_ += (ended - start).count();
+        time_in_watch_ += (Clock::now() - ended).count();
         if (progress_)  // runs again count as well: never more than the whole
             progress_(std::min(1.0, static_cast<double>(++finished_) / static_cast<double>(regions_.size())));
     }
@@ -173,8 +179,11 @@ class FrameRun {
     // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
     // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
     void settle() {
-        if (extent_ == Extent::frame) return;
-        std::vector<bool> answers;
+        if (extent_ == Extent::frame) {
+            for (const Decision& d : regions_[0].decisions) result_.answers.push_back(d.answer);
+            return;
+        }
+        std::vector<bool>& answers = result_.answers;
         for (std::size_t d = 0;; ++d) {
             std::uint64_t sum = 0;
             bool anyone = false;
@@ -207,8 +216,9 @@ class FrameRun {
             gather_counters(regions_[r]);
             for (const Diagnostic& d : regions_[r].diagnostics) merge(result_.diagnostics, d);
             result_.work.fragments += regions_[r].fragments;
-            if (frame_.trace) result_.traces.push_back({rect(r), r, std::move(regions_[r].trace)});
         }
+        const auto watched = static_cast<double>(time_in_watch_), bodies = static_cast<double>(time_in_bodies_);
+        result_.watched = watched > 0 ? watched / (watched + bodies) : 0;
         if (frame_.keep_layers) gather_layers();
     }
 
@@ -253,10 +263,13 @@ class FrameRun {
         }
     }
 
+    using Clock = std::chrono::steady_clock;
+
     const Frame& frame_;
     const Body& body_;
     int threads_;
     const std::function<void(double)>& progress_;
+    const Watch& watch_;
     Extent extent_;
     Region::ScratchPool scratch_;
     std::vector<RegionRun> regions_;
@@ -264,21 +277,22 @@ class FrameRun {
     std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
     FrameResult result_;
     std::atomic<std::size_t> finished_{0};
+    std::atomic<Clock::rep> time_in_bodies_{0}, time_in_watch_{0};
 };
 
 }  // namespace
 
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
-                const std::function<void(double)>& progress) {
+                const std::function<void(double)>& progress, const Watch& watch) {
     const FloatEnvironment ours;
-    if (execution == Execution::literal) return FrameRun{frame, body, execution, threads, progress}.finish();
+    if (execution == Execution::literal) return FrameRun{frame, body, execution, threads, progress, watch}.finish();
     if (!frame.needs_frame) try {
-            return FrameRun{frame, body, execution, threads, progress}.finish();
+            return FrameRun{frame, body, execution, threads, progress, watch}.finish();
         } catch (const NeedsFrame&) {  // a lookup left its region: all of it again, as the definition has it
         }
     Frame whole = frame;
     whole.replay = {};
-    return FrameRun{whole, body, Execution::literal, threads, progress}.finish();
+    return FrameRun{whole, body, Execution::literal, threads, progress, watch}.finish();
 }
 
 }  // namespace strata::pipeline

@@ -18,11 +18,13 @@ namespace strata::pipeline {
 
 using Body = std::function<void(Region&)>;  // once a region, never a fragment
 
-// A region after its body: what the audit looks at.
-struct RegionTrace {
-    rasterizer::Rect rect;
-    std::size_t tile = 0;
-    std::vector<TraceEntry> entries;
+// Looks at regions while their targets and traces are there, from any thread. A region that runs again is looked at again, and
+// what was seen before is void; so is all of it if the frame is run again as a whole.
+struct Watch {
+    // Region number `region` (a tile, or 0: the frame) has ended, and its part of `color` is written.
+    std::function<void(Region&, std::size_t region, const Image& color)> ended{};
+    // Region `region` is blank, and did not run: it left what region `like`, of the same size, left.
+    std::function<void(std::size_t like, std::size_t region)> alike{};
 };
 
 struct Work {                     // what was really done; may differ by execution
@@ -40,11 +42,12 @@ struct FrameResult {
     Counters counters;
     Work work;
     std::vector<Diagnostic> diagnostics;
-    std::vector<RegionTrace> traces;
+    std::vector<bool> answers;  // to the frame's queries: a script for whoever runs a part of it again
+    double watched = 0;         // the watch's share of the time that was spent in regions
 };
 
 // `progress`, if any, is called now and then with the share done, from any thread.
 [[nodiscard]] FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
-                              const std::function<void(double)>& progress = {});
+                              const std::function<void(double)>& progress = {}, const Watch& watch = {});
 
 }  // namespace strata::pipeline

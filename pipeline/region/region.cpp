@@ -61,7 +61,9 @@ Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Exte
       rasterizer_{rect},
       pool_{pool},
       scratch_{pool == nullptr ? std::make_unique<Scratch>() : pool->take()},
-      records_(1) {
+      records_(1),
+      trace_{&scratch_->trace} {
+    trace_->start(frame.trace_bytes);
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
     counts_ = false;
@@ -186,7 +188,12 @@ Target Region::nearest_depth() {
 
 std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
     counts_ = bookkeeping == Bookkeeping::counted;
+    std::uint64_t fragments = 0;
+    std::vector<std::uint32_t> coverage(rect_.area());
+    count_coverage(coverage);
+    for (const std::uint32_t of_pixel : coverage) fragments += of_pixel;
     std::vector<CapturedFragment> all;
+    all.reserve(fragments);
     PassState state;
     state.needs = {
         .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};

@@ -16,6 +16,7 @@
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/region/target_storage.h"
+#include "pipeline/region/trace.h"
 #include "pipeline/textures/depth_texels.h"
 #include "rasterizer/walk/rows.h"
 #include "rasterizer/walk/tile_rasterizer.h"
@@ -24,13 +25,6 @@ namespace strata::pipeline {
 
 class Arena;
 class FragmentStore;
-
-// One step of what a pixel composited, in the order in which it happened; see Outputs::side.
-struct TraceEntry {
-    std::uint32_t pixel = 0, key = 0, primitive = 0;
-    Side side = Side::none;
-    bool is_fragment = false;  // `primitive` counts; false: a layer, known by its key alone
-};
 
 struct CapturedFragment {
     std::uint32_t pixel = 0, primitive = 0;
@@ -170,8 +164,8 @@ class Region {
     // For closed forms (peeling/closed/closed_form.h): a way to the same bits that is not the machine's, in the machine's own books.
     // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
     void count_coverage(std::span<std::uint32_t> coverage);
-    // program(batch, outputs) for the list's fragments in `band`, whole rows of this region, after MASK; `pixel` counts from the
-    // band's first. Not a pass. Once the program answers false it sees no more, and so does the caller.
+    // program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` counts row by row
+    // from the band's first. Not a pass. Once the program answers false it sees no more, and so does the caller.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
     // The same fragments without batches, where rows have their depths and colours; whoever walks them says how many they were.
@@ -185,7 +179,7 @@ class Region {
     void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
     // An rgba8 target's codes: a word a pixel, red lowest, and spare_words behind the last.
     [[nodiscard]] Word* words(Target target) { return at(target).depth_plane(0).words; }
-    void trace(const TraceEntry& entry) { trace_.push_back(entry); }
+    void trace(const TraceEntry& entry) { trace_->push_back(entry); }
 
     // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
     [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;  // as a program would load it
@@ -206,7 +200,7 @@ class Region {
     [[nodiscard]] std::size_t idle_layers() const noexcept {
         return idle_layers_;
     }  // the last ones, kept while idle: empty
-    [[nodiscard]] std::vector<TraceEntry>& trace() noexcept { return trace_; }
+    [[nodiscard]] Trace& trace() noexcept { return *trace_; }
     [[nodiscard]] std::vector<Diagnostic>& diagnostics() noexcept { return diagnostics_; }
     [[nodiscard]] Target published() const noexcept { return published_; }
     [[nodiscard]] std::uint64_t fragments_drawn() const noexcept { return fragments_drawn_; }
@@ -229,6 +223,7 @@ class Region {
                         const bool& goes_on);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] FragmentStore& store() noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
     [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
     [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list) const;
     [[nodiscard]] bool sums_suit_rows(const PassState& state) const;
@@ -309,7 +304,7 @@ class Region {
     std::vector<Decision> decisions_;
     std::vector<KeptLayer> layers_;
     std::size_t idle_layers_ = 0;
-    std::vector<TraceEntry> trace_;
+    Trace* trace_;  // in the scratch
     std::vector<Diagnostic> diagnostics_;
     std::vector<bool> has_saturated_;  // pixels whose stencil has met its limit; empty until one does
     std::uint64_t fragments_drawn_ = 0;

@@ -23,13 +23,17 @@ const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
     return *needs;
 }
 
+std::span<const std::uint32_t> Region::triangles_of(const PreparedDraw& list) const noexcept {
+    return extent_ == Extent::frame ? std::span<const std::uint32_t>{list.geometry.all_triangles}
+                                    : list.geometry.bin(tile_);
+}
+
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink sink) {
     samples_textures_ = needs.color && needs_of_tile(list).texcoord;
     takes_shadow_ = needs.color && list.needs.shadow != 0;
     const auto& geometry = list.geometry;
-    const auto triangles =
-        extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
+    const auto triangles = triangles_of(list);
     if (primitives.empty()) rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
         return geometry.triangles[triangle].primitive < primitive;
@@ -47,7 +51,8 @@ void Region::count_coverage(std::span<std::uint32_t> coverage) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
     };
     const rasterizer::Geometry& geometry = frame_.transparent->geometry;
-    rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
+    rasterizer_.draw(geometry, triangles_of(*frame_.transparent), frame_.key_request(), nothing,
+                     rasterizer::BatchSink{add});
 }
 
 // Twice as many triangles each time: whoever has had enough soon is asked soon, and few batches end early for it.
@@ -60,7 +65,7 @@ void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, r
     takes_shadow_ = needs.color && list.needs.shadow != 0;
     if (takes_shadow_) needs.units |= list.needs.shadow;
     rasterizer::TileRasterizer rows{band};
-    auto triangles = list.geometry.bin(tile_);
+    auto triangles = triangles_of(list);
     for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
         part = std::min(part, triangles.size());
         rows.draw(list.geometry, triangles.first(part), frame_.key_request(), needs, sink);

@@ -6,6 +6,7 @@
 #include "pipeline/region/arena.h"
 #include "pipeline/region/fragment_store.h"
 #include "pipeline/region/region.h"
+#include "pipeline/region/trace.h"
 
 namespace strata::pipeline {
 
@@ -23,6 +24,7 @@ struct alignas(64) Region::Scratch {
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     FragmentStore store;
+    Trace trace;
     Arena arena;
 };
 

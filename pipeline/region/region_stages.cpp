@@ -195,8 +195,8 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
 void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
-            trace_.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
-                              out.side[i], kind_ == PassKind::geometry});
+            trace_->push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
+                               out.side[i], kind_ == PassKind::geometry});
 }
 
 void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {

@@ -41,8 +41,9 @@ struct Passes {
     // Depths of pixel 0 that were composited since the last call, in units.
     std::vector<double> composited() {
         std::vector<double> depths;
-        for (const TraceEntry& e : region.trace())
-            if (e.pixel == 0) depths.push_back(128.0 * std::bit_cast<float>(e.key));
+        for (std::size_t i = 0; i < region.trace().size(); ++i)
+            if (const TraceEntry& e = region.trace()[i]; e.pixel == 0)
+                depths.push_back(128.0 * std::bit_cast<float>(e.key));
         region.trace().clear();
         return depths;
     }

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 
 using namespace strata::peeling;
-using strata::pipeline::RegionTrace;
 using strata::pipeline::TraceEntry;
 
 namespace {

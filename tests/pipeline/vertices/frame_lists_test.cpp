@@ -62,7 +62,7 @@ using strata::rasterizer::Rect;
 TEST_CASE("each run of a soup names its instance, material and sides, and its indices name vertices of its own mesh") {
     DrawList list = squares_of(six_materials());
     list.materials[2].double_sided = false;
-    list.instances[3].model[0] = -1;
+    list.instances[3].model[0][0] = -1;
     list.instances.push_back({.mesh = 1, .material = 2});
     for (const Selection selection : {Selection::all, Selection::opaque, Selection::transparent}) {
         const auto soup = transform(list, {}, {.selection = selection});

@@ -234,7 +234,8 @@ void add_execution_options(CLI::App& app, RunOptions& options) {
 
 void add_resource_options(CLI::App& app, RunOptions& options) {
     add_option(app, options.render.fragment_memory,
-               {"--fragment-memory", "SIZE", "what replay may keep of fragments, in bytes; same bits (default 256M)",
+               {"--fragment-memory", "SIZE",
+                "what replay may keep of fragments, and the audit, in bytes; same bits (default 256M)",
                 "bytes such as 65536, 64M or 1G"},
                to_bytes);
     add_choice(app, options.render.tile_size, "--tile", tile_sizes,

@@ -1,6 +1,6 @@
 // tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the frame.
-#include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include "scenes/files/image_io.h"
 #include "tools/strata/command.h"
@@ -16,18 +16,24 @@ struct LayersOptions {
     std::string deep;
 };
 
-scenes::DeepFragments as_deep(std::vector<pipeline::CapturedFragment> fragments, const RunOptions& options) {
-    const auto in_front = [](const auto& a, const auto& b) { return a.pixel < b.pixel; };
-    std::stable_sort(fragments.begin(), fragments.end(), in_front);  // submission order stays within a pixel
+// Pixel by pixel, in submission order within each.
+scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fragments, const RunOptions& options) {
     scenes::DeepFragments deep{
         .width = options.render.width, .height = options.render.height, .space = options.scene_options.color_space};
     deep.count.assign(static_cast<std::size_t>(deep.width) * static_cast<std::size_t>(deep.height), 0);
+    for (const auto& fragment : fragments) ++deep.count[fragment.pixel];
+    std::vector<std::size_t> next(deep.count.size());
+    std::exclusive_scan(deep.count.begin(), deep.count.end(), next.begin(), std::size_t{0});
+    deep.depth_code.resize(fragments.size());
+    deep.z.resize(fragments.size());
+    deep.rgba.resize(fragments.size());
+    deep.primitive.resize(fragments.size());
     for (const auto& fragment : fragments) {
-        ++deep.count[fragment.pixel];
-        deep.depth_code.push_back(fragment.code);
-        deep.z.push_back(fragment.shader_z);
-        deep.rgba.push_back(fragment.color);
-        deep.primitive.push_back(fragment.primitive);
+        const std::size_t place = next[fragment.pixel]++;
+        deep.depth_code[place] = fragment.code;
+        deep.z[place] = fragment.shader_z;
+        deep.rgba[place] = fragment.color;
+        deep.primitive[place] = fragment.primitive;
     }
     return deep;
 }

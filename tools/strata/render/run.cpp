@@ -92,7 +92,6 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
     result.frame.color = {};
     result.frame.depth = {};
     result.frame.layers.clear();
-    result.frame.traces.clear();
     summary.result = std::move(result);
     return summary;
 }
