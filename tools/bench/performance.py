@@ -13,6 +13,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.dont_write_bytecode = True
 import side_by_side  # noqa: E402
@@ -273,6 +274,29 @@ def memory_section(options, scenes):
             table(["scene", "job", "peak", "scene", "targets", "--fragment-memory", "bound", "kept"], rows))
 
 
+STARTS = [["algorithms"], ["render", "teapot", "--size", "64x64"], ["render", "teapot", "--size", "64x64", "-o", "FILE"]]
+MOST_SECONDS, MOST_MB = 0.05, 30  # of a run that touches no image file
+
+
+def start_section(options, folder):
+    """What a run takes that does next to nothing; the last one loads the image module."""
+    rows = []
+    for words in STARTS:
+        has_file = "FILE" in words
+        command = [options.strata, *(str(pathlib.Path(folder) / "start.png") if word == "FILE" else word for word in words)]
+        seconds = []
+        for _ in range(1 if options.quick else 15):
+            start = time.perf_counter()
+            subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
+            seconds.append(time.perf_counter() - start)
+        median, megabytes = statistics.median(seconds), peak_mib(command) * 2**20 / 1e6
+        kept = "-" if has_file else "yes" if median <= MOST_SECONDS and megabytes <= MOST_MB else "**no**"
+        rows.append(["strata " + " ".join(words), f"{median:.3f}", f"{megabytes:.0f}", kept])
+    return (f"## Start\n\nThe median of a process from its start to its end, and its largest resident set. Without an image file it "
+            f"keeps to {MOST_SECONDS} s and {MOST_MB} MB; image files bring OpenImageIO.\n\n" +
+            table(["command", "seconds", "MB", "kept"], rows))
+
+
 def mesa_section(options):
     title = "## Beside Mesa llvmpipe\n\n"
     build = pathlib.Path(options.strata).parent
@@ -293,7 +317,7 @@ def machine():
     return f"{names[0]}, {len(names)} threads" if names else "unknown processor"
 
 
-def page(options, scenes):
+def page(options, scenes, folder):
     tried = HERE / "tried.md"
     return "\n".join([
         f"# Performance\n\nMade by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds.\n",
@@ -301,7 +325,7 @@ def page(options, scenes):
         ways_section(options, scenes, "execution", ["literal", NO_MEMORY, "replay"], "literal : replay without memory : replay",
                      "The same bits three ways, each over replay."),
         ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets", "Each over the last."),
-        items_section(options, scenes), scaling_section(options, scenes), memory_section(options, scenes),
+        items_section(options, scenes), scaling_section(options, scenes), memory_section(options, scenes), start_section(options, folder),
         roofline_section(options, scenes),
         "## Tried and dropped\n\n" + (tried.read_text() if tried.exists() else "Nothing yet.\n")])
 
@@ -309,7 +333,7 @@ def page(options, scenes):
 def main():
     options = parse_arguments()
     with tempfile.TemporaryDirectory() as folder:
-        text = page(options, scenes_of(options, folder))
+        text = page(options, scenes_of(options, folder), folder)
     pathlib.Path(options.out).write_text(text)
     print(f"wrote {options.out}", file=sys.stderr)
 

@@ -1,5 +1,6 @@
 #include "tools/strata/effects/effects_costs.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "tools/strata/bench/bench_report.h"
@@ -29,6 +30,8 @@ std::vector<double> in_turn(const std::vector<std::function<void()>>& runs, int 
     for (const auto& values : seconds) medians.push_back(spread_of(values).median);
     return medians;
 }
+
+double cost(double with, double without) { return std::max(0.0, with - without); }
 
 bool is_value(Effect effect) {
     using enum Effect;
@@ -60,7 +63,7 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     const std::vector<double> medians = in_turn(walks, repeat);
     std::size_t next = 1;
     for (EffectRow& row : plan.rows)
-        if (is_walked(row)) row.seconds = (medians[0] - medians[next++]) * static_cast<double>(row.passes);
+        if (is_walked(row)) row.seconds = cost(medians[0], medians[next++]) * static_cast<double>(row.passes);
 }
 
 }  // namespace
@@ -82,7 +85,7 @@ EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan
     std::vector<std::function<void()>> runs;
     for (const BenchJob& job : jobs) runs.push_back([&job] { static_cast<void>(run_once(job)); });
     const std::vector<double> medians = in_turn(runs, repeat);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i]->seconds = medians[3 + i] - medians[0];
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i]->seconds = cost(medians[3 + i], medians[0]);
     measure_values(asked, repeat, plan);
     return {medians[0], medians[1], medians[2]};
 }

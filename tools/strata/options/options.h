@@ -9,12 +9,9 @@
 #include "peeling/render_options.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/scene.h"
+#include "tools/strata/options/values.h"
 
 namespace strata::tools {
-
-struct Orbit {
-    double azimuth = 30, elevation = 20;  // degrees
-};
 
 struct RunOptions {
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();

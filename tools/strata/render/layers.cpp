@@ -5,6 +5,7 @@
 #include "peeling/render.h"
 #include "scenes/files/image_io.h"
 #include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 
 namespace strata::tools {
@@ -18,7 +19,8 @@ struct LayersOptions {
 
 // Pixel by pixel, in submission order within each.
 scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fragments, const RunOptions& options) {
-    scenes::DeepFragments deep{.width = options.render.width, .height = options.render.height};
+    scenes::DeepFragments deep{
+        .width = options.render.width, .height = options.render.height, .space = options.scene_options.color_space};
     deep.count.assign(static_cast<std::size_t>(deep.width) * static_cast<std::size_t>(deep.height), 0);
     for (const auto& fragment : fragments) ++deep.count[fragment.pixel];
     std::vector<std::size_t> next(deep.count.size());
@@ -51,6 +53,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
         if (layers.empty()) {  // nothing to peel: one layer without a fragment
             layers.push_back(
                 {.color = {finished.result.frame.color.format, options.run.render.width, options.run.render.height},
+                 .space = options.run.scene_options.color_space,
                  .attributes = attributes});
         }
         scenes::write_layers(path_for(options.run.output, options.run, finished.algorithm), layers);
@@ -62,8 +65,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
 }
 
 int layers(LayersOptions& options) {
-    check_output("-o", options.run.output, {".exr"});
-    check_output("--deep", options.deep, {".exr"});
+    check_outputs({{"-o", options.run.output, {".exr"}}, {"--deep", options.deep, {".exr"}}});
     if (options.run.output.empty() && options.deep.empty()) {
         throw CLI::ValidationError("-o",
                                    "expected a file for the layers, or --deep one for the fragments, found neither");
@@ -81,7 +83,8 @@ Command add_layers(CLI::App& root) {
     add_picture_options(*app, options->run);
     add_execution_options(*app, options->run);
     add_output_options(*app, options->run, "the layers, .exr: part layer.000 is the nearest");
-    app->add_option("--deep", options->deep, "every fragment as a deep EXR, in submission order")->type_name("FILE");
+    add_path(*app, options->deep,
+             {"--deep", "FILE", "every fragment as a deep EXR, in submission order", "a file name"});
     app->footer(
         footer("  strata layers teapot --size 200x150 -o layers.exr\n"
                "  strata layers volume-beam:slices=4 --algorithm depth_units --size 64x64 -o beam.exr --deep "
