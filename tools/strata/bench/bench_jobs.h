@@ -6,7 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/formats/image.h"
+#include "pipeline/frame/counters.h"
+#include "pipeline/frame/instruments.h"
 #include "tools/strata/render/run.h"
+
+namespace strata::peeling {
+struct RenderResult;
+}
 
 namespace strata::tools {
 
@@ -25,6 +32,8 @@ struct BenchJob {
     pipeline::Effects effects = pipeline::Effects::needed;
     // An effect that `strata effects` has simulated once more, to measure it; none in a benchmark.
     pipeline::Effect once_more = pipeline::Effect::none;
+    // True: fragment memory 0, whatever the scene's options say.
+    bool is_never_replayed = false;
 };
 
 // One repetition.
@@ -50,7 +59,8 @@ struct BenchResult {
 [[nodiscard]] std::string algorithm_name(const BenchJob& job);
 
 // Set-up and passes with these options: what a job does between the clock's start and its stop.
-[[nodiscard]] peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options);
+[[nodiscard]] peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options,
+                                                  const pipeline::Instruments& instruments = {});
 
 [[nodiscard]] BenchRun run_once(const BenchJob& job);
 
