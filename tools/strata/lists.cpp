@@ -41,6 +41,7 @@ std::vector<std::string> needs_of(const peeling::Algorithm& algorithm) {
     return words;
 }
 
+// The depth that the algorithm compares, by its name in --json.
 std::string_view key_name(pipeline::DepthKey key) {
     return key == pipeline::DepthKey::shader_z ? "shader_z" : "stored_code";
 }

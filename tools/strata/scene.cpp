@@ -46,6 +46,7 @@ Drawn drawn(const pipeline::DrawList& list, std::optional<pipeline::AlphaMode> m
     return sum;
 }
 
+// In the order of the enum.
 constexpr std::array alpha_modes{pipeline::AlphaMode::opaque, pipeline::AlphaMode::mask, pipeline::AlphaMode::blend};
 
 ordered_json to_json(const scenes::Scene& scene) {
@@ -81,6 +82,7 @@ std::string joined(const std::vector<std::string>& parts) {
     return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// Six digits: for people. The JSON has all of them.
 std::string bounds_text(const scenes::Bounds& bounds) {
     if (bounds.is_empty()) return "empty";
     return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", bounds.lo[0], bounds.lo[1], bounds.lo[2],

@@ -38,6 +38,7 @@ ordered_json words_of(const BenchJob& job) {
 }
 
 // Of older documents: the execution `tiled` is replay without memory; no memory is named where it is the usual.
+// One line that tells a job from every other one; a baseline is looked up by it.
 std::string name_of_words(const ordered_json& words) {
     const bool is_tiled = words.at("execution") == "tiled";
     const std::uint64_t memory =

@@ -61,6 +61,8 @@ std::string names_of(const pipeline::DrawList& list, Holds holds) {
 }
 
 // What state decides, pass by pass.
+// A row that the state of the passes decides: `called` says who calls for it, `idle` why nobody
+// does.
 struct PassEffect {
     const char* name;
     Effect effect;
@@ -69,12 +71,14 @@ struct PassEffect {
     const char* idle;
 };
 
+// True if a colour target that exists is blended.
 bool is_blending(const PassRecord& p) {
     for (std::size_t k = 0; k < p.state.color.size(); ++k)
         if (p.state.color[k].exists() && p.state.blend[k].enabled) return true;
     return false;
 }
 
+// In the order in which a fragment meets them.
 constexpr std::array pass_effects{
     PassEffect{"colour interpolation, perspective division", Effect::color,
                [](const PassRecord& p) { return p.needs.color; },
@@ -113,6 +117,7 @@ bool idles_when_off(Effect effect) {
            effect == Effect::blending;
 }
 
+// Of all materials.
 std::uint64_t total(const std::vector<std::uint64_t>& counts) {
     std::uint64_t sum = 0;
     for (const std::uint64_t count : counts) sum += count;
@@ -126,6 +131,8 @@ class Planner {
         const RunOptions& options = job.scene->options;
         peeling::RenderOptions small = options.render;
         constexpr int longest = 128;  // passes do not depend on the size
+        // Both sides are divided by the same number: a view with another aspect would have other
+        // passes.
         const int scale = std::max(1, (std::max(small.width, small.height) + longest - 1) / longest);
         small.width = std::max(1, small.width / scale);
         small.height = std::max(1, small.height / scale);

@@ -43,13 +43,13 @@ inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionTex
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
 }
 
+// A word and the value that it means.
 template <class T>
 struct Choice {
     std::string name;
     T value;
 };
 
-// Empty for a value that is not in the list.
 template <class T>
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<Choice<T>>& choices) {
     std::vector<std::string> names;
@@ -57,6 +57,7 @@ template <class T>
     return names;
 }
 
+// Empty for a value that is not in the list.
 template <class T>
 [[nodiscard]] std::string name_of(const std::vector<Choice<T>>& choices, const T& value) {
     for (const auto& choice : choices) {

@@ -12,6 +12,7 @@ struct VertexPaths;
 
 namespace strata::tools {
 
+// Pixels.
 struct Size {
     int width = 0, height = 0;
 };

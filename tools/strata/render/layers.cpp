@@ -12,6 +12,7 @@ namespace strata::tools {
 
 namespace {
 
+// The command line; `deep` is the file of --deep, empty for none.
 struct LayersOptions {
     RunOptions run;
     std::string deep;
@@ -39,6 +40,7 @@ scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fra
     return deep;
 }
 
+// Writes the layers (-o) and the fragments (--deep) of one algorithm.
 void write_layers(const LayersOptions& options, const Finished& finished) {
     const scenes::Attributes attributes = attributes_of("layers", options.run, finished);
     if (!options.run.output.empty()) {
