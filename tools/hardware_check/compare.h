@@ -1,9 +1,9 @@
 // tools/hardware_check/compare.h - a drawn picture against the chip's.
 //
-// Rule     Both are read as a word a pixel: r g b a from the lowest byte on; 1 where a pixel is not the background; a 16-bit
-//          depth, which a capture shows as R5G6B5 widened; a 24-bit depth above its stencil, which it shows in A R G and B.
-//          Label pixels of a colour capture, (255, 255, 255, 0), and hidden rectangles are not compared. Colours differ by their
-//          largest channel difference in 1/255, the rest by units.
+// Rule     Both are read as a word a pixel: r g b a from the lowest byte on; 1 where a pixel is not the background; a
+//          16-bit depth, which a capture shows as R5G6B5 widened; a 24-bit depth above its stencil, which it shows in
+//          A R G and B. Label pixels of a colour capture, (255, 255, 255, 0), and hidden rectangles are not compared.
+//          Colours differ by their largest channel difference in 1/255, the rest by units.
 // Source   the captures' own descriptions, as repeated in chip-fragment.md and chip-geometry.md.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
@@ -38,7 +38,8 @@ struct Comparison {
 
 // The smallest rectangle round all label pixels; empty if there are none.
 [[nodiscard]] rasterizer::Rect label_box(const Picture& drawn, const pipeline::Image& capture);
-// Digest of the words outside a rectangle and the hidden ones, those inside taken as 0: of the picture, or of the capture.
+// Digest of the words outside a rectangle and the hidden ones, those inside taken as 0: of the picture, or of the
+// capture.
 [[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn);
 [[nodiscard]] std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn,
                                          const pipeline::Image& capture);

@@ -1,8 +1,8 @@
-// tools/hardware_check/picture.h - pictures that a public test suite drew on a GeForce3-class chip, drawn again from their
-// names: abaire/nxdk_pgraph_tests_golden_results, CC0 1.0.
+// tools/hardware_check/picture.h - pictures that a public test suite drew on a GeForce3-class chip, drawn again from
+// their names: abaire/nxdk_pgraph_tests_golden_results, CC0 1.0.
 //
-// Rule     A suite's file turns a name into draws; no picture is looked at. What the reference does not describe is not
-//          modelled, and says so. Pixels of a label (text that the test wrote over its picture) are not compared.
+// Rule     A suite's file turns a name into draws; no picture is looked at. What the reference does not describe is
+//          not modelled, and says so. Pixels of a label (text that the test wrote over its picture) are not compared.
 // Source   chip-fragment.md, chip-geometry.md, chip-depth.md: scene by scene.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
@@ -22,8 +22,8 @@ namespace strata::hardware_check {
 
 inline constexpr int picture_width = 640, picture_height = 480;
 
-// How a capture's bytes are read and compared.
-// Depth words are spread over a capture's channels, because the test can save nothing but colours.
+// How a capture's bytes are read and compared. Its channels also hold depth words, because the test
+// can save nothing but colours.
 enum class Reading : std::uint8_t {
     color,    // r g b a
     drawn,    // which pixels differ from `background`, nothing else
@@ -31,7 +31,8 @@ enum class Reading : std::uint8_t {
     depth24   // a 24-bit word in A R G, the stencil in B
 };
 
-// What may differ; 0 and 0: nothing. A pixel that differs by more than `units` (1/255 or depth units) is always too much.
+// What may differ; 0 and 0: nothing. A pixel that differs by more than `units` (1/255 or depth units) is always too
+// much.
 struct Bound {
     std::uint64_t pixels = 0;
     std::uint32_t units = 0;

@@ -1,7 +1,7 @@
 // tools/hardware_check/shapes.h - window-space shapes in the vertex order that the chip gave them.
 //
-// Rule     QUADS are the triangles (0,1,2) and (0,2,3); rectangles start at their upper left corner, clockwise as seen. A
-//          packed colour is AARRGGBB.
+// Rule     QUADS are the triangles (0,1,2) and (0,2,3); rectangles start at their upper left corner, clockwise as
+//          seen. A packed colour is AARRGGBB.
 // Source   chip-geometry.md 2.1; chip-fragment.md 1.1.
 #pragma once
 #include <array>

@@ -1,7 +1,7 @@
 // tools/strata/parallel_items.h - a list worked off by all cores, with a bar.
 //
-// Rule     body(i) writes to places of item i alone. Of several items that fail, the first one's exception is thrown, whatever
-//          finished first.
+// Rule     body(i) writes to places of item i alone. Of several items that fail, the first one's exception is thrown,
+//          whatever finished first.
 // Tests    tests/tools/hardware_check_test.cpp
 #pragma once
 #include <atomic>

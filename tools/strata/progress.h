@@ -11,8 +11,8 @@ namespace strata::tools {
 // Whether the line tells how much longer it takes, if the rest goes like the part that is done.
 enum class Remaining : std::uint8_t { hidden, shown };
 
-// Made for one piece of work, which lasts as long as the object.
-// Shows nothing unless standard error is a terminal and a second has passed; wipes its line when it goes.
+// A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard
+// error is a terminal and a second has passed, and wipes its line when it ends.
 class Progress {
   public:
     explicit Progress(std::string label, Remaining remaining = Remaining::hidden);

@@ -22,13 +22,12 @@ struct Job {
 // depth, front_to_back, dual, weighted_average.
 [[nodiscard]] const std::vector<std::string>& job_names();
 
-// Makes all targets and programs of the algorithm. Throws std::invalid_argument for a name that is
-// not in job_names().
-// `scene` must outlive the job.
+// Makes all targets and programs of the algorithm, which keeps a reference to `scene`. Throws
+// std::invalid_argument for a name that is not in job_names().
 [[nodiscard]] Job make_job(const std::string& name, const GpuScene& scene, Size size);
 
-// single_pass.cpp; the last one counts the fragments of every pixel, without depth test
-// The jobs by themselves, for job.cpp; each keeps a reference to `scene`.
+// The jobs by themselves, for job.cpp. Those of single_pass.cpp come first; count_fragments()
+// answers the fragments of every pixel, without depth test.
 [[nodiscard]] Job depth_job(const GpuScene& scene, Size size);
 [[nodiscard]] Job weighted_average_job(const GpuScene& scene, Size size);
 [[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size);

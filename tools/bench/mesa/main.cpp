@@ -1,5 +1,5 @@
-// tools/bench/mesa/main.cpp - strata_mesa: a scene by OpenGL on llvmpipe, one line of JSON a job; fragments and pictures
-// compared with Strata's on request.
+// tools/bench/mesa/main.cpp - strata_mesa: a scene by OpenGL on llvmpipe, one line of JSON a job; fragments and
+// pictures compared with Strata's on request.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -84,8 +84,8 @@ double seconds_of(const Job& job, std::vector<std::uint32_t>& pixels, int most_p
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Two passes compile every program and touch every target; the job goes on for `warm_up`. Then one time after another until
-// `budget` is spent.
+// Two passes compile every program and touch every target; the job goes on for `warm_up`. Then one time after another
+// until `budget` is spent.
 ordered_json measure(const Job& job, const Options& options, std::vector<std::uint32_t>& pixels) {
     // More passes than any scene has layers.
     constexpr int all = 1000000;

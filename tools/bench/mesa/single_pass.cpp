@@ -1,5 +1,5 @@
-// tools/bench/mesa/single_pass.cpp - one walk over the triangles: a depth pass, weighted averages, a count of fragments.
-// weighted_average: Bavoil and Myers 2008; algorithms.md 7. Half-float sums and count, as Strata's.
+// tools/bench/mesa/single_pass.cpp - one walk over the triangles: a depth pass, weighted averages, a count of
+// fragments. weighted_average: Bavoil and Myers 2008; algorithms.md 7. Half-float sums and count, as Strata's.
 #include <array>
 #include <bit>
 #include <memory>

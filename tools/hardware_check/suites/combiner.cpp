@@ -1,5 +1,6 @@
-// Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads. chip-fragment.md 9.
-// All equal; the checkerboard behind two of them is a test of texture coordinates that are whole numbers in exact arithmetic.
+// Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads. chip-fragment.md 9. All
+// equal; the checkerboard behind two of them is a test of texture coordinates that are whole numbers in exact
+// arithmetic.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/suite.h"

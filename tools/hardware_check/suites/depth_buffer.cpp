@@ -1,5 +1,6 @@
-// Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and Depth_buffer_fixed_function, the same without
-// DepthFmt_. Slopes of depth over small and wide quads. chip-depth.md 2, chip-geometry.md 5.4.
+// Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and
+// Depth_buffer_fixed_function, the same without DepthFmt_. Slopes of depth over small and wide quads.
+// chip-depth.md 2, chip-geometry.md 5.4.
 #include <vector>
 
 #include "rasterizer/rules/depth_code.h"

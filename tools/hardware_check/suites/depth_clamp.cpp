@@ -1,5 +1,6 @@
-// Suite Depth_Clamp: depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>. Which pixels a depth range
-// removes, one by one; the program adds the viewport's offset like the fixed pipeline. chip-geometry.md 5.3.
+// Suite Depth_Clamp: depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>. Which pixels a
+// depth range removes, one by one; the program adds the viewport's offset like the fixed pipeline.
+// chip-geometry.md 5.3.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"

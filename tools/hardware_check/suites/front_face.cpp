@@ -1,5 +1,6 @@
-// Suite Front_face: FrontFace_[FM_|LM_]<CW|CCW|0x00|0x63>_CF_<F|B|FaB>, polygons filled or (LM) as lines. The left quad turns counter-clockwise as seen, the right one
-// clockwise; a word that names no direction leaves CW in force. chip-geometry.md 5.2.
+// Suite Front_face: FrontFace_[FM_|LM_]<CW|CCW|0x00|0x63>_CF_<F|B|FaB>, polygons filled or (LM) as lines. The left
+// quad turns counter-clockwise as seen, the right one clockwise; a word that names no direction leaves CW in force.
+// chip-geometry.md 5.2.
 #include <algorithm>
 
 #include "tools/hardware_check/names.h"

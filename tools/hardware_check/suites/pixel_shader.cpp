@@ -1,7 +1,8 @@
-// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. chip-depth.md 6, chip-geometry.md 4.
+// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. chip-depth.md 6,
+// chip-geometry.md 4.
 //
-// All equal but DotZW, at most 1 unit off on at most 0.25 % of its pixels: the last bits of its quotient are not understood.
-// DotZW and DotST sample images that the test loads from its own disk.
+// All equal but DotZW, at most 1 unit off on at most 0.25 % of its pixels: the last bits of its quotient are not
+// understood. DotZW and DotST sample images that the test loads from its own disk.
 #include <cmath>
 #include <filesystem>
 
@@ -40,9 +41,10 @@ TriangleSoup square(float x, float y, float side, const std::array<Units, 4>& un
 constexpr int middle_x = 192, middle_y = 112, middle_side = 256;
 TriangleSoup middle(const std::array<Units, 4>& unit) { return square(middle_x, middle_y, middle_side, unit); }
 
-// Unit 0 steps over the bump map's texels, two pixels each; units 1 and 2 hold the rows of the matrix that its texels meet.
-// The two rows s, t, r at one corner; q is 1.
+// The two rows s, t, r of the matrix at one corner; q is 1.
 using Rows = std::array<std::array<float, 3>, 2>;
+// The large square. Unit 0 steps over the bump map's texels, two pixels each; units 1 and 2 hold
+// the rows of the matrix that its texels meet.
 TriangleSoup bumped(const std::array<Rows, 4>& rows) {
     constexpr float texels = 128;
     constexpr Coordinate texel[4] = {{0, 0, 0, 1}, {texels, 0, 0, 1}, {texels, texels, 0, 1}, {0, texels, 0, 1}};
@@ -64,8 +66,8 @@ pipeline::ShaderStages bump_stages(const Texture& bumps, ShaderOp last) {
     return stages;
 }
 
-// Depth is the quotient of the two dot products, z / w, in the buffer's own units (chip-depth.md
-// 6). The rows are that section's.
+// Depth is the quotient of the two dot products, z / w, in the buffer's own units. The rows are
+// those of chip-depth.md 6.
 Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
     pipeline::FragmentPath path{bump_stages(bumps, ShaderOp::dot_product_depth_replace),
                                 show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};

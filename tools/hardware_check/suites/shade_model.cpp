@@ -1,5 +1,5 @@
-// Suite Shade_model: Prog_<primitive>_<Smooth|Flat>_<First|Last>: how primitives become triangles, and which vertex colours a
-// flat one. chip-fragment.md 3.3. Lit, textured and W_ pictures are not modelled.
+// Suite Shade_model: Prog_<primitive>_<Smooth|Flat>_<First|Last>: how primitives become triangles, and which vertex
+// colours a flat one. chip-fragment.md 3.3. Lit, textured and W_ pictures are not modelled.
 #include <vector>
 
 #include "tools/hardware_check/fixed_pipeline.h"

@@ -1,5 +1,5 @@
-// Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checker, or four colours, over a quad whose w differs,
-// with perspective correction and without; two corners lie far outside of the window. chip-geometry.md 5.1.
+// Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checker, or four colours, over a quad whose w
+// differs, with perspective correction and without; two corners lie far outside of the window. chip-geometry.md 5.1.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -43,10 +43,11 @@ ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
     return v;
 }
 
-// The exact value, rounded, is within 2 units of the chip's colours everywhere (chip-geometry.md 5.1); ours is as far from it at most.
+// The exact value, rounded, is within 2 units of the chip's colours everywhere (chip-geometry.md 5.1); ours is as far
+// from it at most.
 constexpr Bound within_four{std::uint64_t{picture_width} * picture_height, 4};
-// Texels that the chip takes from the other side of a cell's edge: 1 in the corrected capture at hand, none in the other one; no
-// quad was at hand.
+// Texels that the chip takes from the other side of a cell's edge: 1 in the corrected capture at hand, none in the
+// other one; no quad was at hand.
 constexpr Bound few_texels{8, 255};
 
 }  // namespace

@@ -1,13 +1,13 @@
-// Suite Texture_shadow_comparator: <stage><source><format>_<min>-<max>_<reference>_<function>: a depth texture compared with r.
-// chip-depth.md 7.
+// Suite Texture_shadow_comparator: <stage><source><format>_<min>-<max>_<reference>_<function>: a depth texture compared
+// with r. chip-depth.md 7.
 //
 //   stage   2 or 3: the two- or the three-dimensional projective one, which compares 0 or r
-//   source  R: texels written by the CPU, numbers hexadecimal; P, F: depth rendered by a vertex program or the fixed pipeline,
-//           numbers world z
+//   source  R: texels written by the CPU, numbers hexadecimal; P, F: depth rendered by a vertex program or the fixed
+//           pipeline, numbers world z
 //   format  16, 24, 16f
 //
-// Equal; through the fixed pipeline a row of the picture looks up a texel row's very edge, which decides 21 or 42 pixels by the
-// last bit of a coordinate: as many may differ.
+// Equal; through the fixed pipeline a row of the picture looks up a texel row's very edge, which decides 21 or 42
+// pixels by the last bit of a coordinate: as many may differ.
 #include <algorithm>
 
 #include "rasterizer/rules/depth_code.h"

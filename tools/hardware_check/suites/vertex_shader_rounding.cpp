@@ -1,5 +1,6 @@
 // Suite Vertex_shader_rounding_tests: where positions are cut, and who owns a pixel centre. chip-geometry.md 1.
-// TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B, GeometrySubscreen_B with B a shift in pixels.
+// TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B, GeometrySubscreen_B with B a shift
+// in pixels.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -45,8 +46,9 @@ Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color()};
 }
 
-// As adjacent_geometry, half of it through the fixed pipeline. The points come back from un-projection where they were, but
-// for the binary32 chain, which is not modelled: it shows at .5625, on two edge lines of the chip's picture.
+// As adjacent_geometry, half of it through the fixed pipeline. The points come back from un-projection where they
+// were, but for the binary32 chain, which is not modelled: it shows at .5625, on two edge lines of the chip's
+// picture.
 Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     constexpr Argb by_program = green, by_fixed = 0xff00bb00;
     constexpr bool is_fixed[8] = {false, true, false, true, true, false, true, false};

@@ -1,6 +1,6 @@
-// Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, an s in front: the second region was set first. Two clip regions,
-// drawn inside or outside of; both limits of a region are inside. Writing a limit of region 0 sets all eight regions, so that
-// with an s the first region alone is left.
+// Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, an s in front: the second region was set first. Two
+// clip regions, drawn inside or outside of; both limits of a region are inside. Writing a limit of region 0 sets all
+// eight regions, so that with an s the first region alone is left.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"

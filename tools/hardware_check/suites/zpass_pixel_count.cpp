@@ -1,5 +1,5 @@
-// Suite ZPass_pixel_count: ZPass, ZPassPointSize[VS]-0x<size>, ZPassLineWidth-0x<width>, all [_ZB], sizes in 1/8 pixel. What the
-// chip's occlusion query counts. chip-fragment.md 6.
+// Suite ZPass_pixel_count: ZPass, ZPassPointSize[VS]-0x<size>, ZPassLineWidth-0x<width>, all [_ZB], sizes in 1/8
+// pixel. What the chip's occlusion query counts. chip-fragment.md 6.
 #include <algorithm>
 
 #include "tools/hardware_check/fixed_pipeline.h"

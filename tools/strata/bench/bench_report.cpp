@@ -37,8 +37,8 @@ ordered_json words_of(const BenchJob& job) {
             {"profile", job.scene->session.profile.name}};
 }
 
-// Of older documents: the execution `tiled` is replay without memory; no memory is named where it is the usual.
-// One line that tells a job from every other one; a baseline is looked up by it.
+// One line that tells a job from every other one; a baseline is looked up by it. In older documents
+// the execution `tiled` stands for replay without memory; no memory is named where it is the usual.
 std::string name_of_words(const ordered_json& words) {
     const bool is_tiled = words.at("execution") == "tiled";
     const std::uint64_t memory =
@@ -109,7 +109,8 @@ std::vector<std::string> cells(const BenchResult& result) {
             per_fragment(result, bytes_per_fragment(result), 1)};
 }
 
-// One row a scene, algorithm, instruction set and effects; one column of milliseconds an execution, then each over replay.
+// One row a scene, algorithm, instruction set and effects; one column of milliseconds an execution, then each over
+// replay.
 std::string side_by_side(const std::vector<BenchResult>& results) {
     std::map<std::string, std::map<pipeline::Execution, double>> rows;
     std::vector<std::string> order;

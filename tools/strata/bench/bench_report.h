@@ -31,7 +31,8 @@ using Baseline = std::map<std::string, double>;
 // old / new, job by job, and the jobs that only one of the two runs has.
 [[nodiscard]] std::string to_ratios(const std::vector<BenchResult>& results, const Baseline& baseline);
 
-// Jobs whose picture differs from that of an earlier job with the same scene and algorithm: empty, or the emulator is wrong.
+// Jobs whose picture differs from that of an earlier job with the same scene and algorithm: empty, or the emulator is
+// wrong.
 [[nodiscard]] std::vector<std::string> differing(const std::vector<BenchResult>& results);
 
 }  // namespace strata::tools

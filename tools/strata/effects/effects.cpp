@@ -1,4 +1,5 @@
-// tools/strata/effects/effects.cpp - strata effects: what a run simulates and why, what it costs, what leaving the rest out saved.
+// tools/strata/effects/effects.cpp - strata effects: what a run simulates and why, what it costs, what leaving the
+// rest out saved.
 #include <fmt/format.h>
 
 #include <memory>

@@ -19,9 +19,8 @@ double seconds_of(const std::function<void()>& run) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Median seconds of each; a first round warms up.
-// All runs of a round stand next to each other in time, so that a machine that becomes slower
-// changes all of them alike.
+// Median seconds of each; a first round warms up. The runs of a round stand next to each other in
+// time, so that a machine that becomes slower changes all of them alike.
 std::vector<double> in_turn(const std::vector<std::function<void()>>& runs, int repeat) {
     std::vector<std::vector<double>> seconds(runs.size());
     for (int round = 0; round <= repeat; ++round)

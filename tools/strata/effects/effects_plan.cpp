@@ -22,8 +22,8 @@ bool is_transparent(const RunOptions& options, const Material& m) {
     return options.render.alpha || m.alpha_mode == AlphaMode::blend;
 }
 
-// How often passes like this one occur in the whole run: once for each record before the first iteration and in the first;
-// what later iterations do, they all do alike.
+// How often passes like this one occur in the whole run: once for each record before the first iteration and in the
+// first; what later iterations do, they all do alike.
 struct Occurrences {
     std::uint64_t before = 0, first = 0, later = 0;
     [[nodiscard]] std::uint64_t in(int iterations) const {
@@ -60,8 +60,7 @@ std::string names_of(const pipeline::DrawList& list, Holds holds) {
     return fmt::format("{}{}", fmt::join(names.begin(), end, ", "), more);
 }
 
-// What state decides, pass by pass.
-// A row that the state of the passes decides: `called` says who calls for it, `idle` why nobody
+// A row that the state of each pass decides: `called` says who calls for it, `idle` why nobody
 // does.
 struct PassEffect {
     const char* name;
@@ -131,8 +130,7 @@ class Planner {
         const RunOptions& options = job.scene->options;
         peeling::RenderOptions small = options.render;
         constexpr int longest = 128;  // passes do not depend on the size
-        // Both sides are divided by the same number: a view with another aspect would have other
-        // passes.
+        // Both sides are divided by the same number, so that the view keeps its aspect.
         const int scale = std::max(1, (std::max(small.width, small.height) + longest - 1) / longest);
         small.width = std::max(1, small.width / scale);
         small.height = std::max(1, small.height / scale);
@@ -202,8 +200,7 @@ class Planner {
                 {.selection = selection, .tile_size = tile_size, .threads = options.render.threads});
         };
         // Counts tiles and fragments of both lists in the whole frame, with the tiles of the run
-        // itself.
-        // With --alpha nothing is opaque: the other list is then one without a triangle.
+        // itself. With --alpha nothing is opaque: the other list is then one without a triangle.
         pipeline::PreparedDraw opaque = prepared(Selection::opaque);
         if (options.render.alpha) std::fill(opaque.geometry.bin_start.begin(), opaque.geometry.bin_start.end(), 0u);
         plan_.drawn = prepared(options.render.alpha ? Selection::all : Selection::transparent);

@@ -1,8 +1,9 @@
-// tools/strata/hardware_check/hardware_check.cpp - strata hardware-check: a profile against pictures that a real chip drew.
+// tools/strata/hardware_check/hardware_check.cpp - strata hardware-check: a profile against pictures that a real chip
+// drew.
 //
-// Rule     DIR/<suite>/<name>.png as the public captures are named; DIR/textures, if it is there, holds images that the tests
-//          loaded. Every picture is drawn from its name and compared outside of
-//          its labels. What is not modelled is listed, and never counted as passed. Exit status 1 if a picture is outside its bound.
+// Rule     DIR/<suite>/<name>.png as the public captures are named; DIR/textures, if it is there, holds images that
+//          the tests loaded. Every picture is drawn from its name and compared outside of its labels. What is not
+//          modelled is listed, and never counted as passed. Exit status 1 if a picture is outside its bound.
 // Tests    tests/tools/hardware_check_test.cpp, tests/tools/hardware_check/suites_test.cpp
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,5 @@
-// tools/strata/hardware_check/hardware_report.h - what a hardware check found: a line a suite, a line a picture, JSON, and a page with pictures.
+// tools/strata/hardware_check/hardware_report.h - what a hardware check found: a line a suite, a line a picture,
+// JSON, and a page with pictures.
 #pragma once
 #include <optional>
 #include <string>

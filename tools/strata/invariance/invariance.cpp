@@ -1,5 +1,5 @@
-// tools/strata/invariance/invariance.cpp - strata invariance: two depths that ought to be equal, what that does to a peel, and what each
-// remedy costs.
+// tools/strata/invariance/invariance.cpp - strata invariance: two depths that ought to be equal, what that does to a
+// peel, and what each remedy costs.
 #include <fmt/format.h>
 
 #include <memory>

@@ -23,8 +23,8 @@ struct CellResult {
     std::string refusal;  // the sentence; empty: it ran
 };
 
-// Runs cells one after the other; not for several threads at once.
-// Scenes and profiles are read once.
+// Runs cells one after the other; not for several threads at once. Scenes and profiles are read
+// once.
 class CellRunner {
   public:
     CellRunner(scenes::SceneOptions scene_options, peeling::RenderOptions resources)

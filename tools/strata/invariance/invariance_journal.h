@@ -1,8 +1,10 @@
-// tools/strata/invariance/invariance_journal.h - the lines of a sweep on disk: appended one by one, taken up again after a kill, merged.
+// tools/strata/invariance/invariance_journal.h - the lines of a sweep on disk: appended one by one, taken up again
+// after a kill, merged.
 //
-// Rule     results.jsonl holds a line a cell in the order of the cells, so it is always a beginning of the finished file. A last line
-//          without its newline was torn by a kill: it is cut off, and its cell measured again. Every other line must be
-//          the one that this plan would write there. Shard i of n holds the cells i, i + n, ... in results.IofN.jsonl.
+// Rule     results.jsonl holds a line a cell in the order of the cells, so it is always a beginning of the finished
+//          file. A last line without its newline was torn by a kill: it is cut off, and its cell measured again.
+//          Every other line must be the one that this plan would write there. Shard i of n holds the cells i, i + n,
+//          ... in results.IofN.jsonl.
 // Tests    tests/tools/invariance_test.cpp
 #pragma once
 #include <cstdio>
@@ -21,8 +23,7 @@ struct Shard {
     [[nodiscard]] std::vector<std::size_t> cells(std::size_t all) const;
 };
 
-// Nothing for a text that is not I/N with I from 1 to N.
-// "2/5".
+// "2/5" is the shard 2 of 5. Nothing for a text that is not I/N with I from 1 to N.
 [[nodiscard]] std::optional<Shard> to_shard(std::string_view text);
 
 // "results", "jsonl": results.jsonl, or results.2of5.jsonl.

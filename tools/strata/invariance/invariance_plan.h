@@ -1,9 +1,11 @@
-// tools/strata/invariance/invariance_plan.h - what an invariance sweep measures: cells, from a JSON plan or from options.
+// tools/strata/invariance/invariance_plan.h - what an invariance sweep measures: cells, from a JSON plan or from
+// options.
 //
-// Rule     A plan is {"common": {...}, "grids": [{...}, ...]}. A grid gives each key one value or a list of values and stands
-//          for all their combinations; what it leaves out comes from `common`, then from the options, then from the
-//          defaults. Cells are numbered grid by grid, in the keys' own order with the last key fastest, so the order in a
-//          file changes nothing; a cell that comes twice is kept once. The whole plan is checked before anything runs.
+// Rule     A plan is {"common": {...}, "grids": [{...}, ...]}. A grid gives each key one value or a list of values
+//          and stands for all their combinations; what it leaves out comes from `common`, then from the options, then
+//          from the defaults. Cells are numbered grid by grid, in the keys' own order with the last key fastest, so
+//          the order in a file changes nothing; a cell that comes twice is kept once. The whole plan is checked
+//          before anything runs.
 // Tests    tests/tools/invariance_plan_test.cpp
 #pragma once
 #include <map>

@@ -51,7 +51,8 @@ ordered_json witness(const peeling::PathPair& pair, int width) {
             {"reference", fmt::format("0x{:08x}", pair.reference)}};
 }
 
-// Safe: the interval. Empty: the fragment that is peeled twice below `lowest` and the pair that loses one above `highest`.
+// Safe: the interval. Empty: the fragment that is peeled twice below `lowest` and the pair that loses one above
+// `highest`.
 ordered_json to_json(const std::optional<peeling::SafeRange>& found, int width) {
     if (!found) return nullptr;
     const peeling::SafeRange& range = *found;

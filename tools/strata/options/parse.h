@@ -1,4 +1,5 @@
-// tools/strata/options/parse.h - text from the command line into numbers. Independent of the locale; the whole text counts.
+// tools/strata/options/parse.h - text from the command line into numbers. Independent of the locale; the whole text
+// counts.
 #pragma once
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,5 @@
-// tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the frame.
+// tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the
+// frame.
 #include <memory>
 #include <numeric>
 

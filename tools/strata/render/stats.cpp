@@ -75,16 +75,12 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
     if (!is_done(run)) return {algorithm->name, "refused", "-", "-", "-", "-", "-", "-", "-", "-"};
     const peeling::AuditResult& audit = result.audit;
     const auto audited = [&](const std::string& text) { return context.audited ? text : "-"; };
-    return {algorithm->name,
-            std::string(outcome_name(result.outcome)),
-            fmt::format("{}", result.frame.passes.geometry),
+    return {algorithm->name, std::string(outcome_name(result.outcome)), fmt::format("{}", result.frame.passes.geometry),
             audited(fmt::format("{}", audit.layers_max)),
             audited(audit.order_errors ? fmt::format("{}", *audit.order_errors) : "-"),
-            audited(fmt::format("{}", audit.lost_by_ties)),
-            audited(fmt::format("{:.3f}", audit.max_difference)),
+            audited(fmt::format("{}", audit.lost_by_ties)), audited(fmt::format("{:.3f}", audit.max_difference)),
             // Twelve digits tell pictures apart by eye; --stats has the whole digest.
-            color.substr(0, 12),
-            fmt::format("{:.3f}", result.seconds.geometry + result.seconds.passes),
+            color.substr(0, 12), fmt::format("{:.3f}", result.seconds.geometry + result.seconds.passes),
             audited(fmt::format("{:.3f}", result.seconds.audit))};
 }
 

@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce.cpp - strata reproduce: a paper's own figures and tables beside what this machine finds.
+// tools/strata/reproduce/reproduce.cpp - strata reproduce: a paper's own figures and tables beside what this machine
+// finds.
 #include <filesystem>
 #include <memory>
 

@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_bavoil.cpp - Bavoil and Myers 2008: geometry passes of dual peeling, and Figure 4 (three choices of alpha).
+// tools/strata/reproduce/reproduce_bavoil.cpp - Bavoil and Myers 2008: geometry passes of dual peeling, and Figure 4
+// (three choices of alpha).
 #include <fmt/format.h>
 
 #include <cmath>

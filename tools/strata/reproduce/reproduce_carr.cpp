@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_carr.cpp - Carr, Mech and Miller 2008: Table 1 (models) and Figures 1 and 3 (slices and a cone).
+// tools/strata/reproduce/reproduce_carr.cpp - Carr, Mech and Miller 2008: Table 1 (models) and Figures 1 and 3
+// (slices and a cone).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,8 +28,8 @@ struct Run {
 // Seconds; a shorter run is repeated, because one of its times says little.
 constexpr double short_run = 1.0;
 
-// Literal execution: every pass rasterizes all its geometry, as the paper's machine did. `paper_exit`: iterations as the paper
-// counts them, by queries during compositing.
+// Literal execution: every pass rasterizes all its geometry, as the paper's machine did. `paper_exit`: iterations as
+// the paper counts them, by queries during compositing.
 Run run(const scenes::Scene& scene, const pipeline::View& view, const std::string& algorithm,
         peeling::RenderOptions options, bool paper_exit) {
     options.execution = pipeline::Execution::literal;

@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_everitt.cpp - Everitt 2001: Figure 3 (the teapot's layers) and Figure 5 (composites of the first n).
+// tools/strata/reproduce/reproduce_everitt.cpp - Everitt 2001: Figure 3 (the teapot's layers) and Figure 5
+// (composites of the first n).
 #include <fmt/format.h>
 
 #include "peeling/registry.h"

@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_page.h - what `strata reproduce` leaves in its folder: one page, its tables as CSV, its pictures.
+// tools/strata/reproduce/reproduce_page.h - what `strata reproduce` leaves in its folder: one page, its tables as
+// CSV, its pictures.
 #pragma once
 #include <string>
 #include <vector>
