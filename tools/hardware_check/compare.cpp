@@ -46,8 +46,8 @@ std::uint32_t our_word(const Picture& drawn, int x, int y) {
     return 0;  // unreachable: the enum is closed
 }
 
-// A capture is always rgba8. Depth is unpacked as the header of this comparison says; without a
-// stencil in the drawn picture the capture's stencil byte counts as 0.
+// A capture is always rgba8. Depth is unpacked as compare.h says; without a stencil in the drawn
+// picture the capture's stencil byte counts as 0.
 std::uint32_t their_word(const Picture& drawn, const Image& capture, int x, int y) {
     const Pixel p = pixel_of(capture, x, y);
     switch (drawn.reading) {

@@ -85,8 +85,8 @@ void main() {
 }
 )";
 
-// Everything that a run draws with. Pairs of targets take turns: a pass reads [last] and writes [1
-// - last].
+// Everything that a run draws with. Pairs of targets take turns: a pass reads one of each and
+// writes the other.
 struct DualTargets {
     std::array<Handle, 2> min_max, front, initialize, peel;
     Handle back_dump, back, result, blend, finish, query;

@@ -91,8 +91,8 @@ Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
 }
 
 using Vector = std::array<double, 3>;
-// The unit vector from one point to another, in binary64, each component rounded once. std::sqrt is
-// correctly rounded.
+// The unit vector from one point to another, computed in binary64 and then rounded to binary32.
+// std::sqrt is correctly rounded.
 std::array<float, 3> direction(const Vector& from, const Vector& to) {
     const double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2],
                  length = std::sqrt(x * x + y * y + z * z);
