@@ -196,7 +196,7 @@ void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const 
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
             scratch_->trace.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
-                                    out.side[i], kind_ == PassKind::geometry});
+                                       out.side[i], kind_ == PassKind::geometry});
 }
 
 void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {

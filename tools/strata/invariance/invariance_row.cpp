@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "peeling/algorithms/algorithm.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/table.h"
 
