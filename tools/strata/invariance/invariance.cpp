@@ -15,8 +15,8 @@ namespace strata::tools {
 
 namespace {
 
-// The command line. `keys` holds the options that are keys of a plan; of `run` only the resources
-// count.
+// The command line. `keys` holds the options that are keys of a plan. Of `run` the scene and how it
+// is read, the resources and the output folder are used.
 struct InvarianceOptions {
     RunOptions run;
     KeyValues keys;

@@ -101,8 +101,7 @@ struct Measured {
     Run run;
 };
 
-// Every algorithm on every number of slices. The progress counts slices, to which the time is
-// roughly proportional.
+// Every algorithm on every number of slices.
 std::vector<Measured> run_beams(const ReproduceOptions& options) {
     std::vector<Measured> runs;
     Progress progress("slices");
