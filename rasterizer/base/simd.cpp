@@ -8,6 +8,7 @@
 namespace strata {
 namespace {
 
+// Highway's bit for a set; 0 for `scalar`, whose loops do not ask Highway.
 [[nodiscard]] std::int64_t target_of(Simd simd) noexcept {
     switch (simd) {
         case Simd::sse4: return HWY_SSE4;
@@ -42,7 +43,8 @@ bool choose_simd(Simd simd) {
     if (simd == Simd::best) simd = best_simd();
     const std::vector<Simd> available = available_simd();
     if (std::find(available.begin(), available.end(), simd) == available.end()) return false;
-    hwy::SetSupportedTargetsForTest(target_of(simd));  // 0: whatever the machine has; the twins run then
+    // With `scalar` this is 0, which gives Highway all sets back: nothing dispatches while the twins run.
+    hwy::SetSupportedTargetsForTest(target_of(simd));
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     chosen() = simd;
     return true;

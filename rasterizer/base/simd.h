@@ -12,6 +12,7 @@
 
 namespace strata {
 
+// By rising width. `scalar` means the twins, `best` the last one that the processor has.
 enum class Simd : std::uint8_t { scalar, sse4, avx2, avx512, best };
 
 // What this processor has of the first four, in that order; `scalar` is always there.
@@ -20,7 +21,8 @@ enum class Simd : std::uint8_t { scalar, sse4, avx2, avx512, best };
 // From now on the whole process uses `simd`. Returns false, and changes nothing, if the processor lacks it.
 // Not while a frame is being rendered.
 bool choose_simd(Simd simd);
-[[nodiscard]] Simd chosen_simd() noexcept;  // never `best`: the one that it stands for
+// The set in use; never `best`, but the one that it stood for.
+[[nodiscard]] Simd chosen_simd() noexcept;
 
 // For kernels: take the scalar twin.
 [[nodiscard]] bool simd_is_scalar() noexcept;
