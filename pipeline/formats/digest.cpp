@@ -21,6 +21,7 @@ struct FreeState {
     void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }
 };
 
+// Gathers codes in a buffer, so that the hash is fed long runs of bytes.
 class Hash {
   public:
     Hash() : state_{XXH3_createState()} {
@@ -59,6 +60,7 @@ class Hash {
     std::size_t used_ = 0;
 };
 
+// Bytes of a code in the digest; they are not those of the format: D16 takes four (formats.md 8).
 int code_bytes(ChannelType type) noexcept {
     switch (type) {
         case ChannelType::unorm8: return 1;
