@@ -23,9 +23,9 @@ inline namespace strict {
     return {static_cast<double>(value - low), static_cast<double>(low)};
 }
 
-// A sum that keeps every bit. Terms rise in magnitude and do not overlap, so the last one decides the sign. 40 places
-// are more than enough: three products of an integer and two binary64 numbers, and one product more, need 32
-// (numbers.md 3.3).
+// A sum that keeps every bit. Terms rise in magnitude and do not overlap, so the
+// last one decides the sign. 40 places are more than enough: three products of an
+// integer and two binary64 numbers, and one product more, need 32 (numbers.md 3.3).
 class ExactSum {
   public:
     // Carries x through the terms from the smallest to the largest. What a step rounds off stays behind as a term; a

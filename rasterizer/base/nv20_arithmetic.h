@@ -44,8 +44,8 @@ namespace nv20 {
     return is_finite(a) && is_finite(b) ? flushed(cut_to_binary32(double{a} * double{b})) : a * b;
 }
 
-// Two to four addends in one aligned add, as a dot product has them (numbers.md 4.3). If one is not finite, the plain
-// IEEE sum from the left.
+// Two to four addends in one aligned add, as a dot product has them
+// (numbers.md 4.3). If one is not finite, the plain IEEE sum from the left.
 template <std::size_t n>
 [[nodiscard]] constexpr float sum(const std::array<float, n>& addends) noexcept {
     static_assert(n >= 2 && n <= 4);

@@ -14,8 +14,8 @@ namespace strata {
 [[nodiscard]] void* take_memory(std::size_t bytes);
 void give_memory(void* memory) noexcept;
 
-// For element types whose lifetime needs no constructor and no destructor. Reading an element before it is written
-// gives whatever the memory held.
+// For element types whose lifetime needs no constructor and no destructor.
+// Reading an element before it is written gives whatever the memory held.
 template <class T>
 struct UninitializedAllocator {
     // Their lifetime begins with the memory's (C++20 [intro.object], implicit-lifetime types).

@@ -10,8 +10,8 @@ namespace strata::rasterizer {
 
 // A vertex in the window, shared by all triangles that it is a corner of.
 struct WindowCorner {
-    // Snapped, y down: coverage, area and facing start from it, and planes unless PlaneOrigin::unsnapped says
-    // otherwise.
+    // Snapped, y down: coverage, area and facing start from it,
+    // and planes unless PlaneOrigin::unsnapped says otherwise.
     SubpixelPoint p;
     // The position before snapping, in pixels.
     std::array<float, 2> unsnapped{};

@@ -19,8 +19,8 @@ namespace strata::rasterizer {
 
 // d16f: 4 bits of exponent, 12 of mantissa, no sign; values below its smallest normal one are 0.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f };
-// How a value becomes a fixed-point code: cut, or to nearest with a half going up. The float formats do not look at
-// it.
+// How a value becomes a fixed-point code: cut, or to nearest
+// with a half going up. The float formats do not look at it.
 enum class DepthRounding : std::uint8_t { floor, nearest };
 
 // The ways in which formats make a code of a value.

@@ -171,8 +171,8 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
     return fate;
 }
 
-// Outside of one plane with all three vertices: nothing needs to be cut. Only the planes that some vertex is outside
-// of cut it.
+// Outside of one plane with all three vertices: nothing needs to
+// be cut. Only the planes that some vertex is outside of cut it.
 void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     const auto& [a, b, c] = triangle.vertex;
     const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;
@@ -191,8 +191,8 @@ void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     count(fate, triangle, out.counters);
 }
 
-// Boxes and areas of a whole group cost about as much as one triangle's. Marked triangles, and those with an offset,
-// go the general way.
+// Boxes and areas of a whole group cost about as much as one triangle's.
+// Marked triangles, and those with an offset, go the general way.
 void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
     TriangleGroup group;
     load_corners(

@@ -48,8 +48,8 @@ struct WindowVertex {
     return static_cast<std::int32_t>((scaled + round_at_one) - round_at_one);
 }
 
-// Scale and offset of each axis for one draw, computed in binary64 where depth is concerned and rounded once to
-// binary32 (coverage.md 3.1).
+// Scale and offset of each axis for one draw, computed in binary64 where
+// depth is concerned and rounded once to binary32 (coverage.md 3.1).
 class WindowTransform {
   public:
     constexpr WindowTransform(const RasterState& state, const RasterRules& rules) noexcept
@@ -64,8 +64,8 @@ class WindowTransform {
               static_cast<float>((symmetric ? (n + f) * 0.5 : n) * units)};
     }
 
-    // Inside the planes of clip.h w is at least least_w. Window positions know no planes: what is not finite then is
-    // found by set-up.
+    // Inside the planes of clip.h w is at least least_w. Window positions
+    // know no planes: what is not finite then is found by set-up.
     [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v) const noexcept {
         if (rules_.w_divide == WDivide::nv20) return project_nv20(v);
         const float inverse_w = 1.0f / v.w;

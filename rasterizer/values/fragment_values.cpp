@@ -215,8 +215,8 @@ int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const Tri
     return 0;
 }
 
-// A path's depth as binary64 in the buffer's own units, before any clamp: what is compared unquantised, and what value
-// paths convert.
+// A path's depth as binary64 in the buffer's own units, before any
+// clamp: what is compared unquantised, and what value paths convert.
 int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                       const TriangleLanes& lanes, const float* shader_z, double* out) const {
     const DepthHypothesis& h = rules_.hypothesis;
@@ -310,8 +310,8 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
 
 int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const {
     if (!kernels_.attributes(varying, lanes)) return 0;
-    // The kernel met a lane that its filter left open: each plane is done again, with the exact arithmetic where it is
-    // needed.
+    // The kernel met a lane that its filter left open: each plane
+    // is done again, with the exact arithmetic where it is needed.
     int fallbacks = 0;
     alignas(64) Lanes<float> inverse_w;
     if (varying.has_w) fallbacks += round_plane(varying.inverse_w, lanes, inverse_w.data());
@@ -323,8 +323,8 @@ int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLa
     return fallbacks;
 }
 
-// The general way. Fragments are dropped as soon as they are known to be outside, so later arrays are filled for those
-// that are left.
+// The general way. Fragments are dropped as soon as they are known
+// to be outside, so later arrays are filled for those that are left.
 int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                 WeightLanes& weights) const {
     const auto f = static_cast<std::size_t>(first);

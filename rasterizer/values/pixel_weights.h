@@ -75,8 +75,8 @@ struct PixelWeights {
         return {static_cast<double>(edge.step_x()) * unit, static_cast<double>(edge.step_y()) * unit,
                 static_cast<double>(edge.at(pixel_centre(0, 0, subpixel_bits)))};
     }
-    // From the value at the box's first pixel back to pixel (0, 0); the tie was taken off for coverage and is put
-    // back.
+    // From the value at the box's first pixel back to pixel (0,
+    // 0); the tie was taken off for coverage and is put back.
     [[nodiscard]] static EdgePlane plane(const TriangleGroup& g, std::size_t k, std::size_t i) noexcept {
         const auto number = [k](const TriangleGroup::Row& row) {
             return std::int64_t{static_cast<std::int32_t>(row[k])};

@@ -21,8 +21,8 @@ struct DepthState {
 
 template <bool is_fixed>
 struct DepthOf {
-    // The planes of one triangle. Members are copies and const, so that stores of codes cannot make the compiler read
-    // them again.
+    // The planes of one triangle. Members are copies and const, so
+    // that stores of codes cannot make the compiler read them again.
     template <bool unsnapped>
     class Shade {
       public:

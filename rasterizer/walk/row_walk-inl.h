@@ -59,8 +59,8 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
     return bytes[0];
 }
 
-// The slow paths take copies. If they took the plane by reference, the compiler would keep it in memory in the fast
-// path, too.
+// The slow paths take copies. If they took the plane by reference,
+// the compiler would keep it in memory in the fast path, too.
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
     if (HWY_UNLIKELY(plane.is_constant()))
         return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);

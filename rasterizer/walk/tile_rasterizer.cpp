@@ -55,8 +55,8 @@ class TileRasterizer::Pass {
                                 group_.y0[k] - static_cast<std::uint32_t>(region.y0),
                                 static_cast<std::uint32_t>(region.width()), record.primitive};
         first_ = batch_.count;
-        // A pixel is held already, or the room is short: the batch goes on its way, and an empty one takes every small
-        // triangle.
+        // A pixel is held already, or the room is short: the batch goes
+        // on its way, and an empty one takes every small triangle.
         if (!small_.emit(group_, k, place, owner_.claims_, batch_)) {
             flush();
             static_cast<void>(small_.emit(group_, k, place, owner_.claims_, batch_));
