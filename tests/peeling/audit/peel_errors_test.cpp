@@ -3,8 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "peeling/audit/region_trace.h"
+
 using namespace strata::peeling;
-using strata::pipeline::RegionTrace;
 using strata::pipeline::TraceEntry;
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "peeling/registry.h"
 #include "peeling/render.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
