@@ -191,8 +191,7 @@ void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     count(fate, triangle, out.counters);
 }
 
-// Boxes and areas of a whole group cost about as much as one triangle's.
-// Marked triangles, and those with an offset, go the general way.
+// Boxes and areas are found for a whole group at once. Marked triangles, and those with an offset, go the general way.
 void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
     TriangleGroup group;
     load_corners(
