@@ -59,7 +59,8 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
     return bytes[0];
 }
 
-// The rare ways below get copies: what a function elsewhere has seen the address of, the compiler keeps in memory.
+// The slow paths take copies. If they took the plane by reference,
+// the compiler would keep it in memory in the fast path, too.
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
     if (HWY_UNLIKELY(plane.is_constant()))
         return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
@@ -81,13 +82,14 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
     return hn::Load(F32{}, values);
 }
 
-// As the test LESS compares codes: those of binary32 as what they are.
+// LESS of stored codes. D32F codes compare as the floats that they are, because a clear may have left any float there.
 HWY_INLINE RowMask nearer(hn::Vec<U32> code, hn::Vec<U32> stored, bool is_fixed) {
     return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored))
                     : hn::Lt(hn::BitCast(F32{}, code), hn::BitCast(F32{}, stored));
 }
 
-// What weights have in common by column, or by row.
+// The terms of weights that depend on the column alone, or on the row alone, for up to `count` neighbours: `from`
+// gives those of row_lanes neighbours, `of` those of one in all lanes.
 template <int count>
 class TermTable {
   public:
@@ -107,6 +109,8 @@ concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b)
     shade(at, b);
 };
 
+// Draws the triangles of a list in a region. `State` is what the pass keeps; a Shade is made for each triangle (or
+// each max_span_rows rows of a large one) and dies after its finish().
 template <template <bool> class Shade, class State>
 class RowWalk {
   public:
@@ -194,7 +198,7 @@ class RowWalk {
             columns[part] = at.column_terms(numbers_from(x0 + static_cast<int>(part * row_lanes)));
             row_terms.set(part * row_lanes, at.row_terms(numbers_from(y0 + static_cast<int>(part * row_lanes))));
         }
-        // What is written to the targets may be anything, for all that the compiler knows: nothing is read anew in the loop.
+        // The compiler must assume that a store to a target changes any member: what the loop needs is read before it.
         const auto width = static_cast<std::size_t>(region_.width());
         const std::uint32_t first_row = coverage.first_row(), end_row = coverage.end_row(group_.height[k]);
         std::size_t first = pixel(x0, y0) + first_row * width;
