@@ -14,10 +14,13 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
     std::unique_ptr<OIIO::ImageInput> reader = OIIO::ImageInput::create(picture.reader);
     if (!reader) throw std::runtime_error(std::string("OpenImageIO has no reader named ") + picture.reader);
     OIIO::ImageSpec spec, how;
+    // Straight alpha: the reader would multiply the colours by it.
     how.attribute("oiio:UnassociatedAlpha", 1);
     reader->set_ioproxy(&memory);
     if (!reader->open(std::string("image.") + picture.reader, spec, how))
         place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
+    // The memory budget was paid for the header's size: a decoder that finds another size is stopped before it
+    // writes.
     if (spec.width != picture.width || spec.height != picture.height || spec.depth != 1 || spec.nchannels < 1 ||
         spec.nchannels > 4)
         place.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
@@ -28,6 +31,7 @@ std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const 
 Codes read(OIIO::ImageInput& reader, const Place& place) {
     const OIIO::ImageSpec& spec = reader.spec();
     const std::size_t count = static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels;
+    // 16-bit channels are read as they are: the reader's own way to 8 bits would round by a rule of its own.
     const bool is_wide = spec.format == OIIO::TypeDesc::UINT16;
     std::vector<std::uint16_t> wide(is_wide ? count : 0);
     Codes codes(is_wide ? 0 : count);
@@ -36,11 +40,13 @@ Codes read(OIIO::ImageInput& reader, const Place& place) {
         place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader.geterror()));
     if (!is_wide) return codes;
     codes.reserve(count);
+    // c / 257 to the nearest code, for 65535 = 255 * 257. The sum stays below 2^17 in int.
     for (const std::uint16_t c : wide) codes.push_back(static_cast<std::uint8_t>((c + 128) / 257));
     return codes;
 }
 
 // Grey, grey and alpha, rgb or rgba to rgba.
+// 1, 2, 3 or 4 channels; grey fills red, green and blue, and a missing alpha is 255.
 Codes to_rgba(const Codes& codes, std::size_t channels) {
     const bool is_grey = channels < 3, has_alpha = channels % 2 == 0;
     Codes texels;

@@ -13,6 +13,7 @@ namespace {
 
 using OIIO::TypeDesc;
 
+// The side that the project's own targets may have; a header that says more is damage or another kind of file.
 constexpr int max_size = 16384;
 
 void check_size(const std::string& path, const OIIO::ImageSpec& spec) {
@@ -29,6 +30,7 @@ std::unique_ptr<OIIO::ImageInput> open(const std::string& path) {
     auto input = OIIO::ImageInput::create("openexr");
     OIIO::ImageSpec spec;
     if (input == nullptr || !input->open(path, spec)) throw InputError(path, "file", "an EXR image", "something else");
+    // Every part is looked at before the first is read.
     for (int part = 0; input->seek_subimage(part, 0); ++part) check_size(path, input->spec());
     (void)input->geterror();  // the last seek's
     return input;
@@ -42,21 +44,25 @@ StoredType as_stored(TypeDesc type) noexcept {
 
 PartHeader header_of(const OIIO::ImageSpec& spec) {
     PartHeader header{.width = spec.width, .height = spec.height, .is_deep = spec.deep};
+    // "" unless the part says its name, as a file of one part need not.
     header.name = spec.get_string_attribute("oiio:subimagename").str();
     for (int c = 0; c < spec.nchannels; ++c)
         header.channels.push_back({spec.channel_name(c).str(), as_stored(spec.channelformat(c))});
+    // Attributes of other types are passed over: the project reads back text alone.
     for (const OIIO::ParamValue& attribute : spec.extra_attribs)
         if (attribute.type() == TypeDesc::STRING)
             header.attributes.emplace(attribute.name().string(), attribute.get_string());
     return header;
 }
 
+// UNKNOWN asks for the channels in their own types, which copies the bytes.
 void read_flat(OIIO::ImageInput& input, int number, StoredPart& part) {
     const OIIO::ImageSpec spec = input.spec(number, 0);
     part.bytes.resize(spec.image_bytes(true));
     part.is_whole = input.read_image(number, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, part.bytes.data());
 }
 
+// Sample by sample, the channels side by side, as PartSource::rows has them; a pixel may have no sample.
 void read_deep(OIIO::ImageInput& input, int number, StoredPart& part) {
     OIIO::DeepData data;
     part.is_whole = input.read_native_deep_image(number, 0, data);

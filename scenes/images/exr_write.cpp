@@ -33,6 +33,7 @@ void tell_space(OIIO::ImageSpec& spec, StoredSpace space) {
     spec.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), bt709);
 }
 
+// The header of one part. Whatever would depend on the time, the host or the library's defaults is set here.
 OIIO::ImageSpec spec_of(const PartHeader& header) {
     OIIO::ImageSpec spec = base_spec(header.width, header.height, header.attributes);
     spec.attribute("DateTime", "");  // else the writer stamps the present
@@ -57,6 +58,8 @@ bool write_flat(OIIO::ImageOutput& output, const PartSource& part) {
     return true;
 }
 
+// All samples are copied into the library's own store, channel by channel: it has no call for rows of deep
+// bytes.
 bool write_deep(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const PartSource& part) {
     OIIO::DeepData data{spec};
     data.set_all_samples(OIIO::cspan<unsigned int>(part.samples.data(), part.samples.size()));
@@ -72,6 +75,8 @@ bool write_deep(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const Pa
     return output.write_deep_image(data);
 }
 
+// All parts are declared at the first open; each later one is opened by appending, and only after the part
+// before it is complete.
 bool write_all(OIIO::ImageOutput& output, const std::string& path, std::span<const PartSource> parts) {
     std::vector<OIIO::ImageSpec> specs;
     for (const PartSource& part : parts) specs.push_back(spec_of(part.header));

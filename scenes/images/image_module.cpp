@@ -5,6 +5,7 @@
 
 extern "C" __attribute__((visibility("default"))) const strata::scenes::ImageModule* strata_image_module() {
     using namespace strata::scenes;
+    // The library is built with hidden symbols: this function is its whole face.
     static const ImageModule module{.version = STRATA_VERSION,
                                     .write_png = images::write_png,
                                     .write_exr = images::write_exr,

@@ -55,6 +55,7 @@ struct PartSource {
     std::span<const std::uint32_t> samples{};  // of each pixel; deep parts alone have them
 };
 
+// What the reader hands over, a part at a time.
 struct StoredPart {
     PartHeader header;
     bool is_whole = false;                 // else the file is damaged and there are no bytes
@@ -70,12 +71,14 @@ struct ByteSink {
     std::function<std::int64_t()> position;
 };
 
+// 8-bit r, g, b, a in rows from the top, colours not multiplied by alpha.
 struct StraightPicture {
     int width = 0, height = 0;
     std::span<const std::uint8_t> rgba;
     std::map<std::string, std::string> attributes;
 };
 
+// The bytes of a PNG or JPEG file and what its header says of its size.
 struct EncodedPicture {
     Bytes bytes;
     const char* reader = "";  // "png" or "jpeg"

@@ -12,6 +12,7 @@ class SinkProxy : public OIIO::Filesystem::IOProxy {
   public:
     explicit SinkProxy(const ByteSink& sink) : IOProxy{sink.path, Write}, sink_{sink} {}
     [[nodiscard]] const char* proxytype() const override { return "strata"; }
+    // The owner of the sink closes the file; the library only stops to use it.
     void close() override { m_mode = Closed; }
     int64_t tell() override { return sink_.position(); }
     bool seek(int64_t offset) override { return sink_.seek(offset); }

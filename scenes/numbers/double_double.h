@@ -14,6 +14,8 @@ using rasterizer::fast_two_sum;
 using rasterizer::two_product;
 using rasterizer::two_sum;
 
+// Sums both parts exactly, then folds the rounding errors in from the small end; the last step leaves high as
+// the rounded sum.
 [[nodiscard]] constexpr DoubleDouble add(DoubleDouble a, DoubleDouble b) noexcept {
     const DoubleDouble high = two_sum(a.high, b.high), low = two_sum(a.low, b.low);
     const DoubleDouble sum = fast_two_sum(high.high, high.low + low.high);
@@ -22,6 +24,7 @@ using rasterizer::two_sum;
 
 [[nodiscard]] constexpr DoubleDouble negated(DoubleDouble a) noexcept { return {-a.high, -a.low}; }
 
+// The product of the low parts is left out: it is below the error that the rule allows.
 [[nodiscard]] constexpr DoubleDouble mul(DoubleDouble a, DoubleDouble b) noexcept {
     const DoubleDouble product = two_product(a.high, b.high);
     return fast_two_sum(product.high, product.low + (a.high * b.low + a.low * b.high));

@@ -41,6 +41,7 @@ DoubleDouble alternating_series(DoubleDouble x, int first) noexcept {
     return sum;
 }
 
+// The quadrant turns the angle by k pi/2: odd ones exchange sine and cosine, the upper two change the sign.
 DoubleDouble sine(Reduced angle) noexcept {
     const DoubleDouble series = alternating_series(angle.rest, angle.quadrant % 2 == 0 ? 1 : 0);
     return angle.quadrant < 2 ? series : negated(series);
@@ -59,6 +60,7 @@ double power_of_two(int exponent) noexcept {
 
 // ln(x) = e ln 2 + 2 artanh((m - 1) / (m + 1)) with x = 2^e m, m between sqrt(1/2) and sqrt(2).
 DoubleDouble logarithm(double x) noexcept {
+    // A denormal has no implicit leading bit: scaled by 2^54 it is normal, and the exponent takes the 54 back.
     const bool denormal = x < 0x1p-1022;
     const auto bits = std::bit_cast<std::uint64_t>(denormal ? x * 0x1p54 : x);
     int exponent = static_cast<int>(bits >> 52) - 1023 - (denormal ? 54 : 0);
@@ -77,6 +79,8 @@ DoubleDouble logarithm(double x) noexcept {
     return add(mul(ln2, {static_cast<double>(exponent), 0}), {2 * sum.high, 2 * sum.low});
 }
 
+// e^x with x = k ln 2 + rest. Above 709.79 the result exceeds the largest binary64, below -745.2 half the
+// smallest.
 double exponential(DoubleDouble x) noexcept {
     if (x.high > 709.79) return infinity;
     if (x.high < -745.2) return 0;
@@ -87,6 +91,7 @@ double exponential(DoubleDouble x) noexcept {
         term = div(mul(term, rest), {static_cast<double>(n), 0});
         sum = add(sum, term);
     }
+    // Two factors, for 2^exponent alone may lie outside the range of a normal number where the result does not.
     const int exponent = static_cast<int>(k), half = exponent / 2;
     return sum.high * power_of_two(half) * power_of_two(exponent - half);
 }
