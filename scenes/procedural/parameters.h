@@ -21,8 +21,10 @@ class Parameters {
     [[nodiscard]] std::size_t choice(std::string_view key, std::span<const std::string_view> choices) const;
 
   private:
+    // The text behind the key's equals sign, or null if the key is absent.
     [[nodiscard]] const std::string* find(std::string_view key) const;
 
+    // The whole text: errors quote it as the file's name.
     std::string spec_;
     std::vector<std::pair<std::string, std::string>> values_;
 };

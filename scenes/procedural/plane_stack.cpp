@@ -11,9 +11,13 @@ namespace {
 // 0.5 + 0.5 cos(2 pi (t - shift))
 float wave(double t, double shift) noexcept { return static_cast<float>(0.5 + 0.5 * cos(2 * pi * (t - shift))); }
 
+// Appends plane i. The grid has cells + i squares a side, so two planes share no edge: where they nearly
+// coincide, their depths come from different triangles and round differently, which is the point of the scene.
 void add_plane(pipeline::Mesh& mesh, const PlaneStack& stack, int i, const pipeline::Rgba& color) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const int cells = stack.cells + i;
+    // Distance of this plane from the middle of the stack along z, in units of the scene; `gap` counts steps of
+    // 2^-20.
     const double offset = (i - (stack.count - 1) * 0.5) * stack.gap * 0x1p-20;
     for (int row = 0; row <= cells; ++row) {
         const double y = -1 + 2.0 * row / cells;
@@ -24,7 +28,9 @@ void add_plane(pipeline::Mesh& mesh, const PlaneStack& stack, int i, const pipel
             mesh.colors.push_back(color);
         }
     }
+    // Vertices a row: one more than squares.
     const auto width = static_cast<std::uint32_t>(cells) + 1;
+    // Both triangles of a square run counterclockwise seen from +z and share the diagonal from a to d.
     for (std::uint32_t row = 0; row + 1 < width; ++row)
         for (std::uint32_t column = 0; column + 1 < width; ++column) {
             const std::uint32_t a = first + row * width + column, b = a + 1, c = a + width, d = c + 1;
@@ -40,6 +46,7 @@ Scene make_plane_stack(const SceneOptions& options, const PlaneStack& stack) {
     pipeline::Mesh mesh;
     mesh.name = "planes";
     for (int i = 0; i < stack.count; ++i) {
+        // The colours go once round the wheel; the last plane differs from the first.
         const double t = static_cast<double>(i) / stack.count;
         add_plane(mesh, stack, i,
                   from_encoded({wave(t, 0), wave(t, 1.0 / 3), wave(t, 2.0 / 3), 1}, options.color_space));

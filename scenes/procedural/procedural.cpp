@@ -18,6 +18,8 @@ namespace {
 
 using Keys = std::vector<std::string_view>;
 
+// The functions below give each parameter its range and default. procedural_scenes() says the same in words. A
+// cell is two triangles: 256 makes 4.2 million of them over the 32 patches.
 Scene teapot(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"tessellation"}};
     return make_teapot(options, static_cast<int>(parameters.integer("tessellation", 1, 256, 16)));
@@ -26,10 +28,13 @@ Scene teapot(const std::string& spec, const SceneOptions& options) {
 Scene volume_beam(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"slices", "order"}};
     const auto slices = static_cast<int>(parameters.integer("slices", 1, 65536, 32));
+    // The first choice is the default, so `far` stands first.
     const bool from_near = parameters.choice("order", Keys{"far", "near"}) == 1;
     return make_volume_beam(options, slices, from_near ? BeamOrder::near : BeamOrder::far);
 }
 
+// 10 million triangles take 960 MB of positions, colours and indices; the limit keeps a slip of the hand from
+// taking the machine.
 Scene random_soup(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"seed", "triangles"}};
     const auto triangles = static_cast<std::uint32_t>(parameters.integer("triangles", 0, 10'000'000, 1000));
@@ -43,11 +48,14 @@ Scene plane_stack(const std::string& spec, const SceneOptions& options) {
                                       .gap = static_cast<double>(parameters.integer("gap", 0, 1u << 20, 1u << 16))});
 }
 
+// An empty list of keys: any parameter is refused.
 Scene shadow_demo(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{}};
     return make_shadow_demo(options);
 }
 
+// The table that names, choice and suggestions come from. A new scene is a line here, and one in
+// procedural_scenes().
 struct Maker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
@@ -64,6 +72,7 @@ Keys names() {
     return result;
 }
 
+// Endings count in either case, letters of ASCII alone: the locale has no say.
 bool is_gltf_path(const std::string& spec) {
     std::string tail = spec.substr(spec.size() - std::min<std::size_t>(spec.size(), 5));
     std::ranges::transform(tail, tail.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
@@ -103,12 +112,16 @@ Scene make_procedural(const std::string& spec, const SceneOptions& options) {
         throw InputError(spec, "scene", fmt::format("one of {}", fmt::join(names(), ", ")),
                          quoted_with_suggestion(scene_name(spec), names()));
     }
+    // --scene N chooses among the scenes of a file; a formula makes one.
     if (options.scene.value_or(0) != 0)
         throw InputError(spec, "--scene", "0, the only one", std::to_string(*options.scene));
+    // The maker runs under the environment set above, so that a caller's rounding mode reaches no vertex.
     return maker->make(spec, options);
 }
 
 Scene load_scene(const std::string& spec, const SceneOptions& options) {
+    // The name decides first: "teapot:x.gltf" is the teapot with a wrong parameter, "./teapot:x.gltf" is a
+    // file.
     if (is_procedural(spec)) return make_procedural(spec, options);
     if (is_gltf_path(spec)) return load_gltf(spec, options);
     throw InputError(spec, "scene", fmt::format("a .gltf or .glb file, or one of {}", fmt::join(names(), ", ")),

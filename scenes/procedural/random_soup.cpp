@@ -9,6 +9,8 @@
 namespace strata::scenes {
 namespace {
 
+// Steele, Lea and Flood 2014, "Fast Splittable Pseudorandom Number Generators": integers alone, so the soup has
+// the same bits everywhere, which the standard library's distributions do not promise.
 class SplitMix64 {
   public:
     explicit SplitMix64(std::uint64_t seed) noexcept : state_{seed} {}
@@ -18,6 +20,7 @@ class SplitMix64 {
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
         return z ^ (z >> 31);
     }
+    // 0 to count - 1. The remainder favours small values by less than count / 2^64.
     int below(std::uint64_t count) noexcept { return static_cast<int>(next() % count); }
     float unit() noexcept { return static_cast<float>(next() >> 40) * 0x1p-24f; }  // 0 <= unit < 1, exact
 
@@ -25,6 +28,8 @@ class SplitMix64 {
     std::uint64_t state_;
 };
 
+// Coordinates are integers until the end: each is k / 8192 with |k| <= 8192 and thus exact in binary32, so
+// equal corners and points on a plane tie exactly.
 constexpr int one = 8192;  // grid steps in a unit
 using Corner = std::array<int, 3>;
 using Triangle = std::array<Corner, 3>;
@@ -32,6 +37,8 @@ using Triangle = std::array<Corner, 3>;
 // Even coordinates, so that a midpoint of two corners is on the grid.
 int even_in_range(int x) noexcept { return std::clamp(x, -one / 2, one / 2) * 2; }
 
+// The corners lie in a box round the center whose half side is one of seven powers of two, 1 down to 1/64 in
+// the units of the scene: one soup has large triangles and small ones.
 Triangle new_triangle(SplitMix64& random) noexcept {
     const int half_side = (one / 2) >> random.below(7);
     Corner center{};
@@ -46,6 +53,7 @@ Triangle new_triangle(SplitMix64& random) noexcept {
     return triangle;
 }
 
+// All corners at one z. There are few such z, so flat triangles that overlap often share their plane.
 Triangle flattened(Triangle triangle, int z) noexcept {
     for (Corner& corner : triangle) corner[2] = z;
     return triangle;
@@ -62,6 +70,8 @@ Triangle nested(const Triangle& outer) noexcept {
 }
 
 // `last` is the last new triangle; the first triangle of all is new whatever the dice say.
+// Of 16 triangles, on average, one repeats the last new one, one repeats it with the opposite winding, one lies
+// inside it and one is flat at one of 17 depths: the ties that peeling has to get right.
 Triangle next_triangle(SplitMix64& random, Triangle& last, bool first) noexcept {
     const int kind = random.below(16);
     if (!first) {
@@ -74,6 +84,8 @@ Triangle next_triangle(SplitMix64& random, Triangle& last, bool first) noexcept 
     return last;
 }
 
+// One triangle in eight is opaque. Alpha is never 0: a step of 2^-24 is added. The random numbers are all drawn
+// before the choice, so that each colour takes as many and the sequence behind it does not shift.
 pipeline::Rgba next_color(SplitMix64& random) noexcept {
     pipeline::Rgba color{};
     for (std::size_t i = 0; i < 3; ++i) color[i] = random.unit();
@@ -94,6 +106,7 @@ Scene make_random_soup(const SceneOptions& options, std::uint64_t seed, std::uin
     mesh.indices.reserve(std::size_t{3} * triangles);
     Triangle last{};
     for (std::uint32_t i = 0; i < triangles; ++i) {
+        // One triangle in four has a colour at each corner and is interpolated; the others repeat one.
         const bool color_per_corner = random.below(4) == 0;
         pipeline::Rgba color{};
         const Triangle triangle = next_triangle(random, last, i == 0);

@@ -10,6 +10,7 @@
 namespace strata::scenes {
 namespace {
 
+// The one rounding of each vertex.
 pipeline::Vec3 rounded(double x, double y, double z) noexcept {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
@@ -17,11 +18,15 @@ pipeline::Vec3 rounded(double x, double y, double z) noexcept {
 // 0.5 + 0.5 cos(2 pi (t - shift))
 float wave(double t, double shift) noexcept { return static_cast<float>(0.5 + 0.5 * cos(2 * pi * (t - shift))); }
 
+// Appends slice i of the stack; 0 is the one farthest from a viewer on +z, at the middle of its share of [-1,
+// 1].
 void add_slice(pipeline::Mesh& mesh, int i, int slices, pipeline::ColorSpace space) {
     const double t = (i + 0.5) / slices;
     const double z = -1 + 2 * (i + 0.5) / slices;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int k = 0; k < 4; ++k) {
+        // Quarters from 0.25 to 1, which differ from corner to corner and from slice to slice: the composite
+        // then depends on the order of the layers everywhere.
         const float alpha = 0.25f * static_cast<float>(1 + (7 * i + 5 * k) % 4);
         mesh.positions.push_back(rounded((k & 1) != 0 ? 1 : -1, (k & 2) != 0 ? 1 : -1, z));
         mesh.normals.push_back({0, 0, 1});
@@ -33,15 +38,20 @@ void add_slice(pipeline::Mesh& mesh, int i, int slices, pipeline::ColorSpace spa
 pipeline::Mesh planes(int slices, BeamOrder order, pipeline::ColorSpace space) {
     pipeline::Mesh mesh;
     mesh.name = "planes";
+    // The order of the mesh is the order of drawing; a slice's place and colour depend on i alone, so both
+    // orders draw the same slices.
     for (int i = 0; i < slices; ++i) add_slice(mesh, order == BeamOrder::far ? i : slices - 1 - i, slices, space);
     return mesh;
 }
 
+// Bands along the axis, and segments round it; 5,000 triangles.
 constexpr int rings = 50, segments = 50;
 
+// Ring j of the truncated cone about the y axis: from radius 0.02 at y = 0.9 to radius 0.85 at y = -0.9.
 void add_ring(pipeline::Mesh& mesh, int j, const pipeline::Rgba& color) {
     const double s = j / double{rings};
     const double y = 0.9 - 1.8 * s, radius = 0.02 + 0.83 * s;
+    // How much the radius grows for each unit downwards; the normal leans upwards by it.
     constexpr double slope = 0.83 / 1.8;
     const double length = std::sqrt(1 + slope * slope);
     for (int k = 0; k < segments; ++k) {
@@ -60,6 +70,7 @@ pipeline::Mesh cone(pipeline::ColorSpace space) {
     constexpr std::uint32_t row = segments;
     for (std::uint32_t j = 0; j < rings; ++j) {
         for (std::uint32_t k = 0; k < row; ++k) {
+            // The last segment closes on the ring's first vertex: no seam of doubled vertices.
             const std::uint32_t a = j * row + k, b = j * row + (k + 1) % row;
             const std::uint32_t c = a + row, d = b + row;
             mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
@@ -78,6 +89,8 @@ Scene make_volume_beam(const SceneOptions& options, int slices, BeamOrder order)
         scene.list.materials.push_back(
             {.name = name, .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = !options.light});
     }
+    // Drawn from the near end, the planes come nearest first at every pixel as seen from +z; from the far end
+    // they do not.
     scene.list.instances = {{.mesh = 0, .material = 0, .arrives_sorted = order == BeamOrder::near},
                             {.mesh = 1, .material = 1}};
     scene.bounds = bounds_of(scene.list);
