@@ -18,6 +18,8 @@ namespace strata::scenes {
 namespace {
 
 // What a signal handler may read: fixed storage and lock-free flags.
+// A path is written while its slot is `claimed`, when the handler passes it over, and read only while `active`.
+// 16 slots: a run writes a few files at a time.
 struct Slot {
     std::atomic<int> state{empty};
     char path[4096];
@@ -26,6 +28,8 @@ struct Slot {
 Slot slots[16];
 static_assert(std::atomic<int>::is_always_lock_free);
 
+// The path is entered before the file exists: an interrupt between the two finds nothing to unlink, which does
+// no harm; the other order would leave a file behind.
 int claim_slot(const std::string& path) {
     if (path.size() >= sizeof(Slot::path)) throw SystemError(path, "write", "the name is too long");
     for (int i = 0; i < static_cast<int>(std::size(slots)); ++i) {
@@ -38,6 +42,8 @@ int claim_slot(const std::string& path) {
     throw SystemError(path, "write", "too many files are being written at once");
 }
 
+// The process and a counter make the name its own; the same folder makes the later rename one step of one file
+// system. The dot in front hides it from a glob.
 std::string temporary_name(const std::string& path) {
     static std::atomic<unsigned> number{0};
     const std::filesystem::path target{path};
@@ -47,6 +53,8 @@ std::string temporary_name(const std::string& path) {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
+// Async-signal-safe calls alone: unlink and _exit. 128 + the signal is what a shell reports for a process that
+// a signal ended.
 extern "C" void on_interrupt(int signal) {
     remove_unfinished_files();
     ::_exit(128 + signal);
@@ -55,9 +63,12 @@ extern "C" void on_interrupt(int signal) {
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : path_{path}, temporary_{temporary_name(path)} {
+    // A rename onto a folder would fail only after all the work of rendering: the constructor says so at once.
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) throw SystemError(path, "write", reason(EISDIR));
     slot_ = claim_slot(temporary_);
+    // O_EXCL: a file of that name is somebody else's. Mode 0666 leaves the permissions to the umask, as for any
+    // new file.
     const int descriptor = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0) file_ = ::fdopen(descriptor, "wb");
     if (file_ == nullptr) {

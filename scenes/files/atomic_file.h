@@ -29,14 +29,17 @@ class AtomicFile {
     // For a library that opens files by name only: it writes this one, commit() puts it in its place.
     [[nodiscard]] const std::string& temporary() const noexcept { return temporary_; }
 
+    // Closes the file and gives it its name; call it once, last.
     void commit();  // SystemError if any write failed, or the rename does
 
   private:
+    // note_failure() keeps the first errno; discard() closes and unlinks what was not committed.
     void note_failure() noexcept;
     void discard() noexcept;
 
     std::string path_, temporary_;
     std::FILE* file_ = nullptr;
+    // Its entry in the table that a signal handler reads; -1 after commit().
     int slot_ = -1;
     int failure_ = 0;  // errno of the first failure
 };

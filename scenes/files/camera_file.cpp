@@ -62,6 +62,7 @@ std::optional<double> parse_hex_float(std::string_view text) {
     return negative ? -magnitude : magnitude;
 }
 
+// Every number of a camera file passes here: an infinity or a NaN would spread through both matrices.
 double number(const Place& place) {
     std::optional<double> value;
     if (place.value.is_number()) value = place.value.get<double>();
@@ -71,6 +72,7 @@ double number(const Place& place) {
     return *value;
 }
 
+// The length is compared first, so that an element's error can name its index.
 template <std::size_t count>
 std::array<double, count> numbers(const Place& place) {
     if (!place.value.is_array() || place.value.size() != count) {
@@ -82,6 +84,7 @@ std::array<double, count> numbers(const Place& place) {
     return result;
 }
 
+// Each wanted key once and no other; JSON repeats of a key are the parser's to merge, the last one wins.
 void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
     for (const auto& [key, value] : camera.value.items()) {
         if (std::ranges::find(wanted, key) == wanted.end())
@@ -94,6 +97,7 @@ void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
 
 // |a x b| relative to both lengths, squared.
 double squared_sine(const Vec3d& a, const Vec3d& b) noexcept {
+    // Vectors of length 0 have no direction: they count as parallel.
     const double aa = dot_product(a, a), bb = dot_product(b, b);
     const Vec3d c = cross_product(a, b);
     return aa > 0 && bb > 0 ? dot_product(c, c) / aa / bb : 0;
@@ -104,6 +108,8 @@ Vec3d vector(const Place& place) {
     return {x, y, z};
 }
 
+// Every condition that the matrices divide by: an angle with a tangent, near apart from far and from 0, an eye
+// away from its center, an up that is not along the line of sight.
 LookAt parse_look_at(const Place& camera) {
     check_keys(camera, look_at_keys);
     const LookAt result{.eye = vector(camera["eye"]),
@@ -117,11 +123,14 @@ LookAt parse_look_at(const Place& camera) {
     if (!(result.near > 0)) camera["near"].fail("a distance above 0");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
     if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
+    // The bound is 10^-12 for the sine itself: below it the cross product is rounding noise and the picture
+    // would turn with its last bits.
     if (!(squared_sine(minus(result.center, result.eye), result.up) > 1e-24))
         camera["up"].fail("a direction across the line of sight");
     return result;
 }
 
+// The library's own words are left out: they name no file and differ between its versions.
 json parse_json(const std::string& text, const std::string& name) {
     try {
         return json::parse(text);
@@ -132,6 +141,8 @@ json parse_json(const std::string& text, const std::string& name) {
     }
 }
 
+// std::to_chars writes the shortest hexadecimal digits that give the same bits back, without 0x; the sign goes
+// in front of it. A zero keeps its sign.
 std::string hex_float(double value) {
     char text[32];
     const auto [end, error] = std::to_chars(std::begin(text), std::end(text), std::abs(value), std::chars_format::hex);
@@ -157,6 +168,8 @@ pipeline::View parse_camera(const std::string& text, const std::string& name, do
             camera.fail(fmt::format("only the keys {}", fmt::join(all_keys, ", ")),
                         quoted_with_suggestion(key, all_keys));
     }
+    // A file with either of the matrix keys is of the second form, and check_keys() then asks for the other and
+    // refuses those of the first.
     if (!document.contains("view") && !document.contains("projection")) return look_at(parse_look_at(camera), aspect);
     check_keys(camera, matrix_keys);
     return {matrix_of(numbers<16>(camera["view"])), matrix_of(numbers<16>(camera["projection"]))};

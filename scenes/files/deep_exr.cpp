@@ -34,6 +34,7 @@ PartHeader header_of(const DeepFragments& fragments, const Attributes& attribute
 }
 
 // As the file holds it: premultiplied.
+// Each float as its bits: a NaN keeps its payload.
 Words words_of(const DeepFragments& fragments, std::size_t i) noexcept {
     const pipeline::Rgba& c = fragments.rgba[i];
     const float scale = fragments.premultiplied ? 1.0f : c[3];
@@ -46,6 +47,7 @@ Words words_of(const DeepFragments& fragments, std::size_t i) noexcept {
             fragments.primitive[i]};
 }
 
+// The inverse of words_of() for a premultiplied colour.
 void append(const Words& words, DeepFragments& fragments) {
     pipeline::Rgba color{};
     for (std::size_t c = 0; c < 4; ++c) color[c] = std::bit_cast<float>(words[c]);
@@ -62,6 +64,8 @@ class DeepRows {
 
     [[nodiscard]] const std::byte* encode(int first, int last) {
         const auto width = static_cast<std::size_t>(fragments_.width);
+        // first and last are rows, count is per pixel. The writer asks for the rows once and in order, which
+        // `next_` counts on.
         const auto begin = fragments_.count.begin() + static_cast<std::ptrdiff_t>(first * width);
         const auto end = fragments_.count.begin() + static_cast<std::ptrdiff_t>(last * width);
         words_.clear();
@@ -82,6 +86,7 @@ std::array<std::size_t, words_a_fragment> offsets_in(const PartHeader& header, c
     for (std::size_t i = 0; i < words_a_fragment; ++i) {
         const auto channel = find_channel(header, names[i]);
         const StoredType type = i < first_integer ? StoredType::single : StoredType::word;
+        // A deep file of another program has other channels: it is refused, not guessed at.
         if (!channel || channel->type != type)
             throw InputError(path, "part 0", std::string{"a channel "} + names[i] + " as strata writes it", "none");
         offsets[i] = channel->offset;
@@ -104,6 +109,7 @@ std::string digest(const DeepFragments& fragments) {
 
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes) {
     const FloatEnvironment environment;
+    // The counts and the lists must tell of the same number of fragments, or the rows run out of bounds.
     assert(std::accumulate(fragments.count.begin(), fragments.count.end(), std::size_t{0}) == fragments.z.size());
     if (image_file(path) != ImageFile::exr)
         throw InputError(path, "name", "a file name that ends in .exr", "another ending");
@@ -122,6 +128,7 @@ DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
         fragments.space = pipeline::ColorSpace::linear;
     fragments.count = part.samples;
     const std::size_t stride = pixel_bytes(part.header);
+    // A fragment at a time; its seven words may stand in any order in the file.
     for (std::size_t at = 0; at < part.bytes.size(); at += stride) {
         Words words{};
         for (std::size_t i = 0; i < words_a_fragment; ++i)
@@ -135,6 +142,7 @@ DeepFragments read_deep(const std::string& path) {
     const FloatEnvironment environment;
     std::vector<StoredPart> parts;
     image_module().read_exr(path, [&](StoredPart&& part) { parts.push_back(std::move(part)); });
+    // read_exr() answers at least one part or throws.
     return as_fragments(parts.front(), path);
 }
 

@@ -28,10 +28,13 @@ using pipeline::Image;
 
 constexpr std::string_view channel_names[4] = {"R", "G", "B", "A"};
 
+// Premultiplied half and binary32 targets: what viewers want is what the target holds. A unorm8 code is an
+// integer and never a channel's value.
 bool values_are_codes(const OutputColor& image) noexcept {
     return image.premultiplied && pipeline::info(image.color.format).type != ChannelType::unorm8;
 }
 
+// The channels in the order of a pixel's bytes; append_pixel() below writes them in this order.
 PartHeader header_of(const OutputColor& image) {
     PartHeader header{.width = image.color.width, .height = image.color.height};
     const auto add = [&](std::string name, StoredType type) { header.channels.push_back({std::move(name), type}); };
@@ -51,8 +54,10 @@ PartHeader header_of(const OutputColor& image) {
 // Rows of pixels as PartSource gives them: the channels of one pixel after the other, each in its own type.
 class Rows {
   public:
+    // The image must outlive the rows.
     explicit Rows(const OutputColor& image) : image_{image}, type_{pipeline::info(image.color.format).type} {}
 
+    // Rows `first` to `last` - 1, in a buffer that the next call overwrites.
     [[nodiscard]] const std::byte* encode(int first, int last) {
         bytes_.clear();
         for (int y = first; y < last; ++y)
@@ -70,6 +75,7 @@ class Rows {
     void append_pixel(int x, int y) {
         const int channels = image_.color.channels();
         const std::uint32_t* codes = &image_.color.codes[image_.color.index(x, y)];
+        // bare: the channel is the code itself, and no "bits" channel follows.
         const bool bare = values_are_codes(image_);
         for (int c = 0; c < channels; ++c) {
             if (bare && type_ == ChannelType::half) append(static_cast<std::uint16_t>(codes[c]));
@@ -79,12 +85,14 @@ class Rows {
         const bool has_depth = !image_.depth.codes.empty();
         const std::uint32_t depth = has_depth ? image_.depth.codes[image_.depth.index(x, y)] : 0;
         const auto format = pipeline::depth_format(image_.depth.format);
+        // Z is the value, rounded, for other programs; Zbits below is what a comparison reads.
         if (has_depth) append(static_cast<float>(rasterizer::depth_value(depth, format)));
         if (!bare)
             for (int c = 0; c < channels; ++c) append(codes[c]);
         if (has_depth) append(depth);
     }
 
+    // Alpha itself, and colours without alpha, stay as they are. One multiplication, rounded once.
     [[nodiscard]] float premultiplied(const std::uint32_t* codes, int c, int channels) const noexcept {
         const float v = channel_value(type_, codes[c]);
         return image_.premultiplied || channels < 4 || c == 3 ? v : v * channel_value(type_, codes[3]);
@@ -95,11 +103,13 @@ class Rows {
     std::vector<std::byte> bytes_;
 };
 
+// The source keeps its rows alive: it is copied into the writer's list.
 PartSource source_of(const OutputColor& image) {
     const auto rows = std::make_shared<Rows>(image);
     return {.header = header_of(image), .rows = [rows](int first, int last) { return rows->encode(first, last); }};
 }
 
+// A format's name as an attribute says it; nothing for any other text.
 std::optional<Format> format_named(std::string_view name) {
     for (const Format format : enum_values<Format>)
         if (pipeline::info(format).name == name) return format;
@@ -110,6 +120,8 @@ StoredType type_of_codes(Format format) {
     return pipeline::info(format).type == ChannelType::half ? StoredType::half : StoredType::single;
 }
 
+// The way back from a part of a file to targets. It works for files of other programs as far as they have R G B
+// A.
 class PartReader {
   public:
     PartReader(const StoredPart& part, int number, const std::string& path)
@@ -141,6 +153,9 @@ class PartReader {
         return red->type == StoredType::half ? Format::rgba16f : Format::rgba32f;
     }
 
+    // One target from the channels `names`. The "bits" channel holds the codes where there is one; else the
+    // channel itself must be of the type that the format's codes have, for a converted value would not be the
+    // code.
     [[nodiscard]] Image target(Format format, const std::vector<std::string>& names) const {
         Image image{format, header_.width, header_.height};
         const auto channels = static_cast<std::size_t>(image.channels());
@@ -154,6 +169,7 @@ class PartReader {
         return image;
     }
 
+    // memcpy, for a channel may begin at any byte of a pixel. A half fills the low 16 bits of its word.
     void copy_codes(const ChannelPlace& source, Image& image, std::size_t channel) const {
         const auto channels = static_cast<std::size_t>(image.channels());
         const std::byte* from = part_.bytes.data() + source.offset;
@@ -187,6 +203,7 @@ void write_layers(const std::string& path, std::span<const OutputColor> layers) 
     std::vector<PartSource> parts;
     for (const OutputColor& layer : layers) {
         parts.push_back(source_of(layer));
+        // Three digits sort up to a thousand layers; beyond that the number grows.
         parts.back().header.name = fmt::format("layer.{:03}", parts.size() - 1);
     }
     write_exr_parts(path, parts);

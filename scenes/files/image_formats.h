@@ -36,6 +36,8 @@ struct ChannelPlace {
 };
 [[nodiscard]] std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::string& name);
 
+// Writers and readers of one format each; image_io.cpp chooses. The readers throw InputError, the writers
+// SystemError.
 void write_png(const std::string& path, const OutputColor& image);
 void write_exr(const std::string& path, const OutputColor& image);
 [[nodiscard]] std::vector<FileImage> read_png(const std::string& path);

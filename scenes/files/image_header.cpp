@@ -17,6 +17,7 @@ std::uint32_t big_endian32(Bytes bytes, std::size_t at) {
     return big_endian16(bytes, at) << 16 | big_endian16(bytes, at + 2);
 }
 
+// The bytes decide what an image is; the type that a file names is compared with them by the caller.
 bool is_png(Bytes bytes) {
     return bytes.size() >= png_signature.size() &&
            std::equal(png_signature.begin(), png_signature.end(), bytes.begin(),
@@ -24,6 +25,8 @@ bool is_png(Bytes bytes) {
 }
 bool is_jpeg(Bytes bytes) { return bytes.size() >= 3 && big_endian16(bytes, 0) == 0xffd8 && byte_at(bytes, 2) == 0xff; }
 
+// `least_bytes` is the smallest file that can hold an image of this size: a header that promises more is
+// refused before memory is asked for its texels.
 void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_t bytes, const Place& place) {
     const std::string size = std::to_string(header.width) + " x " + std::to_string(header.height);
     if (header.width == 0 || header.height == 0) place.fail("IMAGE_DATA_INVALID", "an image with texels", size);
@@ -34,6 +37,7 @@ void check_size(const ImageHeader& header, std::uint64_t least_bytes, std::size_
                    std::to_string(bytes));
 }
 
+// The checksum runs over the chunk's type and data, PNG 5.5; the table holds its value for each byte.
 constexpr std::array<std::uint32_t, 256> crc_table = [] {  // PNG annex D
     std::array<std::uint32_t, 256> table{};
     for (std::uint32_t n = 0; n < 256; ++n) {
@@ -69,12 +73,15 @@ void check_png_chunks(Bytes bytes, const Place& place) {
 }
 
 ImageHeader png_header(Bytes bytes, const Place& place) {
+    // A PNG begins with the signature of 8 bytes and the chunk IHDR, PNG 11.2.2.
     constexpr std::size_t ihdr = 8, end = 33;  // length, "IHDR", 13 bytes, checksum
     if (bytes.size() < end) place.fail("IMAGE_UNEXPECTED_EOS", "a PNG header", std::to_string(bytes.size()) + " bytes");
     if (big_endian32(bytes, ihdr) != 13 || big_endian32(bytes, ihdr + 4) != 0x49484452)
         place.fail("IMAGE_DATA_INVALID", "an IHDR chunk first", "another");
     const ImageHeader header{ImageKind::png, big_endian32(bytes, ihdr + 8), big_endian32(bytes, ihdr + 12)};
     const std::uint64_t bits = byte_at(bytes, ihdr + 16);  // at least one channel of them a texel
+    // Bytes of the unpacked rows, with less than the file's true depth where it has several channels: a lower
+    // bound.
     const std::uint64_t raw = (std::uint64_t{header.width} * bits + 7) / 8 * header.height;
     check_size(header, raw / deflate_ratio, bytes.size(), place);
     check_png_chunks(bytes, place);
@@ -99,6 +106,8 @@ std::uint32_t next_marker(Bytes bytes, std::size_t& at) {
     return 0;
 }
 
+// A walk over all marker segments: the frame says the size, and the scans are counted, for a progressive file
+// of few bytes can ask for any number of walks over the image.
 ImageHeader jpeg_header(Bytes bytes, const Place& place) {
     ImageHeader header{ImageKind::jpeg, 0, 0};
     constexpr std::uint32_t scan = 0xda, end_of_image = 0xd9;
@@ -109,6 +118,7 @@ ImageHeader jpeg_header(Bytes bytes, const Place& place) {
         if (is_frame(marker)) {
             if (header.width != 0) place.fail("IMAGE_DATA_INVALID", "one frame", "another");
             header = {ImageKind::jpeg, big_endian16(bytes, at + 5), big_endian16(bytes, at + 3)};
+            // A block of 64 samples takes at least a bit, so a byte holds at most 512 samples.
             check_size(header, std::uint64_t{header.width} * header.height / 512, bytes.size(), place);
             const std::uint32_t channels = byte_at(bytes, at + 7);
             if (channels != 1 && channels != 3)
@@ -116,6 +126,8 @@ ImageHeader jpeg_header(Bytes bytes, const Place& place) {
         }
         if (marker == scan && ++scans > max_jpeg_scans)
             place.fail("IMAGE_DATA_INVALID", "at most " + std::to_string(max_jpeg_scans) + " scans", "more");
+        // TEM, 0x01, has no length behind it; every other marker here has one, in 16 bits that count
+        // themselves.
         if (marker != 0x01) at += big_endian16(bytes, at);
     }
     if (header.width == 0 || scans == 0) place.fail("IMAGE_DATA_INVALID", "a frame and a scan", "none");

@@ -16,6 +16,7 @@
 namespace strata::scenes {
 namespace {
 
+// `ending` is in small letters; the path's may be in either case.
 bool ends_with(const std::string& path, std::string_view ending) {
     if (path.size() < ending.size()) return false;
     return std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
@@ -30,6 +31,7 @@ ImageFile image_file(const std::string& path) {
     throw InputError(path, "name", "a file name that ends in .png or .exr", "another ending");
 }
 
+// A code is 8, 16 or 32 bits in the low end of its word; the type says which.
 float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept {
     if (type == pipeline::ChannelType::unorm8) return pipeline::from_unorm8(static_cast<std::uint8_t>(code));
     if (type == pipeline::ChannelType::half) return pipeline::half_to_float(static_cast<std::uint16_t>(code));
@@ -37,14 +39,17 @@ float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept {
 }
 
 void write_with(const std::string& path, const std::function<std::string(const ByteSink& sink)>& write) {
+    // A missing module must fail here, with no temporary file made.
     const ImageModule& loaded = image_module();  // before there is a file
     static_cast<void>(loaded);
     AtomicFile file{path};
+    // The sink's functions never throw: exceptions must not pass through the library that calls them.
     const std::string failure =
         write({.path = file.temporary(),
                .write = [&](const void* bytes, std::size_t size) { return file.write(bytes, size); },
                .seek = [&](std::int64_t position) { return file.seek(position); },
                .position = [&] { return file.position(); }});
+    // Where both know of a failure, commit() throws the system's reason, which says more than the library's.
     if (failure.empty() || file.failed()) return file.commit();  // which knows the system's reason
     throw SystemError(path, "write", failure);
 }
@@ -53,6 +58,7 @@ void write_exr_parts(const std::string& path, std::span<const PartSource> parts)
     write_with(path, [&](const ByteSink& sink) { return image_module().write_exr_parts(sink.path, parts); });
 }
 
+// The prefix keeps the project's keys apart from those that a format or a library gives a meaning.
 Attributes prefixed(const Attributes& attributes) {
     Attributes named;
     for (const auto& [key, value] : attributes) named.emplace("strata:" + key, value);
@@ -72,6 +78,7 @@ StoredSpace stored_space(pipeline::ColorSpace space) noexcept {
     return space == pipeline::ColorSpace::encoded ? StoredSpace::srgb : StoredSpace::linear;
 }
 
+// Channels stand one after the other in a pixel's bytes, in the header's order and without padding.
 std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::string& name) {
     std::size_t offset = 0;
     for (const StoredChannel& channel : header.channels) {
@@ -81,6 +88,7 @@ std::optional<ChannelPlace> find_channel(const PartHeader& header, const std::st
     return std::nullopt;
 }
 
+// The writer's own keys replace the caller's of the same name: they state what is in the file.
 Attributes described(const OutputColor& image) {
     Attributes attributes = image.attributes;
     attributes["format.color"] = pipeline::info(image.color.format).name;
@@ -95,6 +103,7 @@ Attributes described(const OutputColor& image) {
 
 void write_image(const std::string& path, const OutputColor& image) {
     const FloatEnvironment environment;
+    // Samples are resolved before: an image file has one value a pixel.
     assert(pipeline::is_color(image.color.format) && image.color.samples == 1);
     switch (image_file(path)) {
         case ImageFile::png: return write_png(path, image);
@@ -102,6 +111,7 @@ void write_image(const std::string& path, const OutputColor& image) {
     }
 }
 
+// The header has been read by image_header.cpp; the decoder is told what to expect and refuses anything else.
 std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place) {
     return image_module().decode({.bytes = bytes,
                                   .reader = header.kind == ImageKind::png ? "png" : "jpeg",
@@ -127,6 +137,7 @@ std::vector<FileDigest> digests_of(const std::string& path) {
         digests.push_back({found.part, found.target, std::string{pipeline::info(image.format).name}, image.width,
                            image.height, digest(image)});
     };
+    // A PNG is one target; an EXR's parts come one by one and are dropped when their digest is known.
     if (image_file(path) == ImageFile::png) {
         for (const FileImage& image : read_png(path)) add(image);
         return digests;

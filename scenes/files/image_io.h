@@ -28,11 +28,13 @@ struct OutputColor {
     Attributes attributes{};  // formats, digests and colour space are added by the writer
 };
 
+// What the ending of a file's name asks for.
 enum class ImageFile : std::uint8_t { png, exr };
 
 // By the name's ending; InputError if it is neither .png nor .exr. Call it before rendering.
 [[nodiscard]] ImageFile image_file(const std::string& path);
 
+// One target, with its depths in an .exr; a .png leaves depths out.
 void write_image(const std::string& path, const OutputColor& image);
 
 // Part `layer.000`, `layer.001` ... of one EXR file; all of one size, and at least one.
@@ -45,12 +47,16 @@ struct DeepFragments {
     pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
     std::vector<std::uint32_t> count{};       // fragments a pixel
     std::vector<std::uint32_t> depth_code{};  // the others: one entry a fragment
+    // The depth as a value, and the colour at that fragment.
     std::vector<float> z{};
     std::vector<pipeline::Rgba> rgba{};
+    // The number of the triangle in submission order.
     std::vector<std::uint32_t> primitive{};
     friend bool operator==(const DeepFragments&, const DeepFragments&) = default;
 };
 
+// One deep part, in the binary32 and u32 channels that deep_exr.cpp lists. InputError unless the name ends in
+// .exr.
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes);
 [[nodiscard]] DeepFragments read_deep(const std::string& path);  // rgba as in the file: premultiplied
 
@@ -73,6 +79,7 @@ struct FileDigest {
     int width = 0, height = 0;
     std::string digest;
 };
+// Part by part, so that no more than one part of a large file is in memory.
 [[nodiscard]] std::vector<FileDigest> digests_of(const std::string& path);
 
 // What a .png of `image` holds: straight 8-bit colours, encoded.

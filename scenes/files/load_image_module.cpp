@@ -12,6 +12,7 @@ namespace {
 constexpr const char* file_name = STRATA_IMAGE_MODULE;         // strata_images.so
 constexpr const char* installed_folder = STRATA_IMAGE_FOLDER;  // from the program's folder, when installed
 
+// dlerror() answers null where nothing has failed since it was last asked.
 std::string last_reason() {
     const char* reason = ::dlerror();
     return reason != nullptr ? reason : "no reason given";
@@ -22,6 +23,9 @@ ImageModuleEntry entry_in(void* library) {
     return reinterpret_cast<ImageModuleEntry>(::dlsym(library, image_module_symbol));
 }
 
+// In this order: an entry that the program already holds (tests link the module), the program's own folder (a
+// build), the folder beside it where an installation puts it. The current folder and the search path are left
+// out, so that no stray library is run.
 ImageModuleEntry find_entry() {
     if (const ImageModuleEntry linked = entry_in(RTLD_DEFAULT)) return linked;
     std::error_code ignored;
@@ -30,6 +34,7 @@ ImageModuleEntry find_entry() {
         if (!std::filesystem::exists(path, ignored)) continue;
         void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // for as long as the process lives
         const ImageModuleEntry entry = library != nullptr ? entry_in(library) : nullptr;
+        // A library that is there and does not load is an error of its own: a second place would hide it.
         if (entry == nullptr) throw SystemError(path.string(), "load the image module", last_reason());
         return entry;
     }
@@ -41,6 +46,7 @@ ImageModuleEntry find_entry() {
 
 const ImageModule& load() {
     const ImageModule& module = *find_entry()();
+    // The table's layout has no version of its own: program and module must come from one build of the project.
     if (module.version != std::string{STRATA_VERSION})
         throw SystemError(file_name, "load the image module",
                           "expected version " STRATA_VERSION ", found " + std::string{module.version});
@@ -50,6 +56,7 @@ const ImageModule& load() {
 }  // namespace
 
 const ImageModule& image_module() {
+    // Once a process, and safe from several threads; a failure is tried again by the next call.
     static const ImageModule& module = load();
     return module;
 }

@@ -24,16 +24,21 @@ using pipeline::Format;
 using pipeline::Image;
 
 // 255 c / a to the nearest code, a half goes up.
+// c and a are at most 255, so that every product is below 2^18. A premultiplied colour above its alpha gives
+// 255.
 std::uint32_t divided_by_alpha(std::uint32_t c, std::uint32_t a) noexcept {
     return a == 0 ? 0 : std::min((2 * 255 * c + a) / (2 * a), 255u);
 }
 
+// The integer road: codes in, codes out, no float on the way. A straight target is copied.
 void convert_codes(const std::uint32_t* from, std::uint32_t* to, bool premultiplied) noexcept {
     const std::uint32_t alpha = from[3];
     for (int c = 0; c < 3; ++c) to[c] = premultiplied ? divided_by_alpha(from[c], alpha) : from[c];
     to[3] = alpha;
 }
 
+// The road over values, for half and binary32 targets and for the linear space. Alpha is never encoded: it is a
+// share, not light.
 void convert_values(const std::uint32_t* from, std::uint32_t* to, ChannelType type, const OutputColor& image) noexcept {
     const float alpha = channel_value(type, from[3]);
     for (int c = 0; c < 3; ++c) {
@@ -51,8 +56,10 @@ Image as_straight_rgba8(const OutputColor& image) {
     const Image& color = image.color;
     assert(color.channels() == 4 && color.samples == 1);
     const ChannelType type = pipeline::info(color.format).type;
+    // An rgba8 target of a linear frame holds linear codes and must be encoded like any other.
     const bool copies_codes = type == ChannelType::unorm8 && image.space == ColorSpace::encoded;
     Image result{Format::rgba8, color.width, color.height};
+    // Pixel by pixel: red, green, blue and alpha are four codes in a row.
     for (std::size_t i = 0; i < color.codes.size(); i += 4) {
         if (copies_codes)
             convert_codes(&color.codes[i], &result.codes[i], image.premultiplied);
@@ -74,6 +81,7 @@ void write_png(const std::string& path, const OutputColor& image) {
 }
 
 std::vector<FileImage> read_png(const std::string& path) {
+    // The largest picture, 16384 x 16384 of 4 codes, is 2^30 bytes before it is packed.
     constexpr std::size_t max_bytes = std::size_t{1} << 31;
     const std::string file = read_text_file(path, max_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});

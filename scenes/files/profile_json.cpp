@@ -26,7 +26,9 @@ using pipeline::ProfileField;
 
 using Names = std::vector<std::string_view>;
 
+// Fields of the rasterizer stand in an object of their own, `raster`, as their keys say.
 constexpr std::string_view raster_prefix = "raster.";
+// In bytes. Names stand in tables and error lines, descriptions in the list of profiles.
 constexpr std::size_t longest_name = 64, longest_description = 1000;
 
 [[nodiscard]] bool is_raster(const ProfileField& field) { return field.key.starts_with(raster_prefix); }
@@ -46,6 +48,7 @@ Names builtin_names() {
     return names;
 }
 
+// The keys that one object may have: the document's own (false) or those of `raster` (true).
 Names keys(bool of_raster) {
     Names names;
     if (!of_raster) names = {"base", "name", "description", "raster"};
@@ -61,11 +64,13 @@ std::string shown(const json& value) {  // dump recurses: not into what may be n
 
 void check_keys(const json& object, const Names& allowed, const std::string& file, const std::string& place) {
     if (!object.is_object()) throw InputError(file, place, "an object", shown(object));
+    // A misspelt key is an error: passed over, it would leave its field at the base's value without a word.
     for (const auto& [key, value] : object.items())
         if (std::ranges::find(allowed, key) == allowed.end())
             throw InputError(file, place, "a key of a profile", quoted_with_suggestion(key, allowed));
 }
 
+// A string that must be there. Empty ones pass; the caller asks for more where it needs more.
 std::string text(const json& document, const std::string& key, std::size_t longest, const std::string& file) {
     const auto found = document.find(key);
     const std::string expected = fmt::format("a string of at most {} bytes", longest);
@@ -75,6 +80,7 @@ std::string text(const json& document, const std::string& key, std::size_t longe
     return found->get<std::string>();
 }
 
+// What an error says the field may be.
 [[nodiscard]] std::string expectation(const ProfileField& field) {
     switch (field.kind) {
         case FieldKind::boolean: return "true or false";
@@ -100,6 +106,8 @@ std::optional<int> value_of(const ProfileField& field, const json& value) {
         case FieldKind::integer: {
             if (!value.is_number_unsigned()) return std::nullopt;  // no field is negative
             const auto number = value.get<std::uint64_t>();
+            // Compared as 64 bits before the cast to int: a number beyond int must not wrap round into the
+            // range.
             const auto lowest = static_cast<std::uint64_t>(field.lowest),
                        highest = static_cast<std::uint64_t>(field.highest);
             if (number < lowest || number > highest) return std::nullopt;
@@ -110,12 +118,14 @@ std::optional<int> value_of(const ProfileField& field, const json& value) {
     return std::nullopt;  // unreachable: the enum is closed
 }
 
+// A choice that is almost right gets a suggestion; other values are shown as they are.
 std::string found_text(const ProfileField& field, const json& value) {
     if (field.kind == FieldKind::choice && value.is_string())
         return quoted_with_suggestion(value.get_ref<const std::string&>(), field.choices);
     return shown(value);
 }
 
+// The library's own words are left out: they name no file and differ between its versions.
 json parse_json(const std::string& document, const std::string& file) {
     try {
         return json::parse(document);
@@ -138,6 +148,8 @@ const DeviceProfile* base_of(const json& document, const std::string& file) {
     return base;
 }
 
+// A field that the file leaves out keeps the base's value; without a base every field must be there, so that no
+// default of the program slips into somebody's machine.
 void read_field(const ProfileField& field, const json& object, bool has_base, const std::string& file,
                 DeviceProfile& profile) {
     const auto found = object.find(leaf(field));
@@ -153,6 +165,8 @@ void read_field(const ProfileField& field, const json& object, bool has_base, co
 }  // namespace
 
 std::string to_json(const DeviceProfile& profile) {
+    // The order of the keys is that of the fields, so the same profile is the same text; a built-in one can be
+    // printed, changed and read back.
     ordered_json document;
     document["name"] = profile.name;
     document["description"] = profile.description;
@@ -171,13 +185,16 @@ std::string to_json(const DeviceProfile& profile) {
 DeviceProfile parse_profile(const std::string& document_text, const std::string& file) {
     const json document = parse_json(document_text, file);
     check_keys(document, keys(false), file, "/");
+    // A document without `raster` is one whose raster fields are all left out.
     const json none = json::object();
     const json& raster = document.contains("raster") ? document["raster"] : none;
     check_keys(raster, keys(true), file, "/raster");
     const DeviceProfile* const base = base_of(document, file);
     DeviceProfile profile = base != nullptr ? *base : DeviceProfile{};
     profile.name = text(document, "name", longest_name, file);
+    // A file always has a name of its own, so that a picture's attributes do not claim the base's.
     if (profile.name.empty()) throw InputError(file, "/name", "a name", "\"\"");
+    // A description may be inherited, a name may not.
     if (base == nullptr || document.contains("description"))
         profile.description = text(document, "description", longest_description, file);
     for (const ProfileField& field : profile_fields())
@@ -188,6 +205,8 @@ DeviceProfile parse_profile(const std::string& document_text, const std::string&
 DeviceProfile load_profile(const std::string& name_or_path) {
     if (const DeviceProfile* builtin = pipeline::find_profile(name_or_path)) return *builtin;
     std::error_code error;
+    // A built-in name wins over a file of that name; a path that looks like one is read even if it is not
+    // there, so that the error says so.
     const bool looks_like_file = name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json");
     if (looks_like_file || std::filesystem::exists(name_or_path, error))
         return parse_profile(read_text_file(name_or_path), name_or_path);

@@ -5,6 +5,7 @@
 
 namespace strata {
 
+// InputError is for what the user can mend in the input; this is for what the machine refused.
 struct SystemError : std::runtime_error {
     // `action` as in "write", `reason` as the system words it.
     SystemError(const std::string& file, const std::string& action, const std::string& reason)
