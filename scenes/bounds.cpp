@@ -8,6 +8,8 @@
 namespace strata::scenes {
 namespace {
 
+// The product of a matrix and a point (p, 1) in a fixed order of additions: the bounds decide where an orbit
+// camera stands, so their bits are bits of the picture. The bottom row is 0 0 0 1 and is not looked at.
 Vec3d transformed(const pipeline::Matrix& m, const pipeline::Vec3& p) noexcept {
     Vec3d world;
     for (std::size_t r = 0; r < 3; ++r)
@@ -15,8 +17,11 @@ Vec3d transformed(const pipeline::Matrix& m, const pipeline::Vec3& p) noexcept {
     return world;
 }
 
+// Widens the box to hold the point. A point with a NaN or an infinity is left out: it would make the box
+// useless, and the rasterizer drops its triangles.
 void include(Bounds& bounds, const Vec3d& point) noexcept {
     if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2])) return;
+    // The first point replaces the empty box, whose lo is above its hi.
     if (bounds.is_empty()) bounds = {point, point};
     for (std::size_t i = 0; i < 3; ++i) {
         bounds.lo[i] = std::min(bounds.lo[i], point[i]);
@@ -30,6 +35,8 @@ Bounds bounds_of(const pipeline::DrawList& list) {
     Bounds bounds;
     for (const pipeline::Instance& instance : list.instances) {
         const pipeline::Mesh& mesh = list.meshes[instance.mesh];
+        // Indices are walked instead of positions: a vertex that no triangle names is not drawn and must not
+        // move the camera.
         for (const std::uint32_t index : mesh.indices)
             include(bounds, transformed(instance.model, mesh.positions[index]));
     }

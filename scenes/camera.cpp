@@ -12,8 +12,11 @@
 namespace strata::scenes {
 namespace {
 
+// The vector must not be 0: the reader of camera files and orbit_camera() see to that.
 Vec3d normalized(const Vec3d& a) noexcept { return divided(a, std::sqrt(dot_product(a, a))); }
 
+// World to eye space, GLU 1.3 section 4.1: the rows are side, top and -forward, for the eye looks along -z. The
+// initializer lists columns.
 pipeline::Matrix look_at_matrix(const Vec3d& eye, const Vec3d& center, const Vec3d& up) noexcept {
     const Vec3d forward = normalized(minus(center, eye));
     const Vec3d side = normalized(cross_product(forward, up));
@@ -44,6 +47,8 @@ void set_depth_row(pipeline::Matrix& m, double znear, double zfar) noexcept {
 }
 
 // `half_angle` in radians.
+// Right-handed eye space to clip space, GLU 1.3 section 4.2. `aspect` is width / height; the cotangent of half
+// the vertical angle scales y, and x is scaled by it over the aspect.
 pipeline::Matrix perspective(double half_angle, double aspect, double znear, double zfar) noexcept {
     const double cotangent = cos(half_angle) / sin(half_angle);
     pipeline::Matrix m(0.0);
@@ -53,6 +58,8 @@ pipeline::Matrix perspective(double half_angle, double aspect, double znear, dou
     return m;
 }
 
+// glTF 2.0 section 3.10.3: xmag and ymag are half the width and the height of the view. The image's aspect does
+// not enter.
 pipeline::Matrix orthographic(const SceneCamera& camera) noexcept {
     pipeline::Matrix m(0.0);
     const double depth = camera.znear - camera.zfar;
@@ -64,6 +71,7 @@ pipeline::Matrix orthographic(const SceneCamera& camera) noexcept {
     return m;
 }
 
+// A NaN fails both comparisons and is refused like an angle out of range.
 void check_angle(const char* name, double angle, double limit, const char* expected) {
     if (angle >= -limit && angle <= limit) return;
     throw InputError("--orbit", name, expected, fmt::format("{}", angle));
@@ -74,6 +82,8 @@ struct Sphere {
     double radius = 1;
 };
 
+// The sphere through the corners of the box. A box that is one point, or empty, gets radius 1, so that near and
+// far of the orbit camera stay apart.
 Sphere bounding_sphere(const Bounds& bounds) noexcept {
     if (bounds.is_empty()) return {};
     Sphere sphere;
@@ -115,6 +125,8 @@ pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double e
 
 pipeline::View camera_view(const SceneCamera& camera, double image_aspect) {
     const FloatEnvironment environment;
+    // A camera of the file that has an aspect of its own keeps it: a picture of another shape is then
+    // stretched.
     if (!camera.perspective) return {camera.view, orthographic(camera)};
     const double aspect = camera.aspect > 0 ? camera.aspect : image_aspect;
     return {camera.view, perspective(camera.yfov / 2, aspect, camera.znear, camera.zfar)};

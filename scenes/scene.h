@@ -15,9 +15,13 @@ struct Bounds {  // world space, axis-aligned; empty while lo > hi
 
 // A camera that the scene brings along (glTF). Aspect 0: take the image's.
 struct SceneCamera {
+    // What --camera NAME compares with.
     std::string name{};
     pipeline::Matrix view = pipeline::identity;
+    // False: orthographic. Then xmag and ymag hold half the extents of the view, and yfov and aspect are not
+    // used; with perspective it is the other way round.
     bool perspective = true;
+    // yfov is the whole vertical angle in radians. Distances are in units of eye space.
     double yfov = 0, aspect = 0, xmag = 0, ymag = 0, znear = 0, zfar = 0;  // zfar 0: infinite (perspective)
 };
 
@@ -25,14 +29,19 @@ struct Scene {
     std::string name;
     pipeline::DrawList list;
     Bounds bounds;
+    // In the order in which the walk over the nodes meets them; a name that was met before gets #2, #3 behind
+    // it.
     std::vector<SceneCamera> cameras;
     std::vector<std::string> extensions;  // used by the file
     std::vector<std::string> warnings;    // one sentence each: features ignored, with their JSON pointer
+    // Which of the file's scenes this is, and how many it has. A procedural scene is the only one of its kind:
+    // 0 of 1.
     int scene_index = 0, scene_count = 1;
 };
 
 struct SceneOptions {
     std::optional<int> scene{};  // --scene N; default: the file's own, else 0
+    // The frame's: materials and vertex colours are converted to it once, when the scene is made.
     pipeline::ColorSpace color_space = pipeline::ColorSpace::encoded;
     bool light = true;  // false: every material unlit (--no-light)
 };
@@ -42,13 +51,17 @@ struct SceneOptions {
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 
 // The two halves of load_scene.
+// load_gltf takes every path for a glTF file, whatever its ending. make_procedural throws InputError for an
+// unknown name or a wrong parameter. is_procedural looks at the name alone, not at the parameters behind it.
 [[nodiscard]] Scene load_gltf(const std::string& path, const SceneOptions& options);
 [[nodiscard]] Scene make_procedural(const std::string& spec, const SceneOptions& options);
 [[nodiscard]] bool is_procedural(const std::string& spec);
 
+// What the help and `strata scenes` say of a procedural scene.
 struct ProceduralScene {
     std::string name, parameters, description;  // parameters as in "slices=N[,order=far|near]", empty if none
 };
+// All of them, in the order in which they are listed.
 [[nodiscard]] const std::vector<ProceduralScene>& procedural_scenes();
 
 }  // namespace strata::scenes
