@@ -13,6 +13,8 @@
 
 namespace strata::scenes {
 
+// Looks into the document's buffers, which must outlive it. Indices run from 0 to count() - 1; nothing else is
+// checked at a read.
 class AccessorReader {
   public:
     AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const Place& place);
@@ -28,6 +30,7 @@ class AccessorReader {
     [[nodiscard]] std::uint32_t sparse_index(std::size_t k) const;
     void prepare_sparse(const tinygltf::Accessor& accessor, Buffers& buffers, const Place& place);
 
+    // stride_ and size_ in bytes: from one element to the next, and of one element.
     std::size_t count_, components_, stride_ = 0, size_;
     ComponentType type_;
     bool is_normalized_;
@@ -43,6 +46,7 @@ class Accessors {
     Accessors(const Document& document, const tinygltf::Model& model, Buffers& buffers)
         : document_{document}, model_{model}, buffers_{buffers} {}
 
+    // The reference stays valid: a map does not move what it holds.
     const AccessorReader& operator[](int accessor);
 
   private:

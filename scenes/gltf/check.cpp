@@ -8,6 +8,7 @@
 namespace strata::scenes {
 namespace {
 
+// What the file may require. An extension that is used without being required may be ignored, with a warning.
 constexpr std::array implemented{"KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
 
 bool is_implemented(const std::string& name) {
@@ -30,6 +31,8 @@ Version version(const JsonAt& at) {  // ^[0-9]+\.[0-9]+$, in range of an int
     return {std::stoul(text.substr(0, dot)), std::stoul(text.substr(dot + 1))};
 }
 
+// glTF 2.0, 3.2: the major version must be 2; a higher minor version is read as 2.0 unless minVersion asks for
+// more.
 void check_asset(const JsonAt& root) {
     const JsonAt asset = root.member("asset").object();
     const JsonAt written = asset.member("version");
@@ -73,6 +76,8 @@ void check_extensions(const JsonAt& root, Warnings& warnings) {
             warnings.add(used.place().pointer, "extension " + one_line(used.string()) + " is ignored");
 }
 
+// Each part counts on those before it: accessors on the lengths of the views, meshes on the formats of the
+// accessors.
 void check_document(const JsonAt& root, Warnings& warnings) {
     (void)root.object();
     check_asset(root);

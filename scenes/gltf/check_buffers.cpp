@@ -13,6 +13,7 @@ std::uint64_t byte_offset(const JsonAt& at) {
     return offset ? offset->integer(0, max_bytes) : 0;
 }
 
+// A view lies in its buffer's declared length. Whether the buffer has that many bytes is known when it is read.
 void check_view(const JsonAt& view, const JsonAt& root, const std::vector<std::uint64_t>& buffer_lengths) {
     const std::size_t buffer = view.member("buffer").index(root.size("buffers"));
     const JsonAt length = view.member("byteLength");
@@ -21,6 +22,7 @@ void check_view(const JsonAt& view, const JsonAt& root, const std::vector<std::u
         length.place().fail("BUFFER_VIEW_TOO_LONG",
                             "an end within the buffer's " + std::to_string(buffer_lengths[buffer]) + " bytes",
                             "one at " + std::to_string(end));
+    // A stride is from 4 to 252 and a multiple of 4: glTF's bounds.
     const auto stride = view.find("byteStride");
     if (stride && stride->integer(4, 252) % 4 != 0) stride->fail("VALUE_MULTIPLE_OF", "a multiple of 4");
 }
@@ -30,6 +32,9 @@ struct Range {
     std::uint64_t count, size, component_size;
 };
 
+// glTF 2.0, 3.6.2.4: offsets are multiples of the component's size, in the view and in the buffer. The last
+// element needs no padding behind it, hence stride * (count - 1) + size; count is at least 1, and all of it
+// fits 64 bits (see check.h).
 void check_range(const JsonAt& at, const JsonAt& root, const Range& range) {
     const std::size_t view_index = at.member("bufferView").index(root.size("bufferViews"));
     const JsonAt view{root.json()["bufferViews"][view_index], root.place().under("bufferViews").under(view_index)};
@@ -66,6 +71,7 @@ ElementType element_type(const JsonAt& at) {
     name.fail("VALUE_NOT_IN_LIST", "SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3 or MAT4");
 }
 
+// Sparse indices and values are packed, glTF 2.0, 3.6.2.3: a stride has no meaning there.
 void check_sparse_half(const JsonAt& half, const JsonAt& root, const Range& range) {
     const std::size_t view = half.member("bufferView").index(root.size("bufferViews"));
     if (root.json()["bufferViews"][view].contains("byteStride"))
@@ -73,6 +79,7 @@ void check_sparse_half(const JsonAt& half, const JsonAt& root, const Range& rang
     check_range(half, root, range);
 }
 
+// `base` is the accessor's own range; the values have its element, the indices a type of their own.
 void check_sparse(const JsonAt& sparse, const JsonAt& root, const Range& base) {
     const JsonAt count = sparse.member("count");
     const std::uint64_t changed = count.integer(1, max_bytes);
@@ -96,6 +103,7 @@ void check_accessor(const JsonAt& accessor, const JsonAt& root) {
         normalized->fail("ACCESSOR_NORMALIZED_INVALID", "normalized integers of 8 or 16 bits");
     if (accessor.has("bufferView"))
         check_range(accessor, root, range);
+    // An accessor without a view is all zeros: an offset into nothing is a mistake of the file.
     else if (const auto offset = accessor.find("byteOffset"))
         offset->fail("UNSATISFIED_DEPENDENCY", "a bufferView beside byteOffset");
     if (const auto sparse = accessor.find("sparse")) check_sparse(*sparse, root, range);
@@ -109,6 +117,7 @@ void check_buffers(const JsonAt& root) {
         lengths.push_back(buffer.member("byteLength").integer(1, max_bytes));
         if (const auto uri = buffer.find("uri")) (void)uri->string();
     }
+    // The views come second: each is compared with the length of its buffer.
     for (const JsonAt& view : root.elements("bufferViews")) check_view(view, root, lengths);
 }
 

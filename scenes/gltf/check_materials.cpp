@@ -8,6 +8,7 @@
 namespace strata::scenes {
 namespace {
 
+// An optional integer that must be one of `list`: codes of OpenGL.
 void check_listed(const JsonAt& owner, const char* key, std::initializer_list<int> list, const char* expected) {
     const auto value = owner.find(key);
     if (!value) return;
@@ -17,6 +18,7 @@ void check_listed(const JsonAt& owner, const char* key, std::initializer_list<in
     value->fail("VALUE_NOT_IN_LIST", expected);
 }
 
+// glTF 2.0, 3.8.3: the bytes come from one place, and in a buffer they need a type beside them.
 void check_image(const JsonAt& image, const JsonAt& root) {
     const bool has_uri = image.has("uri"), has_view = image.has("bufferView");
     if (has_uri == has_view)
@@ -28,6 +30,7 @@ void check_image(const JsonAt& image, const JsonAt& root) {
     if (has_view && !media_type) image.place().fail("UNSATISFIED_DEPENDENCY", "mimeType beside bufferView", "none");
 }
 
+// The angle's limit is that of our sine and cosine (numbers/elementary.h).
 void check_texture_transform(const JsonAt& info) {
     const auto extensions = info.find("extensions");
     const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
@@ -39,6 +42,7 @@ void check_texture_transform(const JsonAt& info) {
     if (const auto set = transform->find("texCoord")) (void)set->integer(0, max_bytes);
 }
 
+// The only texture that reaches a picture, and so the only one that must have an image we can read.
 void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
     const std::size_t texture = info.member("index").index(root.size("textures"));
     if (const auto set = info.find("texCoord")) (void)set->integer(0, max_bytes);
@@ -48,6 +52,7 @@ void check_base_color_texture(const JsonAt& info, const JsonAt& root) {
     place.fail("UNDEFINED_PROPERTY", "a PNG or JPEG image as source", "none (an extension would have to supply it)");
 }
 
+// glTF 2.0, 3.9.2: linear r g b a, each from 0 to 1. JSON cannot write a NaN.
 void check_color(const JsonAt& factor) {
     factor.numbers(4);
     for (const JsonAt& channel : factor.elements())
@@ -63,6 +68,8 @@ void check_metallic_roughness(const JsonAt& pbr, const JsonAt& root, Warnings& w
             warnings.add(ignored->place().pointer, "metallic and roughness are ignored: lighting is diffuse");
 }
 
+// What is ignored is warned of and not looked into: a fault in a normal map does not keep the scene from being
+// drawn.
 void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnings) {
     if (const auto pbr = material.find("pbrMetallicRoughness")) check_metallic_roughness(pbr->object(), root, warnings);
     if (const auto mode = material.find("alphaMode")) {

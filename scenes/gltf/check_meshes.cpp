@@ -5,6 +5,7 @@
 namespace strata::scenes {
 namespace {
 
+// What a primitive may ask of an accessor.
 struct Format {
     ElementType type;
     ComponentType component;
@@ -25,6 +26,7 @@ Format format(const Json& root, std::size_t accessor) {  // of an accessor that 
         has_stride ? root["bufferViews"][a["bufferView"].get<std::size_t>()]["byteStride"].get<std::uint64_t>() : 0};
 }
 
+// The integers of 8 and 16 bits, which KHR_mesh_quantization admits.
 bool is_small_integer(const Format& f) {
     return f.component != ComponentType::f32 && f.component != ComponentType::u32;
 }
@@ -56,11 +58,13 @@ bool is_attribute_name(const std::string& name) {
     return false;
 }
 
+// `accessors` and `materials` are the lengths of the document's arrays, which indices are compared with.
 struct MeshChecker {
     const JsonAt& root;
     bool is_quantized;
     std::size_t accessors, materials;
 
+    // `count` is that of the attributes before, nothing for the first: all must have the same.
     void check_attribute(const JsonAt& attribute, const std::string& name, std::optional<std::uint64_t>& count) const {
         if (!is_attribute_name(name))
             attribute.place().fail("MESH_PRIMITIVE_INVALID_ATTRIBUTE", "a name of glTF's or one that begins with _",
@@ -70,6 +74,7 @@ struct MeshChecker {
             attribute.fail("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
                            is_quantized ? "an accessor of a format for " + name
                                         : "an accessor of a format for " + name + " without KHR_mesh_quantization");
+        // glTF 2.0, 3.6.2.4: each element of a vertex attribute begins at a multiple of 4 bytes.
         const std::uint64_t step = f.stride ? f.stride : element_bytes(f.type, f.component);
         if (f.offset % 4 != 0 || step % 4 != 0)
             attribute.fail("MESH_PRIMITIVE_ACCESSOR_UNALIGNED", "vertices at multiples of 4 bytes");
@@ -80,6 +85,7 @@ struct MeshChecker {
         count = f.count;
     }
 
+    // glTF 2.0, 3.7.2.1. The values are compared with the vertex count when they are read (mesh.cpp).
     void check_indices(const JsonAt& indices) const {
         const Format f = format(root.json(), indices.index(accessors));
         if (f.type != ElementType::scalar || !is_index_type(f.component) || f.is_normalized)
@@ -130,6 +136,7 @@ struct MeshChecker {
         if (set && attributes.has("POSITION") && !attributes.has("TEXCOORD_" + std::to_string(*set)))
             primitive.place().fail("MESH_PRIMITIVE_TOO_FEW_TEXCOORDS",
                                    "TEXCOORD_" + std::to_string(*set) + " for the material's texture", "none");
+        // A primitive is drawn as it is stored: no target is blended in.
         if (primitive.has("targets"))
             warnings.add(primitive.place().under("targets").pointer, "morph targets are ignored");
         for (const auto& item : attributes.json().items())

@@ -8,13 +8,16 @@
 namespace strata::scenes {
 namespace {
 
+// No index of a node: indices are below 2^31.
 constexpr std::size_t no_parent = static_cast<std::size_t>(-1);
 
+// The number, once it is known to be above 0.
 double positive(const JsonAt& at) {
     if (!(at.number() > 0)) at.fail("VALUE_NOT_IN_RANGE", "a number above 0");
     return at.number();
 }
 
+// glTF 2.0, 3.10.3: yfov below pi, znear above 0, zfar, if there is one, beyond it.
 void check_perspective(const JsonAt& camera) {
     const JsonAt yfov = camera.member("yfov");
     if (positive(yfov) >= pi) yfov.fail("VALUE_NOT_IN_RANGE", "an angle below pi");
@@ -24,6 +27,8 @@ void check_perspective(const JsonAt& camera) {
         far->fail("CAMERA_ZFAR_LEQUAL_ZNEAR", "more than znear");
 }
 
+// The projection divides by xmag, ymag and zfar - znear. Negative magnifications mirror and are allowed; znear
+// may be 0.
 void check_orthographic(const JsonAt& camera) {
     for (const char* key : {"xmag", "ymag"})
         if (const JsonAt mag = camera.member(key); mag.number() == 0)
@@ -43,6 +48,7 @@ void check_rotation(const JsonAt& rotation) {
 }
 
 void check_transform(const JsonAt& node) {
+    // Column-major: the elements 3, 7, 11 and 15 are the bottom row of an affine transform.
     if (const auto matrix = node.find("matrix")) {
         matrix->numbers(16);
         for (const char* key : {"translation", "rotation", "scale"})
@@ -73,14 +79,17 @@ void check_loops(const JsonAt& root, const std::vector<std::size_t>& parents) {
     std::vector<char> known(parents.size(), unknown);
     for (std::size_t start = 0; start < parents.size(); ++start) {
         std::size_t node = start;
+        // Upwards until a root, a node that is known, or one of this very walk: the last is a loop.
         for (; node != no_parent && known[node] == unknown; node = parents[node]) known[node] = on_the_way;
         if (node != no_parent && known[node] == on_the_way)
             root.place().under("nodes").under(node).fail("NODE_LOOP", "a tree of nodes",
                                                          "a node that is its own ancestor");
+        // The second walk marks the way as done, so that every node is walked twice at most.
         for (node = start; node != no_parent && known[node] == on_the_way; node = parents[node]) known[node] = rooted;
     }
 }
 
+// A scene lists roots, each once: else a node could be drawn twice.
 void check_scenes(const JsonAt& root, const std::vector<std::size_t>& parents) {
     for (const JsonAt& scene : root.elements("scenes")) {
         std::set<std::size_t> seen;

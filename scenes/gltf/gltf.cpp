@@ -14,6 +14,8 @@
 namespace strata::scenes {
 namespace {
 
+// Walks the nodes of one scene and makes what they show. The order of the members matters: each is made from
+// those above it.
 class SceneBuilder {
   public:
     SceneBuilder(const Document& document, const SceneOptions& options, const GltfLimits& limits, Warnings& warnings)
@@ -26,6 +28,7 @@ class SceneBuilder {
           buffers_{document, budget_},
           accessors_{document, model_, buffers_},
           materials_{{document, model_, buffers_, budget_, warnings, options, scene_.list}} {
+        // The file's own bytes count; each buffer adds its bytes when it is read.
         budget_.allow_elements(16 * document.size);
     }
 
@@ -61,10 +64,13 @@ class SceneBuilder {
         return roots;
     }
 
+    // A primitive that holds triangles, as indices into the draw list.
     struct Drawable {
         std::uint32_t mesh, material;
     };
 
+    // A mesh is loaded when the first node shows it; each further node adds instances alone. Instances multiply
+    // work at no cost to the file, so their corners have a limit of their own.
     void add_instances(int mesh, const PlacedNode& placed) {
         const auto found = drawables_.find(mesh);
         const std::vector<Drawable>& drawables =
@@ -79,6 +85,8 @@ class SceneBuilder {
         }
     }
 
+    // One mesh of the draw list for each primitive that has a triangle; the name says which primitive it was if
+    // there are several.
     std::vector<Drawable> load_mesh(int index) {
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
         const Place place = document_.at("meshes", static_cast<std::size_t>(index)).place().under("primitives");
@@ -131,12 +139,14 @@ class SceneBuilder {
     std::map<std::string, int> camera_names_;
 };
 
+// `file` names the source in errors, `name` is the scene's; without a folder no uri but data: is followed.
 struct Source {
     Bytes bytes;
     std::string file, name;
     std::optional<std::filesystem::path> folder;
 };
 
+// Nothing is read from a buffer or an image before check_document() has passed the whole document.
 Scene load(const Source& source, const SceneOptions& options, const GltfLimits& limits) {
     const FloatEnvironment environment;
     const Container container = split_container(source.bytes, source.file);

@@ -14,6 +14,7 @@ namespace {
 
 using pipeline::AlphaMode;
 
+// An absent mode has become OPAQUE, glTF's default.
 AlphaMode alpha_mode(const std::string& name) {
     if (name == "MASK") return AlphaMode::mask;
     return name == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
@@ -38,6 +39,7 @@ std::optional<TextureTransform> texture_transform(const JsonAt& info) {
     return t;
 }
 
+// The transform may name a set of its own, which then counts instead of the texture's (KHR_texture_transform).
 int texcoord_set(const JsonAt& info, int written) {
     const auto extensions = info.find("extensions");
     const auto transform = extensions ? extensions->find("KHR_texture_transform") : std::nullopt;
@@ -45,6 +47,7 @@ int texcoord_set(const JsonAt& info, int written) {
     return replaced ? replaced->json().get<int>() : written;
 }
 
+// Every fourth code is an alpha.
 void make_opaque(std::vector<std::uint8_t>& texels) {
     for (std::size_t i = 3; i < texels.size(); i += 4) texels[i] = 255;
 }
@@ -74,6 +77,7 @@ LoadedMaterial Materials::load(int material) {
     made.name = "default";
     if (material >= 0) read(static_cast<std::size_t>(material), made, loaded);
     loaded.is_opaque = made.alpha_mode == AlphaMode::opaque;
+    // glTF 2.0, 3.9.4: OPAQUE ignores alpha wherever it comes from.
     if (loaded.is_opaque) made.front[3] = 1;
     made.front = made.back = frame_color(made.front, c_.options.color_space);
     loaded.is_unlit = made.unlit = made.unlit || !c_.options.light;
@@ -91,6 +95,7 @@ void Materials::read(std::size_t material, pipeline::Material& made, LoadedMater
     const auto& factor = m.pbrMetallicRoughness.baseColorFactor;
     for (std::size_t i = 0; i < 4; ++i) made.front[i] = static_cast<float>(factor[i]);
     const JsonAt at = c_.document.at("materials", material);
+    // The least alpha that can be seen: the cutoff for MASK, the smallest positive binary32 for BLEND.
     const float least = made.alpha_mode == AlphaMode::mask ? made.alpha_cutoff : 0x1p-149f;
     if (made.alpha_mode != AlphaMode::opaque && made.front[3] < least)
         c_.warnings.add(at.place().pointer, "its alpha is 0 or below its cutoff: nothing of it is drawn");
@@ -124,6 +129,7 @@ pipeline::Texture Materials::load_texture(const tinygltf::Texture& texture, bool
             c_.warnings.add("/samplers/" + std::to_string(texture.sampler) + "/minFilter",
                             "mip levels are not emulated: magFilter is used");
     }
+    // In an encoded frame texels are used as stored; in a linear one the sampler decodes them first.
     made.decode_srgb = c_.options.color_space == pipeline::ColorSpace::linear;
     made.texels = load_image(texture.source, made);
     if (is_opaque) make_opaque(made.texels);
@@ -134,6 +140,7 @@ std::vector<std::uint8_t> Materials::load_image(int image, pipeline::Texture& in
     const JsonAt at = c_.document.at("images", static_cast<std::size_t>(image));
     if (const auto name = at.find("name"); name && into.name.empty()) into.name = name->string();
     const auto uri = at.find("uri");
+    // A uri's bytes are held here until they are decoded; a view's stay in the buffer.
     const Resource held =
         uri ? read_uri(uri->json().get_ref<const std::string&>(), c_.document.folder, uri->place()) : Resource{};
     const Bytes bytes =
@@ -142,9 +149,11 @@ std::vector<std::uint8_t> Materials::load_image(int image, pipeline::Texture& in
     const ImageHeader header = read_image_header(bytes, place);
     const std::string found = header.kind == ImageKind::png ? "image/png" : "image/jpeg";
     const auto media_type = at.find("mimeType");
+    // The image's mimeType and the type of a data: uri must both agree with what the bytes are.
     for (const std::string& said :
          {media_type ? media_type->string() : found, held.media_type.empty() ? found : held.media_type})
         if (said != found) place.fail("IMAGE_MIME_TYPE_INVALID", "data of type " + in_quotes(said), found);
+    // Paid by the header's word, before the decoder asks for memory.
     c_.budget.pay_texels(std::uint64_t{header.width} * header.height, place);
     into.width = static_cast<int>(header.width);
     into.height = static_cast<int>(header.height);

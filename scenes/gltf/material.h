@@ -47,6 +47,7 @@ class Materials {
     };
     explicit Materials(const Context& context) : c_{context} {}
 
+    // A material enters the draw list when it is first asked for, so unused ones cost nothing.
     const LoadedMaterial& operator[](int material);  // -1: glTF's default material
 
   private:
@@ -58,6 +59,8 @@ class Materials {
 
     Context c_;
     std::map<int, LoadedMaterial> materials_;
+    // By texture and opacity: an opaque material needs texels with alpha 1, so a shared texture may exist
+    // twice.
     std::map<std::pair<int, bool>, int> textures_;
 };
 

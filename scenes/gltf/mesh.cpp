@@ -14,6 +14,7 @@ using Indices = std::vector<std::uint32_t>;
 using pipeline::Vec3;
 
 // The vertices in drawing order: the index accessor's elements, or 0, 1, 2 ...
+// The budget is paid first: an accessor without a view may claim 2^31 elements in a file of 200 bytes.
 Indices drawing_order(const PrimitiveSource& s, std::size_t vertex_count) {
     if (s.primitive.indices < 0) {
         s.budget.pay_elements(vertex_count, s.place);
@@ -47,6 +48,7 @@ Indices corners(const Indices& order, int mode, const PrimitiveSource& s) {
     if (n < 3) return all;
     all.reserve(3 * (n - 2));
     for (std::size_t i = 0; i + 2 < n; ++i) {
+        // Every second triangle of a strip has two corners exchanged, which keeps all windings alike.
         if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
             all.insert(all.end(), {order[i + 1], order[i + 2], order[0]});
         else
@@ -60,6 +62,7 @@ struct Selection {
     Indices vertices, indices;
 };
 
+// Vertices that triangles name, in the file's order and each once; the corners are then places in that list.
 Selection select_used(Indices corners) {
     Indices used = corners;
     std::sort(used.begin(), used.end());
@@ -69,12 +72,15 @@ Selection select_used(Indices corners) {
     return {std::move(used), std::move(corners)};
 }
 
+// Every corner becomes a vertex of its own, so that each triangle can have its flat normal.
 Selection select_unshared(Indices corners) {
     Indices indices(corners.size());
     std::iota(indices.begin(), indices.end(), 0u);
     return {std::move(corners), std::move(indices)};
 }
 
+// In binary64: the sides of small triangles far from the origin would cancel in binary32. Not finite, or of
+// length 0: the triangle has no direction, and any unit vector will do.
 Vec3 flat_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3d origin{a};
     const Vec3d n = cross_product(minus(Vec3d{b}, origin), minus(Vec3d{c}, origin));
@@ -111,6 +117,8 @@ std::vector<pipeline::Rgba> read_colors(const PrimitiveSource& s, const Indices&
     colors.reserve(vertices.size());
     bool is_clamped = false;
     read_finite(s, "COLOR_0", vertices, [&](std::array<float, 4> value, std::size_t components) {
+        // A colour without alpha has alpha 1, glTF 2.0, 3.7.2.1; an opaque material ignores what is stored
+        // there.
         if (components == 3 || s.material.is_opaque) value[3] = 1;
         is_clamped |= std::any_of(value.begin(), value.end(), [](float f) { return f < 0 || f > 1; });
         colors.push_back(frame_color({value[0], value[1], value[2], value[3]}, s.color_space));
@@ -148,6 +156,8 @@ std::optional<pipeline::Mesh> load_primitive(const PrimitiveSource& s) {
     Indices all = corners(drawing_order(s, positions.count()), mode, s);
     if (all.empty()) return std::nullopt;
 
+    // glTF 2.0, 3.7.2.1: without normals a lit surface is flat. An unlit one needs none and keeps its shared
+    // vertices.
     const bool is_flat = !s.material.is_unlit && !attributes.contains("NORMAL");
     Selection selection = is_flat ? select_unshared(std::move(all)) : select_used(std::move(all));
     pipeline::Mesh mesh;

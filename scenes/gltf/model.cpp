@@ -8,6 +8,7 @@ void erase(Json& object, std::initializer_list<const char*> keys) {
     for (const char* key : keys) object.erase(key);
 }
 
+// What is left of a material: its name, alpha mode, cutoff, sides, base colour factor and texture.
 void reduce_material(Json& material) {
     erase(material, {"extras", "extensions", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"});
     if (!material.contains("pbrMetallicRoughness")) return;
@@ -16,6 +17,8 @@ void reduce_material(Json& material) {
     if (pbr.contains("baseColorTexture")) erase(pbr["baseColorTexture"], {"extras", "extensions"});
 }
 
+// A copy with the kinds and members that the scene reads. Buffers and images are left out, so that tinygltf
+// never opens a uri; the views keep their indices into the document's own buffers.
 Json reduced(const Json& document) {
     Json kept{{"asset", {{"version", "2.0"}}}};
     for (const char* kind :
@@ -43,6 +46,8 @@ Json reduced(const Json& document) {
 }  // namespace
 
 tinygltf::Model to_model(const Document& document) {
+    // Back to text, for tinygltf reads nothing else. The text is below 2^32 bytes: a number grows to a few
+    // times its length in the document's 2^28 bytes at most.
     const std::string text = reduced(document.json).dump();
     tinygltf::Model model;
     tinygltf::TinyGLTF parser;

@@ -11,6 +11,7 @@
 
 namespace strata::scenes {
 
+// A checked document and what it stands on.
 struct Document {
     std::string file;
     Json json;
@@ -38,6 +39,8 @@ class Budget {
     std::uint64_t elements_, texels_;
 };
 
+// Views are cut from buffers whose ranges check_buffers.cpp has passed. The bytes live as long as this object,
+// or the file for a .glb's own chunk.
 class Buffers {
   public:
     Buffers(const Document& document, Budget& budget) : document_{document}, budget_{budget} {}

@@ -8,8 +8,10 @@
 namespace strata::scenes {
 namespace {
 
+// The four letters as little-endian words, glTF 2.0, 4.4.
 constexpr std::uint32_t magic = 0x46546c67, json_chunk = 0x4e4f534a, bin_chunk = 0x004e4942;  // "glTF", "JSON", "BIN\0"
 constexpr std::size_t header_size = 12, chunk_header_size = 8;
+// The tree takes many times the text's size.
 constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
 
 std::uint32_t word(Bytes bytes, std::size_t at) {  // little endian
@@ -25,6 +27,8 @@ struct Chunk {
     Bytes data;
 };
 
+// One pass over the chunks. It compares a length with what is left before it cuts a span, so no read passes the
+// end.
 class ChunkReader {
   public:
     ChunkReader(Bytes bytes, const std::string& file) : bytes_{bytes}, file_{file} {
@@ -85,6 +89,8 @@ Container split_container(Bytes bytes, const std::string& file) {
     if (bytes.empty()) start.fail("INVALID_JSON", "a glTF file", "an empty one");
     const bool is_glb = bytes.size() >= 4 && word(bytes, 0) == magic;
     const auto first = std::to_integer<unsigned char>(bytes[0]);
+    // Blanks and a byte order mark (0xef begins it) may stand before the first brace; the parser judges the
+    // rest.
     const bool may_be_json =
         first == '{' || first == ' ' || first == '\t' || first == '\n' || first == '\r' || first == 0xef;
     if (!is_glb && !may_be_json)

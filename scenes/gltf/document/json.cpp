@@ -72,6 +72,7 @@ Json parse_json(std::string_view text, const std::string& file) {
     return Json::parse(text.begin(), text.end());
 }
 
+// Objects and arrays are not written out, so that the sentence stays short.
 std::string JsonAt::shown() const {
     switch (json_->type()) {
         case Json::value_t::object: return "an object";
@@ -117,6 +118,7 @@ std::size_t JsonAt::size(const std::string& key) const {
     return array->json_->size();
 }
 
+// The readers of single values refuse a value of another type.
 bool JsonAt::boolean() const {
     if (!json_->is_boolean()) fail("TYPE_MISMATCH", "true or false");
     return json_->get<bool>();

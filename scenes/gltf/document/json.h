@@ -17,6 +17,7 @@ namespace strata::scenes {
 
 using Json = nlohmann::json;
 
+// Deep enough for any document of glTF; without a limit a recursive walk over the tree could exhaust the stack.
 inline constexpr std::size_t max_json_depth = 100;
 
 [[nodiscard]] Json parse_json(std::string_view text, const std::string& file);
@@ -30,6 +31,7 @@ class JsonAt {
     [[nodiscard]] const Json& json() const { return *json_; }
     [[nodiscard]] std::string shown() const;  // the value in a few words, for `found`
 
+    // has() and find() answer for a member that may be absent; a key with the value null is there.
     [[nodiscard]] bool has(const std::string& key) const { return json_->is_object() && json_->contains(key); }
     [[nodiscard]] std::optional<JsonAt> find(const std::string& key) const;  // an absent member is nothing
     [[nodiscard]] JsonAt member(const std::string& key) const;               // an absent member is UNDEFINED_PROPERTY

@@ -16,6 +16,7 @@ struct Place {
     [[noreturn]] void fail(std::string_view code, const std::string& expected, const std::string& found) const {
         throw InputError(file, pointer.empty() ? "/" : pointer, expected, found + " [" + std::string(code) + "]");
     }
+    // `key` stands in the pointer as it is: a key from the file is escaped by the caller (RFC 6901).
     [[nodiscard]] Place under(std::string_view key) const { return {file, pointer + "/" + std::string(key)}; }
     [[nodiscard]] Place under(std::size_t index) const { return under(std::to_string(index)); }
 };

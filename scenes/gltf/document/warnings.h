@@ -9,11 +9,13 @@ namespace strata::scenes {
 
 class Warnings {
   public:
+    // A sentence that is already known only counts one place more.
     void add(const std::string& pointer, const std::string& sentence) {
         const auto [known, is_new] = index_.emplace(sentence, kinds_.size());
         if (is_new) kinds_.push_back({sentence, pointer});
         ++kinds_[known->second].places;
     }
+    // A line for each sentence, in the order of their first places.
     [[nodiscard]] std::vector<std::string> sentences() const {
         std::vector<std::string> lines;
         for (const Kind& k : kinds_) {
