@@ -101,9 +101,9 @@ void check_accessor(const JsonAt& accessor, const JsonAt& root) {
     const auto normalized = accessor.find("normalized");
     if (normalized && normalized->boolean() && (component == ComponentType::f32 || component == ComponentType::u32))
         normalized->fail("ACCESSOR_NORMALIZED_INVALID", "normalized integers of 8 or 16 bits");
+    // An accessor without a view is all zeros: an offset into nothing is a mistake of the file.
     if (accessor.has("bufferView"))
         check_range(accessor, root, range);
-    // An accessor without a view is all zeros: an offset into nothing is a mistake of the file.
     else if (const auto offset = accessor.find("byteOffset"))
         offset->fail("UNSATISFIED_DEPENDENCY", "a bufferView beside byteOffset");
     if (const auto sparse = accessor.find("sparse")) check_sparse(*sparse, root, range);
