@@ -4,7 +4,7 @@
 // Rule     Pass i takes row i from the front of a column, dual peeling also row i from its back, until they meet. Columns do not
 //          meet: the twins go from column to column, the vectors through many side by side; what is beyond a column's end
 //          changes nothing.
-//          Dual front: the UNDER of min_max.h, stored under MAX with the front that other fragments pass through. Dual back: the
+//          Dual front: the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back: the
 //          code of the far colour, OVER what is there, where its alpha is not 0. Front to back: the code of the colour times
 //          alpha, UNDER what is there.
 // Tests    tests/peeling/closed/columns_test.cpp; tests/peeling/execution_test.cpp
@@ -14,6 +14,7 @@
 
 #include "peeling/closed/columns.h"
 #include "peeling/programs/programs.h"
+#include "peeling/programs/under.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/stages/blend_unorm8.h"
 
@@ -35,11 +36,11 @@ using Codes = std::array<std::uint32_t, 4>;
 
 // `others`: how many more fragments the pixel has, before and behind.
 inline void blend_near(const Color& color, std::uint32_t others, Codes& front) noexcept {
-    const float let_through = 1.0f - pipeline::unorm8_value(front[3]);
+    const float through = let_through(OneFloat{}, pipeline::unorm8_value(front[3]));
     for (std::size_t c = 0; c < 4; ++c) {
-        const float under = pipeline::unorm8_value(front[c]) + let_through * (color[3] * color[c]);
-        const float covered = 1.0f - let_through * (1.0f - color[3]);
-        front[c] = std::max(others > 0 ? front[c] : 0u, std::uint32_t{pipeline::to_unorm8(c == 3 ? covered : under)});
+        const float blended = c == 3 ? covered(OneFloat{}, through, color[3])
+                                     : under(pipeline::unorm8_value(front[c]), through, color[3], color[c]);
+        front[c] = std::max(others > 0 ? front[c] : 0u, std::uint32_t{pipeline::to_unorm8(blended)});
     }
 }
 

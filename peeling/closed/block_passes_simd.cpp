@@ -25,6 +25,12 @@ HWY_INLINE FloatVec float_of(WordVec code) { return hn::ConvertTo(Floats{}, hn::
 HWY_INLINE FloatVec value_of(WordVec code) { return pipeline::HWY_NAMESPACE::unorm8_values(Words{}, code); }
 HWY_INLINE WordVec code_of(FloatVec x) { return pipeline::HWY_NAMESPACE::unorm8_codes(Words{}, x); }
 
+struct AllLanes {
+    HWY_INLINE static FloatVec all(float v) { return hn::Set(Floats{}, v); }
+};
+
+#include "peeling/programs/under_text-inl.h"
+
 // Unorm8Arithmetic::combine with BlendEquation::add.
 template <pipeline::BlendRounding rounding>
 HWY_INLINE WordVec blended(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
@@ -113,15 +119,13 @@ class Columns {
     }
 
     HWY_INLINE void blend_near(const Color& color, WordMask has, WordVec (&front)[4]) const {
-        const FloatVec one = hn::Set(Floats{}, 1.0f), alpha = color.channel[3];
-        const FloatVec let_through = hn::Sub(one, value_of(front[3]));
+        const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, value_of(front[3]));
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
         const WordMask others = hn::Ne(alive_, own);
         for (std::size_t c = 0; c < 4; ++c) {
-            const FloatVec under =
-                c == 3 ? hn::Sub(one, hn::Mul(let_through, hn::Sub(one, alpha)))
-                       : hn::Add(value_of(front[c]), hn::Mul(let_through, hn::Mul(alpha, color.channel[c])));
-            front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(under)));
+            const FloatVec blended = c == 3 ? covered(AllLanes{}, through, alpha)
+                                            : under(value_of(front[c]), through, alpha, color.channel[c]);
+            front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(blended)));
         }
     }
 

@@ -2,6 +2,7 @@
 // Bavoil and Myers 2008, "Render Targets"; E9. Cleared to (-1, -1), which is near = 1 > far = -1: a pixel with nothing to peel.
 #pragma once
 #include "peeling/programs/programs.h"
+#include "peeling/programs/under.h"
 
 namespace strata::peeling {
 
@@ -76,13 +77,14 @@ inline void write_layers(const pipeline::ColorLanes& color, const pipeline::Colo
     using pipeline::select;
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < count; ++i) {
-            const float under = front[c][i] + (1.0f - front[3][i]) * (color[3][i] * color[c][i]);
-            next_front[c][i] = select(place.is_near[i], under, front[c][i]);
+            const float through = let_through(OneFloat{}, front[3][i]);
+            const float blended = under(front[c][i], through, color[3][i], color[c][i]);
+            next_front[c][i] = select(place.is_near[i], blended, front[c][i]);
             back[c][i] = select(place.is_far[i], color[c][i], 0.0f);
         }
     for (std::size_t i = 0; i < count; ++i) {
-        const float covered = 1.0f - (1.0f - front[3][i]) * (1.0f - color[3][i]);
-        next_front[3][i] = select(place.is_near[i], covered, front[3][i]);
+        const float blended = covered(OneFloat{}, let_through(OneFloat{}, front[3][i]), color[3][i]);
+        next_front[3][i] = select(place.is_near[i], blended, front[3][i]);
         back[3][i] = select(place.is_far[i], color[3][i], 0.0f);
     }
 }

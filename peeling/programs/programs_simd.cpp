@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "peeling/programs/programs_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+#include "peeling/programs/average-inl.h"
 #include "peeling/programs/average.h"
 #include "peeling/programs/min_max.h"
 #include "peeling/programs/programs.h"
@@ -46,9 +47,23 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
     scalar::write_layers(color, front, place, next_front, back, padded(count));
 }
 
-[[gnu::flatten]] void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background,
-                                    ColorLanes& out, std::size_t count) {
-    scalar::resolve_average(sums, n, background, out, padded(count));
+// Written out: the loop over the bits of n does not become vectors by itself.
+void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background, ColorLanes& out,
+                   std::size_t count) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const average::Floats d;
+    constexpr average::VectorLanes lanes;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto a = hn::LoadU(d, &sums[3][i]), number = hn::LoadU(d, &n[i]);
+        const auto has = average::has_average(a, number);
+        const auto t = average::transmittance(lanes, a, number);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto behind = hn::LoadU(d, &background[c][i]);
+            const auto color = average::average_over(lanes, hn::LoadU(d, &sums[c][i]), a, t, behind);
+            hn::StoreU(hn::IfThenElse(has, color, behind), d, &out[c][i]);
+        }
+        hn::StoreU(hn::Set(d, 1.0f), d, &out[3][i]);
+    }
 }
 
 }  // namespace
