@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "peeling/audit/region_trace.h"
 #include "peeling/programs/programs.h"
+#include "peeling/registry.h"
+#include "peeling/render.h"
 
 namespace strata::peeling {
 
@@ -109,9 +112,9 @@ RenderOptions peel_options(const Experiment& e, int layers) {
     options.depth_path = e.write;
     options.reference_path = e.compare;
     options.max_passes = e.max_passes > 0 ? e.max_passes : 2 * (layers + 1);
-    options.audit = true;                  // for its trace
-    options.execution = Execution::tiled;  // every pass is rasterized, so that seconds are the passes'
-    options.keep_layers = options.nearest_depth = false;
+    options.execution = Execution::replay;
+    options.fragment_memory = 0;  // every pass is rasterized, so that seconds are the passes'
+    options.audit = options.keep_layers = options.nearest_depth = false;
     return options;
 }
 
@@ -121,9 +124,10 @@ void run_peel(Measurement& m, const Passes& passes) {
     const int layers = peel_errors(fragments, {}, e.render.width, e.render.height).layers_max;
     const RenderOptions options = peel_options(e, layers);
     Renderer renderer(passes.machine.list, passes.machine.view, passes.machine.profile, options);
-    RenderResult result = renderer.render(*e.algorithm);
+    std::vector<RegionTrace> traces;
+    RenderResult result = renderer.render_traced(*e.algorithm, traces);
     if (result.refusal) throw Refused{passes.machine.profile, *std::move(result.refusal)};
-    m.errors = peel_errors(fragments, result.frame.traces, options.width, options.height);
+    m.errors = peel_errors(fragments, traces, options.width, options.height);
     m.passes = result.frame.passes.geometry;
     m.ended = m.passes < options.max_passes;
     m.seconds = result.seconds.passes;

@@ -11,7 +11,14 @@
 #include "peeling/audit/image_error.h"
 #include "peeling/audit/peel_errors.h"
 #include "peeling/audit/safe_range.h"
-#include "peeling/render.h"
+#include "peeling/render_options.h"
+#include "pipeline/device/check.h"
+#include "pipeline/formats/image.h"
+
+namespace strata::pipeline {
+struct DrawList;
+struct View;
+}  // namespace strata::pipeline
 
 namespace strata::peeling {
 

@@ -7,8 +7,10 @@
 #include <array>
 #include <optional>
 
-#include "peeling/render.h"
+#include "peeling/algorithms/algorithm.h"
+#include "peeling/render_options.h"
 #include "peeling/shadow_light.h"
+#include "pipeline/vertices/prepare.h"
 
 namespace strata::peeling {
 

@@ -2,11 +2,16 @@
 
 #include <algorithm>
 
+#include "peeling/audit/audit.h"
+#include "peeling/audit/region_trace.h"
 #include "peeling/prepared_lists.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/check_pass.h"
+#include "pipeline/region/executor.h"
+#include "pipeline/region/region.h"
+#include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/parallel.h"
 #include "rasterizer/base/require.h"
 
@@ -28,6 +33,8 @@ void check_options(const RenderOptions& o) {
     its.within("compare_epsilon.ulps", o.compare_epsilon.ulps, 0, 1 << 24);
     if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
         its.fail(FieldName{"compare_epsilon.absolute"}, "a number from 0 to 1", o.compare_epsilon.absolute);
+    if (!has_simd(o.simd))
+        its.fail(FieldName{"simd"}, "an instruction set that this processor has", static_cast<int>(o.simd));
     its.within("max_passes", o.max_passes, 0, 1000000);
     its.listed("termination.rule", o.termination.rule);
     if (o.termination.rule == TerminationRule::fixed)
@@ -122,6 +129,8 @@ struct Renderer::State {
         return algorithm.whole_frame ? Execution::literal : options.execution;
     }
 
+    [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
+
     // What an algorithm stores and compares.
     [[nodiscard]] rasterizer::DepthRequest depth_of(const Algorithm& algorithm) const {
         rasterizer::DepthRequest request = depth;
@@ -143,8 +152,7 @@ struct Renderer::State {
 
     // To simulate every effect is to rasterize in every pass.
     [[nodiscard]] Replay replay(const Algorithm& algorithm, bool compares_apart) const {
-        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed &&
-                             options.once_more == Effect::none;
+        const bool replays = options.execution == Execution::replay && options.effects == Effects::needed;
         if (!replays || !algorithm.replayed) return {};
         rasterizer::FragmentNeeds needs = *algorithm.replayed;
         needs.reference = compares_apart;
@@ -190,13 +198,14 @@ struct Renderer::State {
         f.termination = options.termination;
         f.formulation = options.formulation;
         f.effects = options.effects;
-        f.once_more = options.once_more;
         f.replay = replay(algorithm, !f.depth_compare().is_plain());
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
-        f.trust_idle = options.trust_idle;
-        f.trace = options.audit;
-        f.pass_log = options.pass_log;
+        const AuditMemory memory{audit_memory(),
+                                 execution(algorithm) == Execution::literal ? 1 : thread_count(options.threads)};
+        f.trace = options.audit && algorithm.ties != TiePolicy::none;
+        f.trace_bytes = memory.trace_bytes();
+        f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
         f.nearest_depth = options.nearest_depth;
         f.max_passes = algorithm.compares_own_codes ? options.max_passes : pass_limit(f);
         f.average_count = options.average_count;
@@ -227,6 +236,50 @@ struct Renderer::State {
                depth.reference.value_or(depth.path) == depth.path;
     }
 
+    // The frame; its audit, if there is to be one, looks at regions as they end. `traces`: instead of an audit.
+    void run_frame(const Algorithm& algorithm, const std::function<void(double)>& progress,
+                   const Instruments& instruments, std::vector<RegionTrace>* traces, RenderResult& result) {
+        Frame f = frame(algorithm);
+        if (traces != nullptr) {
+            f.trace = true;
+            f.trace_bytes = ~std::uint64_t{0};
+        }
+        const Body body = body_of(algorithm);
+        std::optional<Audit> audit;
+        if (options.audit && traces == nullptr) audit.emplace(f, body, algorithm, audit_memory(), options.threads);
+        const Watch watch = traces != nullptr ? keep_traces(f, *traces) : audit ? audit->watch() : Watch{};
+        {
+            const Stopwatch stopwatch{result.seconds.passes};
+            result.frame = run(f, body, execution(algorithm), options.threads, progress, instruments, watch);
+        }
+        result.seconds.audit = result.frame.watched * result.seconds.passes;
+        result.seconds.passes -= result.seconds.audit;
+        if (!algorithm.compares_own_codes) note_endless(f, result.frame);
+        if (!audit) return;
+        const Stopwatch stopwatch{result.seconds.audit};
+        result.audit = audit->finish(result.frame);
+    }
+
+    [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress,
+                                      const Instruments& instruments, std::vector<RegionTrace>* traces) {
+        RenderResult result;
+        result.refusal = refusal(algorithm);
+        if (!result.refusal) try {
+                run_frame(algorithm, progress, instruments, traces, result);
+            } catch (const Refused& refused) {
+                result.refusal = refused.refusal;
+            }
+        result.seconds.geometry = lists.seconds();
+        if (result.refusal) {
+            result.outcome = Outcome::refused;
+            return result;
+        }
+        note_machine(algorithm, result.frame.diagnostics);
+        if (options.audit && traces == nullptr)
+            add_audit_diagnostics(algorithm, options, result.audit, result.frame.diagnostics);
+        return result;
+    }
+
     void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
         const auto& counters = lists.transparent(ListOrder::given).geometry.counters;
         if (counters.non_finite > 0)
@@ -253,6 +306,7 @@ struct Renderer::State {
 
 Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options) {
     check_options(options);
+    const SimdScope kernels{options.simd};
     const bool is_exact = profile.raster.depth_path == rasterizer::DepthPath::exact;
     rasterizer::DepthRequest depth;
     depth.format = options.depth.value_or(profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
@@ -282,36 +336,19 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
 
 Renderer::~Renderer() = default;
 
-RenderResult Renderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress) {
-    RenderResult result;
-    result.refusal = state_->refusal(algorithm);
-    if (!result.refusal) {
-        try {
-            const Frame frame = state_->frame(algorithm);
-            const Stopwatch watch{result.seconds.passes};
-            result.frame =
-                run(frame, body_of(algorithm), state_->execution(algorithm), state_->options.threads, progress);
-            if (!algorithm.compares_own_codes) state_->note_endless(frame, result.frame);
-        } catch (const Refused& refused) {
-            result.refusal = refused.refusal;
-        }
-    }
-    result.seconds.geometry = state_->lists.seconds();
-    if (result.refusal) {
-        result.outcome = Outcome::refused;
-        return result;
-    }
-    state_->note_machine(algorithm, result.frame.diagnostics);
-    if (state_->options.audit) {
-        Frame frame = state_->frame(algorithm);
-        frame.replay = {};  // it looks at the fragments once
-        result.audit = audit(frame, algorithm, result.frame, state_->options.threads);
-        add_audit_diagnostics(algorithm, state_->options, result.audit, result.frame.diagnostics);
-    }
-    return result;
+RenderResult Renderer::render(const Algorithm& algorithm, const std::function<void(double)>& progress,
+                              const Instruments& instruments) {
+    const SimdScope kernels{state_->options.simd};
+    return state_->render(algorithm, progress, instruments, nullptr);
 }
 
-RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
+RenderResult Renderer::render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces) {
+    const SimdScope kernels{state_->options.simd};
+    return state_->render(algorithm, {}, {}, &traces);
+}
+
+RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, const Instruments& instruments) {
+    const SimdScope kernels{state_->options.simd};
     RenderResult result;
     result.refusal = check_depth(state_->profile, state_->depth);
     if (!result.refusal) result.refusal = check(state_->profile, state_->color_format);
@@ -323,15 +360,22 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress) {
     frame.nearest_depth = frame.trace = false;
     frame.published_format = target_format(frame.key_request().format);
     const Stopwatch watch{result.seconds.passes};
-    result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress);
+    result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress, instruments);
     std::swap(result.frame.depth, result.frame.color);
     result.seconds.geometry = state_->lists.seconds();
     return result;
 }
 
 FrameFragments Renderer::fragments(const Algorithm& algorithm) {
+    const SimdScope kernels{state_->options.simd};
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
+    const std::uint64_t count = fragment_count(*frame.transparent), bytes = FrameFragments::bytes_a_fragment * count;
+    if (bytes > state_->audit_memory())
+        throw InputError("strata", "--fragment-memory",
+                         "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(count) +
+                             " fragments all together",
+                         std::to_string(state_->audit_memory()));
     FrameFragments found;
     const Body capture = [&](Region& region) {
         found.all = region.capture(Bookkeeping::counted);

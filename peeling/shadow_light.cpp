@@ -1,5 +1,8 @@
 #include "peeling/shadow_light.h"
 
+#include "pipeline/region/executor.h"
+#include "pipeline/region/region.h"
+
 namespace strata::peeling {
 
 using namespace pipeline;

@@ -2,8 +2,12 @@
 // It runs before anything is drawn for the eye, literally: whoever looks at it later looks anywhere. Transparent surfaces let
 // the light through, also where --alpha makes all of them transparent.
 #pragma once
-#include "pipeline/region/executor.h"
+#include "pipeline/formats/image.h"
 #include "pipeline/textures/shadow_stage.h"
+
+namespace strata::pipeline {
+class Region;
+}
 
 namespace strata::peeling {
 

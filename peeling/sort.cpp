@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/numerics.h"
 
 namespace strata::peeling {

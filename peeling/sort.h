@@ -8,9 +8,14 @@
 // Tests    tests/peeling/sort_test.cpp
 #pragma once
 #include <cstdint>
-#include <span>
+#include <vector>
 
-#include "pipeline/vertices/prepare.h"
+namespace strata::rasterizer {
+struct TriangleSoup;
+}
+namespace strata::pipeline {
+struct SubmissionOrder;
+}
 
 namespace strata::peeling {
 

@@ -3,29 +3,62 @@
 //
 // Needs      nothing: no device ran it.
 // Passes     1. Equal depths: the first arrival in front, none lost.
-// Invariant  a pixel's list is in submission order until it is sorted, stably, by the code of DepthPath::exact.
+// Invariant  a pixel's list is in submission order until it is sorted by the code of DepthPath::exact, first arrivals first.
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/composite.h"
 #include "peeling/programs/fragment_lists.h"
+#include "peeling/programs/tie_order.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 
 using namespace pipeline;
 
+namespace {
+
+void resolve(Region& region, const FragmentLists& lists, Target result) {
+    FragmentOrder order;
+    for (std::uint32_t pixel = lists.pixels.first; pixel < lists.pixels.last; ++pixel) {
+        const auto fragments = lists.of(pixel);
+        if (fragments.empty()) continue;
+        sort_by(&KeyedFragment::exact_code, fragments, order);
+        const auto color = composite(fragments, order, region.color(region.opaque_color(), pixel));
+        RegionShortcuts{region}.store_pixel(
+            result, pixel,
+            {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), 1.0f});
+        if (!region.frame().trace) continue;
+        for (const std::uint64_t entry : order) {
+            const KeyedFragment& f = fragments[place_of(entry)];
+            region.trace({pixel, f.key, f.primitive, Side::front, true});
+        }
+    }
+}
+
+// The pass as books count it, where the lists are looked up part by part.
+void count_pass(Region& region) {
+    PassState state;
+    state.needs = {.shader_z = false, .code = false, .color = true};
+    static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+}
+
+}  // namespace
+
 void a_buffer(Region& region) {
     const Target result = region.make_color();
     region.begin_iteration();
     region.copy(region.opaque_color(), result);
-    const FragmentLists lists = visible_fragments(region, Bookkeeping::counted);
-    for (std::uint32_t pixel = 0; pixel + 1 < lists.start.size(); ++pixel) {
-        if (lists.of(pixel).empty()) continue;
-        const std::vector<KeyedFragment> sorted = by_exact_depth(lists.of(pixel));
-        const auto color = composite(sorted, region.color(region.opaque_color(), pixel));
-        region.store_pixel(
-            result, pixel,
-            {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]), 1.0f});
-        if (!region.frame().trace) continue;
-        for (const KeyedFragment& f : sorted) region.trace().push_back({pixel, f.key, f.primitive, Side::front, true});
+    const std::vector<std::uint32_t> coverage = coverage_of(region);
+    const auto pixels = static_cast<std::uint32_t>(coverage.size());
+    const auto range_from = [&](std::uint32_t first) {
+        return next_range(coverage, region.rect().width(), first, region.frame().list_bytes / sizeof(KeyedFragment));
+    };
+    const bool is_one_range = range_from(0).size() == pixels;
+    if (!is_one_range) count_pass(region);
+    FragmentLists lists;
+    for (std::uint32_t first = 0; first < pixels; first = lists.pixels.last) {
+        list_visible(region, range_from(first), coverage, is_one_range ? Bookkeeping::counted : Bookkeeping::silent,
+                     lists);
+        resolve(region, lists, result);
     }
     region.publish(result);
 }

@@ -6,7 +6,12 @@
 
 #include "peeling/programs/tie_policy.h"
 #include "pipeline/device/check.h"
-#include "pipeline/region/region.h"
+#include "pipeline/frame/run_settings.h"
+#include "rasterizer/coverage/fragment_batch.h"
+
+namespace strata::pipeline {
+class Region;
+}
 
 namespace strata::peeling {
 

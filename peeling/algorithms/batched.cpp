@@ -11,6 +11,7 @@
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/depth_range.h"
 #include "peeling/programs/layer_target.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling {
 

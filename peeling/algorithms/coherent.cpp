@@ -1,5 +1,7 @@
 #include "peeling/algorithms/coherent.h"
 
+#include "peeling/programs/region_programs.h"
+
 namespace strata::peeling {
 
 using namespace pipeline;

@@ -5,7 +5,7 @@
 // Invariant  before pass i, `peeled` = depth of layer i-1, and layers 0 .. i-1 are saved, alpha 0 where a pixel has none.
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/layer_quads.h"
-#include "peeling/programs/programs.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling {
 

@@ -12,7 +12,7 @@
 
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/layer_target.h"
-#include "peeling/programs/programs.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling {
 

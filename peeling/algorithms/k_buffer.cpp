@@ -9,6 +9,7 @@
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/depth_float.h"
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling {
 

@@ -9,6 +9,7 @@
 
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling {
 
@@ -53,8 +54,7 @@ std::size_t front_object(Region& region, const Objects& remaining, Target neares
         if (region.limit_reached(2)) return 0;
         if (!is_occluded(region, remaining, i, nearest)) return i;
     }
-    merge(region.diagnostics(),
-          {Fault::out_of_order, 0, -1, -1, "no object lies in front of all others: the first is taken"});
+    region.report(Fault::out_of_order, "no object lies in front of all others: the first is taken");
     return 0;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/region_programs.h"
 
 namespace strata::peeling {
 

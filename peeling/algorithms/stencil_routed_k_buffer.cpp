@@ -10,6 +10,7 @@
 
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/depth_range.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 
@@ -83,6 +84,7 @@ Rgba composite(std::vector<Sample>& samples, const Rgba& background) {
 
 // One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's books.
 Target resolve(Region& region, const std::vector<Capture>& captures) {
+    RegionShortcuts shortcuts{region};
     const Target result = region.make_color();
     const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
     std::vector<Sample> samples;
@@ -92,17 +94,17 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
             for (int s = 0; s < k; ++s)
                 if (const std::uint32_t code = region.storage(c.depth).depth(s)[pixel]; code != empty)
                     samples.push_back({code, region.color(c.color, pixel, s)});
-        region.store_pixel(result, pixel, composite(samples, region.color(region.opaque_color(), pixel)));
+        shortcuts.store_pixel(result, pixel, composite(samples, region.color(region.opaque_color(), pixel)));
         if (!region.frame().trace) continue;
         for (const Sample& s : samples) region.trace({pixel, s.code, 0, Side::front, false});
     }
     const auto bytes = [&](Target t) {
         return static_cast<std::uint64_t>(info(region.storage(t).format()).bytes_per_pixel) * region.rect().area();
     };
-    region.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
+    shortcuts.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
     for (std::size_t pass = 0; pass < captures.size(); ++pass) {
         region.count_with(static_cast<int>(pass) + 1);
-        region.count({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
+        shortcuts.count({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
     }
     return result;
 }

@@ -1,164 +1,251 @@
 #include "peeling/audit/audit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <tuple>
+#include <array>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "peeling/audit/image_error.h"
-#include "peeling/programs/composite.h"
+#include "peeling/audit/pixel_audit.h"
 #include "peeling/programs/fragment_lists.h"
-#include "pipeline/stages/alpha_test.h"
+#include "pipeline/region/region.h"
+#include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
 
 namespace strata::peeling {
 
 using namespace pipeline;
+using rasterizer::Rect;
+
+namespace in_parts {
+
+// A tile, or some rows of it, or a part of one row.
+struct Part {
+    std::size_t tile = 0;
+    Rect rect;
+};
+
+// What was found in some parts, and which parts of them did not fit into the memory.
+struct Looked {
+    AuditResult found;
+    std::vector<Part> left;
+    void add(Looked&& other) {
+        merge(found, other.found);
+        left.insert(left.end(), other.left.begin(), other.left.end());
+    }
+};
+
+}  // namespace in_parts
+
+using namespace in_parts;
 
 namespace {
 
-// A region's trace, pixel by pixel, in the order in which things happened.
-struct PixelTraces {
-    std::vector<std::uint32_t> start;
-    std::vector<TraceEntry> entries;
-
-    PixelTraces(const std::vector<TraceEntry>& trace, std::size_t pixels)
-        : start(pixels + 1, 0), entries(trace.size()) {
-        for (const TraceEntry& e : trace) ++start[e.pixel + 1];
-        for (std::size_t p = 1; p < start.size(); ++p) start[p] += start[p - 1];
-        std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-        for (const TraceEntry& e : trace) entries[next[e.pixel]++] = e;
-    }
-
-    // What the pixel shows from near to far: what was composited UNDER in order, then what was composited OVER, last first.
-    [[nodiscard]] std::vector<TraceEntry> near_to_far(std::uint32_t pixel) const {
-        std::vector<TraceEntry> sequence;
-        for (std::uint32_t i = start[pixel]; i < start[pixel + 1]; ++i)
-            if (entries[i].side == Side::front) sequence.push_back(entries[i]);
-        for (std::uint32_t i = start[pixel + 1]; i-- > start[pixel];)
-            if (entries[i].side == Side::back) sequence.push_back(entries[i]);
-        return sequence;
-    }
-};
-
-std::uint64_t places_that_differ(const std::vector<KeyedFragment>& expected, const std::vector<TraceEntry>& found) {
-    const std::size_t shared = std::min(expected.size(), found.size());
-    std::uint64_t errors = std::max(expected.size(), found.size()) - shared;
-    for (std::size_t i = 0; i < shared; ++i) {
-        const bool same_fragment = !found[i].is_fragment || found[i].primitive == expected[i].primitive;
-        if (found[i].key != expected[i].key || !same_fragment) ++errors;
-    }
-    return errors;
+std::array<Part, 2> halves(const Part& part) {
+    const auto [x0, y0, x1, y1] = part.rect;
+    const int x = (x0 + x1) / 2, y = (y0 + y1) / 2;
+    if (y1 - y0 > 1) return {Part{part.tile, {x0, y0, x1, y}}, Part{part.tile, {x0, y, x1, y1}}};
+    return {Part{part.tile, {x0, y0, x, y1}}, Part{part.tile, {x, y0, x1, y1}}};
 }
 
-void add(PixelCount& count, int x, int y) {
-    if (count.pixels++ == 0 || std::tie(y, x) < std::tie(count.first_y, count.first_x))
-        count.first_x = x, count.first_y = y;
+void move(PixelCount& count, int dx, int dy) {
+    if (count.pixels == 0) return;
+    count.first_x += dx;
+    count.first_y += dy;
 }
 
-void add(PixelCount& count, const PixelCount& other) {
-    if (other.pixels == 0) return;
-    const std::uint64_t pixels = count.pixels + other.pixels;
-    add(count, other.first_x, other.first_y);
-    count.pixels = pixels;
+[[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
+    const std::uint64_t lists = fragments * AuditMemory::bytes_a_fragment * 2;
+    const std::uint64_t needed = lists > bytes ? lists : 2 * bytes;  // nobody knows how long the trace would be
+    throw InputError("strata", "--fragment-memory",
+                     "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
+                         std::to_string(pixel.rect.x0) + ", " + std::to_string(pixel.rect.y0) + "), which has " +
+                         std::to_string(fragments) + " fragments, or --no-audit",
+                     std::to_string(bytes));
 }
-
-class RegionAudit {
-  public:
-    RegionAudit(const Frame& frame, const Algorithm& algorithm, const FrameResult& result, std::size_t r)
-        : algorithm_{algorithm},
-          result_{result},
-          region_{frame, result.traces[r].rect, result.traces[r].tile,
-                  result.work.tile_size == 0 ? Extent::frame : Extent::tile},
-          lists_{visible_fragments(region_, Bookkeeping::silent)},
-          traces_{result.traces[r].entries, region_.rect().area()} {}
-
-    AuditResult run() {
-        if (has_order()) found_.order_errors = 0;
-        for (std::uint32_t pixel = 0; pixel < region_.rect().area(); ++pixel) look_at(pixel);
-        return found_;
-    }
-
-  private:
-    [[nodiscard]] bool has_order() const { return algorithm_.ties != TiePolicy::none; }
-
-    void look_at(std::uint32_t pixel) {
-        const rasterizer::Rect rect = region_.rect();
-        const int x = rect.x0 + static_cast<int>(pixel) % rect.width(),
-                  y = rect.y0 + static_cast<int>(pixel) / rect.width();
-        const auto fragments = lists_.of(pixel);
-        if (algorithm_.kills_alpha_zero) return look_at(with_alpha(fragments), pixel, x, y);
-        look_at(fragments, pixel, x, y);
-    }
-
-    // What an alpha test GREATER 0 leaves.
-    [[nodiscard]] std::vector<KeyedFragment> with_alpha(std::span<const KeyedFragment> fragments) const {
-        const Frame& frame = region_.frame();
-        const bool eight_bit = is_eight_bit_alpha(frame.profile->alpha_test, info(frame.color_format).type);
-        std::vector<KeyedFragment> kept;
-        for (const KeyedFragment& f : fragments)
-            if (eight_bit ? to_unorm8(f.color[3]) > 0 : f.color[3] > 0.0f) kept.push_back(f);
-        return kept;
-    }
-
-    void look_at(std::span<const KeyedFragment> fragments, std::uint32_t pixel, int x, int y) {
-        const auto keys = in_policy_order(fragments, TiePolicy::unique).size();
-        const auto kept = has_order() ? in_policy_order(fragments, algorithm_.ties) : std::vector<KeyedFragment>{};
-        const std::size_t lost = has_order() ? fragments.size() - kept.size() : 0;
-        found_.layers_max = std::max(found_.layers_max, static_cast<int>(keys));
-        found_.fragments_max = std::max(found_.fragments_max, static_cast<int>(fragments.size()));
-        found_.lost_by_ties += lost;
-        if (keys < fragments.size()) add(found_.ties, x, y);
-        if (has_order()) {
-            const std::uint64_t errors = places_that_differ(kept, traces_.near_to_far(pixel));
-            *found_.order_errors += errors;
-            if (errors > 0) add(found_.misordered, x, y);
-        }
-        compare(fragments, pixel, x, y, !has_order() || kept == in_policy_order(fragments, TiePolicy::first));
-    }
-
-    void compare(std::span<const KeyedFragment> fragments, std::uint32_t pixel, int x, int y,
-                 bool ties_change_nothing) {
-        const auto truth = composite(by_exact_depth(fragments), region_.color(region_.opaque_color(), pixel));
-        const rasterizer::Rect frame = region_.frame().rect();
-        double worst = 0;
-        for (int c = 0; c < 3; ++c) {
-            const double value = channel_value(result_.color, x - frame.x0, y - frame.y0, c);
-            worst = std::max(worst, std::fabs(value - truth[static_cast<std::size_t>(c)]) * 255.0);
-        }
-        found_.max_difference = std::max(found_.max_difference, worst);
-        if (ties_change_nothing)
-            found_.max_difference_without_ties = std::max(found_.max_difference_without_ties, worst);
-    }
-
-    const Algorithm& algorithm_;
-    const FrameResult& result_;
-    Region region_;
-    FragmentLists lists_;
-    PixelTraces traces_;
-    AuditResult found_;
-};
 
 }  // namespace
 
-AuditResult audit(const Frame& frame, const Algorithm& algorithm, const FrameResult& result, int threads) {
-    const FloatEnvironment ours;
-    std::vector<AuditResult> parts(result.traces.size());
-    parallel_for(parts.size(), threads, [&](std::size_t r) {
-        parts[r] = RegionAudit{frame, algorithm, result, r}.run();
-    });
-    AuditResult all;
-    for (const AuditResult& part : parts) {
-        all.layers_max = std::max(all.layers_max, part.layers_max);
-        all.fragments_max = std::max(all.fragments_max, part.fragments_max);
-        if (part.order_errors) all.order_errors = all.order_errors.value_or(0) + *part.order_errors;
-        all.lost_by_ties += part.lost_by_ties;
-        add(all.ties, part.ties);
-        add(all.misordered, part.misordered);
-        all.max_difference = std::max(all.max_difference, part.max_difference);
-        all.max_difference_without_ties = std::max(all.max_difference_without_ties, part.max_difference_without_ties);
+struct Audit::Impl {
+    const Frame& frame;
+    const Body& body;
+    const Algorithm& algorithm;
+    AuditMemory shared, alone;  // for a worker among all, and for one by itself
+    int threads;
+    Frame still;               // the frame for looks at its fragments: no pass, no trace
+    RegionScratchPool pool{};  // for those looks, as are the lists
+    std::mutex free_lists_mutex{};
+    std::vector<FragmentLists> free_lists{};
+    std::vector<Looked> tiles;
+
+    Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t bytes, int t)
+        : frame{f}, body{b}, algorithm{a}, shared{bytes, thread_count(t)}, alone{bytes, 1}, threads{t}, still{f} {
+        still.replay = {};
+        still.trace = false;
+        const auto& geometry = f.transparent->geometry;
+        tiles.resize(static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y));
     }
-    return all;
+
+    [[nodiscard]] bool has_order() const { return algorithm.ties != TiePolicy::none; }
+    [[nodiscard]] Rect rect(std::size_t tile) const { return tile_rect(frame.transparent->geometry, tile); }
+    [[nodiscard]] AuditedPixel pixel_at(const Region& region, std::uint32_t pixel, const Image& color) const {
+        const auto width = static_cast<std::uint32_t>(region.rect().width());
+        AuditedPixel at{.x = region.rect().x0 + static_cast<int>(pixel % width),
+                        .y = region.rect().y0 + static_cast<int>(pixel / width),
+                        .background = region.color(region.opaque_color(), pixel)};
+        for (int c = 0; c < 3; ++c)
+            at.shown[static_cast<std::size_t>(c)] =
+                channel_value(color, at.x - frame.rect().x0, at.y - frame.rect().y0, c);
+        return at;
+    }
+
+    // Looks at all pixels of a part whose fragments fit, range by range.
+    [[nodiscard]] Looked look_at(const Part& part, const PixelTraces* traces, const Image& color,
+                                 const AuditMemory& memory) {
+        RegionBooks books;
+        Region region{still, {part.rect, part.tile, Extent::tile}, books, {}, &pool};
+        const std::vector<std::uint32_t> coverage = coverage_of(region);
+        PixelAudit pixels{frame, algorithm};
+        Looked looked;
+        FragmentLists lists = take_lists();
+        PixelRange range;
+        for (; range.last < coverage.size();) {
+            range = next_range(coverage, part.rect.width(), range.last, memory.fragments());
+            if (coverage[range.first] > memory.fragments()) {
+                looked.left.push_back({part.tile, rect_of(range, part.rect)});
+                continue;
+            }
+            list_visible(region, range, coverage, Bookkeeping::silent, lists);
+            for (std::uint32_t p = range.first; p < range.last; ++p)
+                pixels.look_at(lists.of(p), traces, pixel_at(region, p, color));
+        }
+        looked.found = pixels.found();
+        const std::scoped_lock lock{free_lists_mutex};
+        free_lists.push_back(std::move(lists));
+        return looked;
+    }
+
+    // As many as ever were in use at once, kept, so that memory is asked for seldom.
+    [[nodiscard]] FragmentLists take_lists() {
+        const std::scoped_lock lock{free_lists_mutex};
+        if (free_lists.empty()) return {};
+        FragmentLists lists = std::move(free_lists.back());
+        free_lists.pop_back();
+        return lists;
+    }
+
+    // A region of the frame has ended: a tile, or the whole frame, which is looked at tile by tile.
+    void look_at(Region& region, std::size_t number, const Image& color) {
+        const bool is_traced = !has_order() || RegionShortcuts{region}.trace().is_complete();
+        std::optional<PixelTraces> traces;
+        if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect());
+        const auto look_at_tile = [&](std::size_t tile) {
+            const Part part{tile, rect(tile)};
+            tiles[tile] = is_traced ? look_at(part, traces ? &*traces : nullptr, color, shared) : Looked{{}, {part}};
+        };
+        if (region.rect() == rect(number)) return look_at_tile(number);
+        parallel_for(tiles.size(), threads, look_at_tile);
+    }
+
+    void copy(std::size_t like, std::size_t tile) {
+        const int dx = rect(tile).x0 - rect(like).x0, dy = rect(tile).y0 - rect(like).y0;
+        Looked& there = tiles[tile] = tiles[like];
+        move(there.found.ties, dx, dy);
+        move(there.found.misordered, dx, dy);
+        for (Part& part : there.left)
+            part = {tile, {part.rect.x0 + dx, part.rect.y0 + dy, part.rect.x1 + dx, part.rect.y1 + dy}};
+    }
+
+    // Runs a part again, in as many parts as the memory makes of it. Single pixels that do not fit are left.
+    [[nodiscard]] Looked run_again(const Part& part, const FrameResult& result, const AuditMemory& memory,
+                                   RegionScratchPool& scratch) {
+        Frame again = frame;
+        again.trace = has_order();
+        again.trace_bytes = memory.trace_bytes();
+        again.keep_layers = again.nearest_depth = false;
+        Looked looked;
+        std::vector<Part> open{part};
+        while (!open.empty()) {
+            const Part next = open.back();
+            open.pop_back();
+            RegionBooks books;
+            books.script = result.answers;
+            Region region{again, {next.rect, next.tile, Extent::tile}, books, {}, &scratch};
+            const bool fits = run_traced(region);
+            if (fits) {
+                std::optional<PixelTraces> traces;
+                if (has_order()) traces.emplace(RegionShortcuts{region}.trace(), next.rect);
+                looked.add(look_at(next, traces ? &*traces : nullptr, result.color, memory));
+            } else if (next.rect.area() == 1) {
+                looked.left.push_back(next);
+            } else {
+                for (const Part& half : halves(next)) open.push_back(half);
+            }
+        }
+        return looked;
+    }
+
+    // False if the trace does not fit; where coverage says so beforehand, nothing is run.
+    [[nodiscard]] bool run_traced(Region& region) {
+        if (!has_order()) return true;
+        std::uint64_t fragments = 0;
+        for (const std::uint32_t of_pixel : coverage_of(region)) fragments += of_pixel;
+        if (region.rect().area() > 1 && fragments * sizeof(TraceEntry) > region.frame().trace_bytes) return false;
+        body(region);
+        return RegionShortcuts{region}.trace().is_complete();
+    }
+
+    [[nodiscard]] Looked run_all_again(const std::vector<Part>& parts, const FrameResult& result,
+                                       const AuditMemory& memory) {
+        RegionScratchPool scratch;
+        std::vector<Looked> looked(parts.size());
+        parallel_for(parts.size(), memory.workers,
+                     [&](std::size_t i) { looked[i] = run_again(parts[i], result, memory, scratch); });
+        Looked all;
+        for (Looked& one : looked) all.add(std::move(one));
+        return all;
+    }
+
+    [[nodiscard]] AuditResult finish(const FrameResult& result) {
+        Looked all;
+        for (Looked& tile : tiles) all.add(std::move(tile));
+        try {
+            for (const AuditMemory& memory : {shared, alone})
+                all.add(run_all_again(std::exchange(all.left, {}), result, memory));
+        } catch (const NeedsFrame&) {
+            throw InputError("strata", "--fragment-memory",
+                             "room for the trace of the whole frame, as its lookups leave their tiles, or --no-audit",
+                             std::to_string(alone.bytes));
+        }
+        if (!all.left.empty()) {
+            RegionBooks books;
+            Region region{still, {all.left.front().rect, all.left.front().tile, Extent::tile}, books, {}, &pool};
+            throw_too_deep(all.left.front(), coverage_of(region).front(), alone.bytes);
+        }
+        if (has_order() && !all.found.order_errors) all.found.order_errors = 0;
+        return all.found;
+    }
+};
+
+Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, std::uint64_t bytes, int threads)
+    : impl_{std::make_unique<Impl>(frame, body, algorithm, bytes, threads)} {}
+
+Audit::~Audit() = default;
+
+Watch Audit::watch() {
+    return {.ended = [this](Region& region, std::size_t number,
+                            const Image& color) { impl_->look_at(region, number, color); },
+            .alike = [this](std::size_t like, std::size_t region) { impl_->copy(like, region); }};
+}
+
+AuditResult Audit::finish(const FrameResult& result) {
+    const FloatEnvironment ours;
+    return impl_->finish(result);
 }
 
 }  // namespace strata::peeling

@@ -1,40 +1,55 @@
-// peeling/audit/audit.h - a finished frame against the exact A-buffer of the same fragments: what the algorithm did, and what it lost.
+// peeling/audit/audit.h - a frame against the exact A-buffer of the same fragments: what the algorithm did, and what it lost.
 //
-// Rule     For every pixel the sequence that the algorithm composited (its trace) is compared with the visible fragments in
-//          the order of its own tie policy; the picture is compared with all fragments composited in binary64, sorted by the
-//          exact depth.
-// Source   audit.md 1 to 5.
-// Tests    tests/peeling/audit/audit_test.cpp
+// Rule     Every region is looked at when it ends, while its trace is there (pixel_audit.h says what is compared), with the
+//          fragments of as many pixels at a time as fit into the audit's memory. What does not fit, a trace or a pixel's
+//          fragments, is run again after the frame, in parts that are halved until they fit, with the frame's answers for a
+//          script. So the figures depend neither on the memory nor on tiles, threads and execution.
+// Numbers  A worker has an equal share of the memory, and what does not fit into a share is done alone with all of it. Half
+//          of a share is for the trace, 16 bytes an entry; the rest for lists, 52 bytes a fragment: 28 in its list, 8 in each
+//          of three orders. Beside it a pixel of a region takes 24 bytes while the region is looked at.
+// Source   audit.md 13; what is compared, 1 to 5.
+// Tests    tests/peeling/audit/audit_test.cpp, tests/peeling/audit/audit_memory_test.cpp
 #pragma once
 #include <cstdint>
-#include <optional>
+#include <memory>
 
 #include "peeling/algorithms/algorithm.h"
+#include "peeling/audit/audit_result.h"
+#include "pipeline/frame/frame.h"
+#include "pipeline/frame/frame_result.h"
 #include "pipeline/region/executor.h"
 
 namespace strata::peeling {
 
-// Pixels that have something, and the first of them in row-major order; (-1, -1) if there is none.
-struct PixelCount {
-    std::uint64_t pixels = 0;
-    int first_x = -1, first_y = -1;
-    friend bool operator==(const PixelCount&, const PixelCount&) = default;
+struct AuditMemory {
+    std::uint64_t bytes = 0;  // of all workers
+    int workers = 1;          // as many as look at once
+    // Of one worker.
+    [[nodiscard]] std::uint64_t trace_bytes() const noexcept { return bytes / static_cast<unsigned>(workers) / 2; }
+    [[nodiscard]] std::uint64_t fragments() const noexcept { return trace_bytes() / bytes_a_fragment; }
+    static constexpr std::uint64_t bytes_a_fragment = 52;
 };
 
-struct AuditResult {
-    int layers_max = 0;     // N: distinct visible keys of the deepest pixel
-    int fragments_max = 0;  // M: visible fragments of the deepest pixel
-    std::optional<std::uint64_t>
-        order_errors;                // places where the sequences differ; empty for an algorithm without an order
-    std::uint64_t lost_by_ties = 0;  // visible fragments that the tie policy does not keep
-    PixelCount ties, misordered;     // pixels with equal keys; pixels with order errors
-    double max_difference = 0;       // in 1/255, over r, g and b
-    double max_difference_without_ties = 0;  // the same over pixels where no tie loses or reorders anything
-    friend bool operator==(const AuditResult&, const AuditResult&) = default;
-};
+// One frame's. It must be there while the frame runs.
+class Audit {
+  public:
+    // `frame` and `body` are what the executor runs, and must outlive the audit. The frame's own trace_bytes say how long its
+    // regions' traces get. threads: 0: all.
+    Audit(const pipeline::Frame& frame, const pipeline::Body& body, const Algorithm& algorithm, std::uint64_t bytes,
+          int threads);
+    ~Audit();
+    Audit(const Audit&) = delete;
+    Audit& operator=(const Audit&) = delete;
 
-// `result` must have been run with frame.trace set.
-[[nodiscard]] AuditResult audit(const pipeline::Frame& frame, const Algorithm& algorithm,
-                                const pipeline::FrameResult& result, int threads);
+    // For the executor.
+    [[nodiscard]] pipeline::Watch watch();
+
+    // Once the frame has run. Throws InputError if one pixel's fragments alone do not fit into the memory.
+    [[nodiscard]] AuditResult finish(const pipeline::FrameResult& result);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace strata::peeling

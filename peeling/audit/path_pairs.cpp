@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "pipeline/frame/captured_fragment.h"
+
 namespace strata::peeling {
 
 using pipeline::CapturedFragment;

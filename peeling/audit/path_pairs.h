@@ -12,7 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/region/region.h"
+namespace strata::pipeline {
+struct CapturedFragment;
+}
 
 namespace strata::peeling {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "peeling/audit/region_trace.h"
+
 namespace strata::peeling {
 
 namespace {
@@ -11,10 +13,10 @@ struct Composited {
     std::vector<std::size_t> start;
     std::vector<std::uint32_t> keys;
 
-    Composited(std::span<const pipeline::RegionTrace> traces, std::size_t width, std::size_t height)
+    Composited(std::span<const RegionTrace> traces, std::size_t width, std::size_t height)
         : start(width * height + 1, 0) {
         const auto for_each = [&](auto&& body) {
-            for (const pipeline::RegionTrace& trace : traces) {
+            for (const RegionTrace& trace : traces) {
                 const auto columns = static_cast<std::size_t>(trace.rect.width());
                 for (const pipeline::TraceEntry& entry : trace.entries) {
                     const std::size_t x = static_cast<std::size_t>(trace.rect.x0) + entry.pixel % columns;
@@ -69,8 +71,8 @@ void look_at(PeelErrors& errors, std::span<const LayerFragment> pixel, std::span
 
 }  // namespace
 
-PeelErrors peel_errors(std::span<const LayerFragment> fragments, std::span<const pipeline::RegionTrace> traces,
-                       int width, int height) {
+PeelErrors peel_errors(std::span<const LayerFragment> fragments, std::span<const RegionTrace> traces, int width,
+                       int height) {
     const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
     const Composited composited(traces, columns, rows);
     PeelErrors errors;

@@ -11,10 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "peeling/audit/audit.h"
-#include "pipeline/region/executor.h"
+#include "peeling/audit/audit_result.h"
 
 namespace strata::peeling {
+
+struct RegionTrace;
 
 // A fragment as the peel met it: `layer` is its code in the truth, `key` what the trace calls it.
 struct LayerFragment {
@@ -35,7 +36,7 @@ struct PeelErrors {
 };
 
 // `fragments` are the visible ones, by pixel and in submission order; `traces` a run's, of a frame `width` x `height`.
-[[nodiscard]] PeelErrors peel_errors(std::span<const LayerFragment> fragments,
-                                     std::span<const pipeline::RegionTrace> traces, int width, int height);
+[[nodiscard]] PeelErrors peel_errors(std::span<const LayerFragment> fragments, std::span<const RegionTrace> traces,
+                                     int width, int height);
 
 }  // namespace strata::peeling

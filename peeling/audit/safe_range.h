@@ -15,6 +15,7 @@
 #include <span>
 
 #include "peeling/audit/path_pairs.h"
+#include "pipeline/formats/format.h"
 
 namespace strata::peeling {
 

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "peeling/closed/arrivals.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 

@@ -249,6 +249,7 @@ void count_all(const pipeline::RowSource& source, const rasterizer::Rect& region
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
 #include "rasterizer/set_up/window.h"
 
 namespace strata::peeling {
@@ -259,13 +260,13 @@ bool append_rows(Arrivals& to, const pipeline::RowSource& source, std::span<cons
                  const rasterizer::Rect& band, std::uint64_t& fragments) noexcept {
     const rasterizer::Geometry& geometry = source.geometry;
     const rasterizer::FragmentValues values{geometry, source.depth, {.shader_z = false, .code = true, .color = false}};
-    return HWY_DYNAMIC_DISPATCH(append_all)(to, source, triangles, band, values.to_code(),
-                                            rasterizer::z_units(geometry.state, geometry.rules), fragments);
+    return kernel_of(HWY_DISPATCH_TABLE(append_all))(to, source, triangles, band, values.to_code(),
+                                                     rasterizer::z_units(geometry.state, geometry.rules), fragments);
 }
 
 void count_rows(const pipeline::RowSource& source, const rasterizer::Rect& region, std::uint32_t* coverage,
                 std::uint32_t* places) noexcept {
-    HWY_DYNAMIC_DISPATCH(count_all)(source, region, coverage, places);
+    kernel_of(HWY_DISPATCH_TABLE(count_all))(source, region, coverage, places);
 }
 
 }  // namespace strata::peeling

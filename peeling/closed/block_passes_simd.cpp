@@ -5,7 +5,6 @@
 #include "hwy/highway.h"
 #include "peeling/closed/block_passes.h"
 #include "pipeline/formats/unorm8-inl.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
@@ -201,6 +200,8 @@ void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meani
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::peeling {
 HWY_EXPORT(both_ends);
 HWY_EXPORT(front_alone);
@@ -209,7 +210,7 @@ HWY_EXPORT(last_quad);
 
 void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
-    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(both_ends)(block, front, back, rounding);
+    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(both_ends))(block, front, back, rounding);
     if (rounding == nearest)
         scalar::peel_both_ends<nearest>(block, front, back);
     else
@@ -218,7 +219,7 @@ void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& bac
 
 void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
     using enum pipeline::BlendRounding;
-    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(front_alone)(block, front, rounding);
+    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(front_alone))(block, front, rounding);
     if (rounding == nearest)
         scalar::peel_front<nearest>(block, front);
     else
@@ -230,13 +231,13 @@ BlockCodes codes_of(const std::uint32_t* words) {
     if (simd_is_scalar())
         scalar::codes_of(words, result);
     else
-        HWY_DYNAMIC_DISPATCH(codes)(words, result);
+        kernel_of(HWY_DISPATCH_TABLE(codes))(words, result);
     return result;
 }
 
 void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
     if (simd_is_scalar()) return scalar::composite(front, back, meaning, words);
-    HWY_DYNAMIC_DISPATCH(last_quad)(front, back, meaning, words);
+    kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, meaning, words);
 }
 
 }  // namespace strata::peeling

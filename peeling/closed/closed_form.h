@@ -10,6 +10,7 @@
 
 #include "peeling/closed/block_passes.h"
 #include "peeling/programs/programs.h"
+#include "pipeline/frame/frame.h"
 
 namespace strata::peeling {
 

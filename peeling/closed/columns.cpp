@@ -5,6 +5,8 @@
 #include "peeling/closed/arrival_rows.h"
 #include "peeling/closed/arrivals.h"
 #include "pipeline/region/arena.h"
+#include "pipeline/region/region_shortcuts.h"
+#include "rasterizer/walk/rows.h"
 
 namespace strata::peeling {
 
@@ -39,11 +41,12 @@ class RegionColumns {
           visit_{visit},
           bytes_{region.frame().replay.bytes},
           by_shader_z_{region.frame().key == DepthKey::shader_z},
-          rows_of_{region.row_source()} {
+          shortcuts_{region},
+          rows_of_{shortcuts_.row_source()} {
         const std::size_t pixels =
             (blocks_of(region.rect().area()) + 1) * block_lanes;  // a row may end behind the last
         for (auto* const counts : {&count_, &hidden_, &at_surface_})
-            *counts = region.arena().take<std::uint32_t>(pixels);
+            *counts = shortcuts_.arena().take<std::uint32_t>(pixels);
     }
 
     // First as if all fitted into a cache: one walk. What does not is counted, and walked band by band.
@@ -84,8 +87,8 @@ class RegionColumns {
     [[nodiscard]] bool plan(std::vector<Band>& bands) {
         const rasterizer::Rect rect = region_.rect();
         const auto width = static_cast<std::size_t>(rect.width());
-        const auto coverage = region_.arena().take<std::uint32_t>(rect.area() + block_lanes);
-        const auto places = region_.arena().take<std::uint32_t>(static_cast<std::size_t>(rect.height()));
+        const auto coverage = shortcuts_.arena().take<std::uint32_t>(rect.area() + block_lanes);
+        const auto places = shortcuts_.arena().take<std::uint32_t>(static_cast<std::size_t>(rect.height()));
         find_coverage(coverage, places);
         for (int y = rect.y0; y < rect.y1; ++y) {
             Band row{{rect.x0, y, rect.x1, y + 1}};
@@ -112,7 +115,7 @@ class RegionColumns {
         std::ranges::fill(coverage, 0u);
         std::ranges::fill(places, 0u);
         if (rows_of_) return count_rows(*rows_of_, region_.rect(), coverage.data(), places.data());
-        region_.count_coverage(coverage);
+        shortcuts_.count_coverage(coverage);
         const auto width = static_cast<std::size_t>(region_.rect().width());
         for (std::size_t y = 0; y < places.size(); ++y)
             for (const std::uint32_t n : coverage.subspan(y * width, width)) places[y] += n;
@@ -123,7 +126,7 @@ class RegionColumns {
         const std::size_t words = band.ranks * band.stride(), rows = band.ranks * block_lanes;
         const std::size_t places = first_place + band.places + block_lanes;
         const std::size_t needed = (words + rows) * word_bytes + places * color_bytes;
-        if (memory_.size() < needed) memory_ = region_.arena().take<std::byte>(needed);
+        if (memory_.size() < needed) memory_ = shortcuts_.arena().take<std::byte>(needed);
         word_ = reinterpret_cast<std::uint64_t*>(memory_.data());
         rows_ = word_ + words;
         auto* const colors = reinterpret_cast<float*>(rows_ + rows);
@@ -141,7 +144,7 @@ class RegionColumns {
                      .hidden = hidden_.data(),
                      .at_surface = at_surface_.data(),
                      .opaque = region_.storage(region_.opaque_depth()).depth(0) + first_of(band),
-                     .same_opaque = region_.opaque_depth_is_cleared(),
+                     .same_opaque = shortcuts_.opaque_depth_is_cleared(),
                      .by_shader_z = by_shader_z_};
         for (std::size_t c = 0; c < 4; ++c) arrivals_.color[c] = color_[c];
         const bool fits = rows_of_ ? place_rows(band) : place_batches(band);
@@ -150,9 +153,9 @@ class RegionColumns {
     }
 
     [[nodiscard]] bool place_batches(const Band& band) {
-        return region_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
+        return shortcuts_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
             fragments_.rasterized += lanes(in);
-            fragments_.masked += lanes(in) - Region::alive_count(out, in.count);
+            fragments_.masked += lanes(in) - RegionShortcuts::alive_count(out, in.count);
             return append(arrivals_, in, out.alive.data());
         });
     }
@@ -167,7 +170,7 @@ class RegionColumns {
             fits = append_rows(arrivals_, *rows_of_, triangles.first(part), band.rect, fragments_.rasterized);
             triangles = triangles.subspan(part);
         }
-        region_.looked_at(fragments_.rasterized - before);
+        shortcuts_.looked_at(fragments_.rasterized - before);
         return fits;
     }
 
@@ -193,6 +196,7 @@ class RegionColumns {
     const std::function<void(const ColumnBlock&)>& visit_;
     std::uint64_t bytes_;  // the region's share of memory
     bool by_shader_z_;
+    RegionShortcuts shortcuts_;
     std::optional<RowSource> rows_of_;  // empty: batches
     RegionFragments fragments_;
     Arrivals arrivals_;

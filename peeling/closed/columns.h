@@ -9,8 +9,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
-#include "pipeline/region/region.h"
+namespace strata::pipeline {
+class Region;
+}
 
 namespace strata::peeling {
 

@@ -6,7 +6,6 @@
 #include "hwy/highway.h"
 #include "peeling/closed/arrivals.h"
 #include "peeling/programs/keys-inl.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
@@ -262,6 +261,8 @@ struct VectorRows {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::peeling {
 HWY_EXPORT(append_batch);
 HWY_EXPORT(take_sorted);
@@ -269,18 +270,18 @@ HWY_EXPORT(arrived_before);
 
 bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
     if (lanes(in) > to.most_places - to.places) return false;
-    if (!simd_is_scalar()) return HWY_DYNAMIC_DISPATCH(append_batch)(to, in, alive);
+    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(append_batch))(to, in, alive);
     return to.by_shader_z ? scalar::append<true>(to, in, alive) : scalar::append<false>(to, in, alive);
 }
 
 bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
     if (simd_is_scalar()) return take_rows<scalar::Rows>(from, pixel, block, rows);
-    return HWY_DYNAMIC_DISPATCH(take_sorted)(from, pixel, block, rows);
+    return kernel_of(HWY_DISPATCH_TABLE(take_sorted))(from, pixel, block, rows);
 }
 
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {
     if (simd_is_scalar()) return scalar::find_arrived_before(block, before);
-    HWY_DYNAMIC_DISPATCH(arrived_before)(block, before);
+    kernel_of(HWY_DISPATCH_TABLE(arrived_before))(block, before);
 }
 
 }  // namespace strata::peeling

@@ -13,6 +13,8 @@
 #include "peeling/closed/closed_form.h"
 #include "peeling/programs/min_max.h"
 #include "pipeline/formats/convert.h"
+#include "pipeline/frame/pass_counters.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "pipeline/stages/blend.h"
 
 namespace strata::peeling {
@@ -221,23 +223,23 @@ struct Course {
 };
 
 // What the draws and the quad of `dual` count; its clears and copies are done, or counted here where they repeat.
-Counters of_initialize(const RegionFragments& fragments) {
-    const std::uint64_t alive = fragments.rasterized - fragments.masked;
+Counters of_fates(const RegionFragments& fragments) {
     return {.fragments_rasterized = fragments.rasterized,
             .alpha_killed = fragments.masked,
-            .blended = alive,
-            .bytes_read = 4 * fragments.rasterized + 8 * alive,
-            .bytes_written = 8 * alive};
+            .blended = fragments.rasterized - fragments.masked};
+}
+constexpr std::uint64_t rg32f_bytes = 8, rgba8_bytes = 4, d32f_bytes = 4;
+Counters of_initialize(const RegionFragments& fragments) {
+    const Counters fates = of_fates(fragments);
+    return fates + of_loads(d32f_bytes, fragments.rasterized) + of_color(rg32f_bytes, fates.blended, true);
 }
 Counters of_peel(const RegionFragments& fragments, std::uint64_t area) {
-    const std::uint64_t alive = fragments.rasterized - fragments.masked;
-    constexpr std::uint64_t min_max = 8, color = 4, depth = 4, targets = min_max + 2 * color;
-    return {.fragments_rasterized = fragments.rasterized,
-            .alpha_killed = fragments.masked,
-            .blended = alive,
-            .bytes_read = (min_max + color + depth) * fragments.rasterized + targets * alive +
-                          (color + 2 * min_max + color) * area,  // the quad's loads and its blending
-            .bytes_written = targets * (area + alive) + color * area};
+    constexpr std::uint64_t targets = rg32f_bytes + 2 * rgba8_bytes;
+    const Counters fates = of_fates(fragments);
+    const Counters draw =
+        of_loads(rg32f_bytes + rgba8_bytes + d32f_bytes, fragments.rasterized) + of_color(targets, fates.blended, true);
+    const Counters quad = of_loads(rgba8_bytes + 2 * rg32f_bytes, area) + of_color(rgba8_bytes, area, true);
+    return fates + of_clear(targets, area) + draw + quad;
 }
 
 }  // namespace
@@ -247,23 +249,26 @@ bool dual_closed(Region& region) {
     if (!peels_to_the_end(frame) || frame.color_format != Format::rgba8) return false;
     const std::size_t area = region.rect().area();
     const Target result = region.make_color();
-    Course course{region, region.words(region.opaque_color()), region.words(result)};
+    RegionShortcuts shortcuts{region};
+    Course course{region, shortcuts.words(region.opaque_color()), shortcuts.words(result)};
     for (std::size_t pixel = 0; pixel < area; ++pixel)  // where there is no fragment
         course.result[pixel] = course.opaque[pixel] | 0xff000000u;
-    const std::size_t traced = region.trace().size();
+    const std::size_t traced = shortcuts.trace().size();
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) { course.run(block); });
     if (!fragments || has_foreign_depths(*fragments, region.profile())) {
-        region.trace().resize(traced);
+        shortcuts.trace().shorten(traced);
         return false;
     }
-    region.count({.bytes_read = 4 * area, .bytes_written = (4 + 4 + 8) * area}, {.copies = 1});  // front, back, min-max
-    region.count(of_initialize(*fragments), {.geometry = 1});
+    shortcuts.count(of_copy(rgba8_bytes, area) + of_clear(rgba8_bytes + rg32f_bytes, area),
+                    {.copies = 1});  // front, back, min-max
+    shortcuts.count(of_initialize(*fragments), {.geometry = 1});
     for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
         region.begin_iteration();
-        region.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
-        if (!region.any(Region::counted(course.left(passes)), Idle::steady)) break;
+        shortcuts.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
+        if (!region.any(RegionShortcuts::counted(course.left(passes)), Idle::steady)) break;
     }
-    region.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
+    shortcuts.count(of_loads(2 * rgba8_bytes, area) + of_color(rgba8_bytes, area, false),
+                    {.full_screen = 1});  // the last quad
     region.publish(result);
     return true;
 }

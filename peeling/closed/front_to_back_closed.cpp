@@ -12,7 +12,10 @@
 
 #include "peeling/closed/arrivals.h"
 #include "peeling/closed/closed_form.h"
+#include "peeling/programs/region_programs.h"
 #include "pipeline/formats/convert.h"
+#include "pipeline/frame/pass_counters.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "pipeline/stages/blend.h"
 
 namespace strata::peeling {
@@ -194,15 +197,14 @@ class PassCounters {
         exhausted_ += at(tallies_.exhausted, pass);
         const std::uint64_t discarded = at(tallies_.discarded, pass) + exhausted_;
         const std::uint64_t arriving = fragments_.rasterized - fragments_.masked - discarded;
-        const std::uint64_t loads = pass > 1 ? depth_ * fragments_.rasterized : 0;
-        const std::uint64_t clear_and_copy = (color_ + depth_) * area_, quad = (2 * color_ + 2 * depth_) * area_;
-        return {.fragments_rasterized = fragments_.rasterized,
-                .discarded = discarded,
-                .alpha_killed = fragments_.masked,
-                .depth_killed = arriving - passed_,
-                .blended = passed_,
-                .bytes_read = loads + depth_ * arriving + depth_ * area_ + quad,
-                .bytes_written = (color_ + depth_) * passed_ + clear_and_copy + color_ * area_};
+        const Counters fates{.fragments_rasterized = fragments_.rasterized,
+                             .discarded = discarded,
+                             .alpha_killed = fragments_.masked,
+                             .blended = passed_};
+        const Counters draw = of_loads(depth_, pass > 1 ? fragments_.rasterized : 0) +
+                              of_depth_test(depth_, arriving, passed_, true) + of_color(color_, passed_, false);
+        const Counters quad = of_loads(color_ + 2 * depth_, area_) + of_color(color_, area_, true);
+        return fates + of_clear(color_, area_) + of_copy(depth_, area_) + draw + quad;
     }
     [[nodiscard]] std::uint64_t passed() const noexcept { return passed_; }  // in the latest pass
 
@@ -226,8 +228,8 @@ class Rgba8Blocks {
     explicit Rgba8Blocks(Region& region)
         : region_{region},
           target_{region.make_color()},
-          background_{region.words(region.opaque_color())},
-          result_{region.words(target_)},
+          background_{RegionShortcuts{region}.words(region.opaque_color())},
+          result_{RegionShortcuts{region}.words(target_)},
           before_{cleared(region)} {
         for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
             result_[pixel] = background_[pixel] | 0xff000000u;
@@ -251,7 +253,8 @@ class Rgba8Blocks {
 
     void publish() {
         const std::uint64_t area = region_.rect().area();
-        region_.count({.bytes_read = (4 + 4) * area, .bytes_written = 4 * area}, {.full_screen = 1});  // the last quad
+        RegionShortcuts{region_}.count(of_loads(4 + 4, area) + of_color(4, area, false),
+                                       {.full_screen = 1});  // the last quad
         region_.publish(target_);
     }
 
@@ -275,7 +278,8 @@ class OtherBlocks {
         BlockCodes codes = before_;
         GroupComposite{region_, block, pixels_of(block, false)}.run(codes);
         for (std::size_t c = 0; c < 4; ++c) std::copy_n(codes[c].begin(), block.count, codes_[c].begin());
-        region_.store_pixels(accumulated_, static_cast<std::uint32_t>(block.first), block.count, codes_);
+        RegionShortcuts{region_}.store_pixels(accumulated_, static_cast<std::uint32_t>(block.first), block.count,
+                                              codes_);
     }
 
     // Not a clear: nothing is counted before it is sure that this form applies.
@@ -283,8 +287,9 @@ class OtherBlocks {
         const std::size_t pixels = region_.rect().area();
         for (std::size_t c = 0; c < 4; ++c) codes_[c].fill(before_[c][0]);
         for (std::size_t first = 0; first < pixels; first += batch_capacity)
-            region_.store_pixels(accumulated_, static_cast<std::uint32_t>(first),
-                                 static_cast<int>(std::min<std::size_t>(pixels - first, batch_capacity)), codes_);
+            RegionShortcuts{region_}.store_pixels(
+                accumulated_, static_cast<std::uint32_t>(first),
+                static_cast<int>(std::min<std::size_t>(pixels - first, batch_capacity)), codes_);
     }
 
     void publish() { publish_over_background(region_, accumulated_, region_.opaque_color()); }
@@ -300,8 +305,8 @@ void count_passes(Region& region, const RegionFragments& fragments, const PassTa
     PassCounters counters{region, fragments, tallies};
     for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
         region.begin_iteration();
-        region.count(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
-        if (!region.any(Region::counted(counters.passed()), Idle::when_zero)) break;
+        RegionShortcuts{region}.count(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
+        if (!region.any(RegionShortcuts::counted(counters.passed()), Idle::when_zero)) break;
     }
 }
 
@@ -317,7 +322,7 @@ bool composite_layers(Region& region) {
     if (!fragments) return false;
     columns.finish();
     const auto color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
-    region.count({.bytes_written = color * region.rect().area()}, {});  // the accumulated colour's clear
+    RegionShortcuts{region}.count(of_clear(color, region.rect().area()), {});  // the accumulated colour's clear
     count_passes(region, *fragments, tallies);
     blocks.publish();
     return true;

@@ -6,7 +6,7 @@
 #pragma once
 #include <cstdint>
 
-#include "pipeline/region/region.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 

@@ -7,7 +7,6 @@
 #include "peeling/programs/average_words.h"
 #include "pipeline/formats/half-inl.h"
 #include "pipeline/formats/unorm8-inl.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
@@ -81,14 +80,16 @@ bool converts_halves() { return pipeline::HWY_NAMESPACE::has_halves; }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::peeling {
 HWY_EXPORT(resolve);
 HWY_EXPORT(converts_halves);
 
 StuckPixels resolve_average_words(const pipeline::ScreenWords& words) noexcept {
-    return HWY_DYNAMIC_DISPATCH(resolve)(words);
+    return kernel_of(HWY_DISPATCH_TABLE(resolve))(words);
 }
-bool resolves_words() noexcept { return !simd_is_scalar() && HWY_DYNAMIC_DISPATCH(converts_halves)(); }
+bool resolves_words() noexcept { return !simd_is_scalar() && kernel_of(HWY_DISPATCH_TABLE(converts_halves))(); }
 
 }  // namespace strata::peeling
 #endif

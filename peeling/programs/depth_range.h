@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "peeling/programs/programs.h"
+#include "pipeline/region/region.h"
 
 namespace strata::peeling {
 

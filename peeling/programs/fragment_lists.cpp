@@ -1,6 +1,10 @@
 #include "peeling/programs/fragment_lists.h"
 
+#include <bit>
+
 #include "peeling/programs/programs.h"
+#include "pipeline/region/region_shortcuts.h"
+#include "pipeline/region/region.h"
 
 namespace strata::peeling {
 
@@ -8,34 +12,97 @@ using namespace pipeline;
 
 namespace {
 
-bool is_visible(const Region& region, const CapturedFragment& f) {
-    const std::uint32_t opaque = region.storage(region.opaque_depth()).depth(0)[f.pixel];
-    if (region.frame().key == DepthKey::shader_z) return f.shader_z < std::bit_cast<float>(opaque);
-    return f.code < opaque;
-}
+constexpr rasterizer::FragmentNeeds list_needs{
+    .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
+
+// Puts fragments into their pixels' lists as they come; batches number their pixels from the range's first.
+class Filing {
+  public:
+    Filing(const Region& region, FragmentLists& lists)
+        : opaque_{region.storage(region.opaque_depth()).depth(0) + lists.pixels.first},
+          by_shader_z_{region.frame().key == DepthKey::shader_z},
+          lists_{lists} {}
+
+    void operator()(const FragmentBatch& in, const Outputs& out) {
+        for (std::size_t i = 0; i < lanes(in); ++i) {
+            const std::uint32_t pixel = in.pixel[i];
+            if (out.alive[i] == 0 || !is_visible(in, i)) continue;
+            lists_.fragments[lists_.end[pixel]++] = {by_shader_z_ ? ordered_code(in.shader_z[i]) : in.code[i],
+                                                     in.exact_code[i],
+                                                     in.primitive[i],
+                                                     {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
+        }
+    }
+
+  private:
+    [[nodiscard]] bool is_visible(const FragmentBatch& in, std::size_t i) const {
+        const std::uint32_t opaque = opaque_[in.pixel[i]];
+        return by_shader_z_ ? in.shader_z[i] < std::bit_cast<float>(opaque) : in.code[i] < opaque;
+    }
+
+    const std::uint32_t* opaque_;  // of the range's first pixel
+    bool by_shader_z_;
+    FragmentLists& lists_;
+};
 
 }  // namespace
 
-FragmentLists visible_fragments(Region& region, Bookkeeping bookkeeping) {
-    const std::vector<CapturedFragment> captured = region.capture(bookkeeping);
-    FragmentLists lists;
-    lists.start.assign(region.rect().area() + 1, 0);
-    std::vector<bool> visible(captured.size());
-    for (std::size_t i = 0; i < captured.size(); ++i) {
-        visible[i] = is_visible(region, captured[i]);
-        if (visible[i]) ++lists.start[captured[i].pixel + 1];
+rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& region) noexcept {
+    const int width = region.width();
+    const int first = static_cast<int>(pixels.first), size = static_cast<int>(pixels.size());
+    const int x = region.x0 + first % width, y = region.y0 + first / width;
+    return size < width ? rasterizer::Rect{x, y, x + size, y + 1} : rasterizer::Rect{x, y, x + width, y + size / width};
+}
+
+std::vector<std::uint32_t> coverage_of(Region& region) {
+    std::vector<std::uint32_t> coverage(region.rect().area(), 0);
+    RegionShortcuts{region}.count_coverage(coverage);
+    return coverage;
+}
+
+PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::uint32_t first,
+                      std::uint64_t most) noexcept {
+    const auto columns = static_cast<std::uint32_t>(width), end = static_cast<std::uint32_t>(coverage.size());
+    const std::uint32_t row_end = first - first % columns + columns;
+    std::uint64_t fragments = 0;
+    PixelRange range{first, first};
+    for (std::uint32_t p = first; p < end && fragments + coverage[p] <= most; ++p) {
+        fragments += coverage[p];
+        const bool ends_row = (p + 1) % columns == 0;
+        if (ends_row || p < row_end) range.last = p + 1;
+        if (ends_row && first % columns != 0) break;  // the rest of a row that was begun
     }
-    for (std::size_t p = 1; p < lists.start.size(); ++p) lists.start[p] += lists.start[p - 1];
-    lists.fragments.resize(lists.start.back());
-    std::vector<std::uint32_t> next(lists.start.begin(), lists.start.end() - 1);
-    const bool by_shader_z = region.frame().key == DepthKey::shader_z;
-    for (std::size_t i = 0; i < captured.size(); ++i) {
-        if (!visible[i]) continue;
-        const CapturedFragment& f = captured[i];
-        lists.fragments[next[f.pixel]++] = {by_shader_z ? ordered_code(f.shader_z) : f.code, f.exact_code, f.primitive,
-                                            f.color};
+    range.last = std::max(range.last, first + 1);
+    return range;
+}
+
+void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
+                  Bookkeeping bookkeeping, FragmentLists& lists) {
+    lists.pixels = pixels;
+    lists.start.resize(pixels.size());
+    std::size_t fragments = 0;
+    for (std::uint32_t p = 0; p < pixels.size(); ++p) {
+        lists.start[p] = fragments;
+        fragments += coverage[pixels.first + p];
     }
-    return lists;
+    lists.end = lists.start;
+    if (lists.fragments.size() < fragments) {
+        lists.fragments = {};  // so that the old ones are gone before there are new ones
+        lists.fragments.resize(fragments);
+    }
+    Filing file{region, lists};
+    if (bookkeeping == Bookkeeping::counted) {
+        PassState state;
+        state.needs = list_needs;
+        static_cast<void>(
+            region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) { file(in, out); }));
+    } else {
+        static_cast<void>(RegionShortcuts{region}.look(list_needs, rect_of(pixels, region.rect()),
+                                                       [&](const FragmentBatch& in, const Outputs& out) {
+                                                           file(in, out);
+                                                           return true;
+                                                       }));
+    }
 }
 
 }  // namespace strata::peeling

@@ -1,10 +1,20 @@
-// peeling/programs/fragment_lists.h - the visible fragments of a region, pixel by pixel, in submission order.
+// peeling/programs/fragment_lists.h - the visible fragments of a region's pixels, pixel by pixel, in submission order.
+//
+// Rule     A fragment is visible if its key lies before the opaque surface's. Lists are made of as many pixels at a time as fit
+//          into a stated memory, in row-major order: coverage says beforehand how many fragments a pixel has at most.
+// Tests    tests/peeling/programs/fragment_lists_test.cpp
 #pragma once
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "pipeline/region/region.h"
+#include "pipeline/vertices/draw_list.h"
+#include "rasterizer/rules/raster_state.h"
+
+namespace strata::pipeline {
+class Region;
+enum class Bookkeeping : std::uint8_t;
+}  // namespace strata::pipeline
 
 namespace strata::peeling {
 
@@ -16,15 +26,35 @@ struct KeyedFragment {
     friend bool operator==(const KeyedFragment&, const KeyedFragment&) = default;
 };
 
+// Pixels of a region, numbered row by row: whole rows, or a part of one.
+struct PixelRange {
+    std::uint32_t first = 0, last = 0;  // half-open
+    [[nodiscard]] std::uint32_t size() const noexcept { return last - first; }
+    friend bool operator==(const PixelRange&, const PixelRange&) = default;
+};
+[[nodiscard]] rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& region) noexcept;
+
+// How many fragments each pixel of the region has, before MASK and before any test.
+[[nodiscard]] std::vector<std::uint32_t> coverage_of(pipeline::Region& region);
+
+// The longest range from pixel `first` on whose pixels have `most` fragments at most all together; one pixel, however many it has.
+[[nodiscard]] PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::uint32_t first,
+                                    std::uint64_t most) noexcept;
+
 struct FragmentLists {
-    std::vector<std::uint32_t> start;  // pixels + 1 offsets
-    std::vector<KeyedFragment> fragments;
-    [[nodiscard]] std::span<const KeyedFragment> of(std::uint32_t pixel) const {
-        return std::span{fragments}.subspan(start[pixel], start[pixel + 1] - start[pixel]);
+    PixelRange pixels;
+    std::vector<std::size_t> start, end;   // of each pixel of the range, in `fragments`
+    std::vector<KeyedFragment> fragments;  // at least as many as there are
+    // `pixel` counts in the region.
+    [[nodiscard]] std::span<const KeyedFragment> of(std::uint32_t pixel) const noexcept {
+        const std::size_t p = pixel - pixels.first;
+        return {fragments.data() + start[p], end[p] - start[p]};
     }
 };
 
-// A fragment is visible if its key lies before the opaque surface's.
-[[nodiscard]] FragmentLists visible_fragments(pipeline::Region& region, pipeline::Bookkeeping bookkeeping);
+// Fills `lists` with those of `pixels`, in the memory that it already has. `coverage` is the region's. Counted as a pass of the
+// algorithm, where the range is the whole region; or a look of the emulator's own.
+void list_visible(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
+                  pipeline::Bookkeeping bookkeeping, FragmentLists& lists);
 
 }  // namespace strata::peeling

@@ -1,7 +1,7 @@
 // peeling/programs/min_max.h - the min-max depth of dual peeling: (-near, far) in two binary32 channels under MAX blending.
 // Bavoil and Myers 2008, "Render Targets"; E9. Cleared to (-1, -1), which is near = 1 > far = -1: a pixel with nothing to peel.
 #pragma once
-#include "peeling/programs/programs.h"
+#include "peeling/programs/region_programs.h"
 #include "peeling/programs/under.h"
 
 namespace strata::peeling {

@@ -6,7 +6,9 @@
 #include <cstdint>
 
 #include "pipeline/formats/lane_mask.h"
-#include "pipeline/region/region.h"
+#include "pipeline/frame/pass.h"
+#include "pipeline/stages/depth_compare.h"
+#include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/numerics.h"
 
 namespace strata::peeling {
@@ -42,13 +44,6 @@ inline void discard_peeled(const pipeline::DepthCompare& compare, const pipeline
     for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(compare.is_behind(in, i, peeled[i]));
 }
 
-// What a one-layer peel may promise about a region whose count is 0. Such a pass leaves the opaque depth as what is peeled, and
-// a fragment that is stored before that but compared as behind it would have been found. Only a first pass that draws other
-// vertices and compares nothing may find nothing where the second finds such a fragment.
-[[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
-    return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::when_zero : pipeline::Idle::no;
-}
-
 namespace scalar {
 
 inline void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {
@@ -68,23 +63,6 @@ inline void discard_peeled(const pipeline::Lanes<std::uint32_t>& code, const pip
 }
 
 }  // namespace scalar
-
-// Publishes accumulated.rgb + accumulated.a * background, alpha 1: the end of every front-to-back composite.
-inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated,
-                                    pipeline::Target background) {
-    using namespace pipeline;
-    const Target result = region.make_color();
-    PassState state;
-    state.color[0] = result;
-    state.reads = {accumulated, background};
-    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = composited(own.color(0)[c][i], own.color(0)[3][i], own.color(1)[c][i]);
-        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
-    }));
-    region.publish(result);
-}
 
 }  // namespace strict
 }  // namespace strata::peeling

@@ -8,7 +8,6 @@
 #include "peeling/programs/average.h"
 #include "peeling/programs/min_max.h"
 #include "peeling/programs/programs.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
@@ -71,6 +70,8 @@ void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::peeling {
 
 HWY_EXPORT(premultiply_lanes);
@@ -85,42 +86,42 @@ inline namespace strict {
 
 void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept {
     if (simd_is_scalar()) return scalar::premultiply(color, out, count);
-    HWY_DYNAMIC_DISPATCH(premultiply_lanes)(color, out, count);
+    kernel_of(HWY_DISPATCH_TABLE(premultiply_lanes))(color, out, count);
 }
 
 void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept {
     if (simd_is_scalar()) return scalar::set(lanes, value, count);
-    HWY_DYNAMIC_DISPATCH(set_lanes)(lanes, value, count);
+    kernel_of(HWY_DISPATCH_TABLE(set_lanes))(lanes, value, count);
 }
 
 void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& peeled,
                     pipeline::Outputs& out) noexcept {
     if (simd_is_scalar()) return scalar::discard_peeled(in.code, peeled, out.alive, lanes(in));
-    HWY_DYNAMIC_DISPATCH(discard_lanes)(in.code, peeled, out.alive, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(discard_lanes))(in.code, peeled, out.alive, lanes(in));
 }
 
 void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
               const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept {
     if (simd_is_scalar()) return scalar::classify(in.shader_z, min_max, opaque, place, lanes(in));
-    HWY_DYNAMIC_DISPATCH(classify_lanes)(in.shader_z, min_max, opaque, place, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(classify_lanes))(in.shader_z, min_max, opaque, place, lanes(in));
 }
 
 void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
                    pipeline::ColorLanes& out) noexcept {
     if (simd_is_scalar()) return scalar::write_min_max(in.shader_z, mask, out, lanes(in));
-    HWY_DYNAMIC_DISPATCH(min_max_lanes)(in.shader_z, mask, out, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(min_max_lanes))(in.shader_z, mask, out, lanes(in));
 }
 
 void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& place,
                   pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept {
     if (simd_is_scalar()) return scalar::write_layers(in.color, front, place, next_front, back, lanes(in));
-    HWY_DYNAMIC_DISPATCH(layer_lanes)(in.color, front, place, next_front, back, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(layer_lanes))(in.color, front, place, next_front, back, lanes(in));
 }
 
 void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,
                      const pipeline::ColorLanes& background, pipeline::ColorLanes& out, std::size_t count) noexcept {
     if (simd_is_scalar()) return scalar::resolve_average(sums, n, background, out, count);
-    HWY_DYNAMIC_DISPATCH(average_lanes)(sums, n, background, out, count);
+    kernel_of(HWY_DISPATCH_TABLE(average_lanes))(sums, n, background, out, count);
 }
 
 }  // namespace strict

@@ -1,11 +1,7 @@
 // peeling/programs/tie_policy.h - which fragments of equal key are composited, and in which order. keys-and-counts.md 2.2.
 #pragma once
 #include <cstdint>
-#include <span>
 #include <string_view>
-#include <vector>
-
-#include "peeling/programs/fragment_lists.h"
 
 namespace strata::peeling {
 
@@ -19,9 +15,5 @@ enum class TiePolicy : std::uint8_t {
 };
 
 [[nodiscard]] std::string_view name(TiePolicy policy) noexcept;
-
-// A pixel's visible fragments, given in submission order, in the order that `policy` composites them, nearest first; `unique`
-// and `merged` keep one a key.
-[[nodiscard]] std::vector<KeyedFragment> in_policy_order(std::span<const KeyedFragment> fragments, TiePolicy policy);
 
 }  // namespace strata::peeling

@@ -13,9 +13,10 @@
 #include <string_view>
 
 #include "pipeline/formats/image.h"
+#include "pipeline/formats/word_digest.h"
 
 namespace strata::pipeline {
-namespace {
+namespace hashing {  // WordDigest::State holds a Hash, so it has external linkage
 
 struct FreeState {
     void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }
@@ -59,6 +60,10 @@ class Hash {
     std::size_t used_ = 0;
 };
 
+}  // namespace hashing
+
+namespace {
+
 int code_bytes(ChannelType type) noexcept {
     switch (type) {
         case ChannelType::unorm8: return 1;
@@ -74,7 +79,7 @@ int code_bytes(ChannelType type) noexcept {
 
 std::string digest(const Image& image) {
     const FormatInfo format = info(image.format);
-    Hash hash;
+    hashing::Hash hash;
     hash.text(format.name);
     hash.word(0, 1);
     for (const int number : {image.width, image.height, image.samples})
@@ -83,5 +88,20 @@ std::string digest(const Image& image) {
     for (const std::uint32_t code : image.codes) hash.word(code, size);
     return hash.hexadecimal();
 }
+
+struct WordDigest::State {
+    hashing::Hash hash;
+};
+
+WordDigest::WordDigest(std::string_view name) : state_{std::make_unique<State>()} {
+    state_->hash.text(name);
+    state_->hash.word(0, 1);
+}
+
+WordDigest::~WordDigest() = default;
+
+void WordDigest::add(std::uint32_t word) { state_->hash.word(word, 4); }
+
+std::string WordDigest::hexadecimal() { return state_->hash.hexadecimal(); }
 
 }  // namespace strata::pipeline

@@ -5,7 +5,6 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 #include "pipeline/formats/image_words.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
@@ -30,6 +29,7 @@ HWY_AFTER_NAMESPACE();
 #include <bit>
 
 #include "hwy/cache_control.h"
+#include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::pipeline {
 HWY_EXPORT(widen);
@@ -38,7 +38,7 @@ void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* c
     const bool is_aligned = reinterpret_cast<std::uintptr_t>(codes) % 16 == 0;
     if (simd_is_scalar() || !is_aligned || std::endian::native != std::endian::little)
         return scalar::widen_words(words, count, codes);
-    HWY_DYNAMIC_DISPATCH(widen)(words, count, codes);
+    kernel_of(HWY_DISPATCH_TABLE(widen))(words, count, codes);
 }
 
 void finish_words() noexcept { hwy::FlushStream(); }

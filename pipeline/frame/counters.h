@@ -16,7 +16,7 @@ struct Counters {
     std::uint64_t bytes_read = 0, bytes_written = 0;
     friend bool operator==(const Counters&, const Counters&) = default;
 
-    Counters& operator+=(const Counters& o) noexcept {
+    constexpr Counters& operator+=(const Counters& o) noexcept {
         fragments_rasterized += o.fragments_rasterized;
         discarded += o.discarded;
         alpha_killed += o.alpha_killed;
@@ -27,6 +27,7 @@ struct Counters {
         bytes_written += o.bytes_written;
         return *this;
     }
+    [[nodiscard]] friend constexpr Counters operator+(Counters a, const Counters& b) noexcept { return a += b; }
 };
 
 struct PassCount {

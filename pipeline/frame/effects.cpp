@@ -1,6 +1,7 @@
 #include "pipeline/frame/effects.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
@@ -45,6 +46,14 @@ std::uint32_t deepest_pixel(const PreparedDraw& list) {
     for (std::size_t tile = 0; tile + 1 < list.geometry.bin_start.size(); ++tile)
         most = std::max(most, count_fragments(list, tile, by_material));
     return most;
+}
+
+std::uint64_t fragment_count(const PreparedDraw& list) {
+    const FloatEnvironment ours;
+    std::vector<std::uint64_t> by_material(list.materials.size());
+    for (std::size_t tile = 0; tile + 1 < list.geometry.bin_start.size(); ++tile)
+        static_cast<void>(count_fragments(list, tile, by_material));
+    return std::accumulate(by_material.begin(), by_material.end(), std::uint64_t{0});
 }
 
 TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque) {

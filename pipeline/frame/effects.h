@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "pipeline/frame/frame.h"
+#include "pipeline/frame/instruments.h"
 #include "pipeline/frame/pass.h"
+#include "pipeline/vertices/prepare.h"
 
 namespace strata::pipeline {
 
@@ -41,22 +43,6 @@ namespace strata::pipeline {
     return needs;
 }
 
-// One geometry pass as it was decided.
-struct PassRecord {
-    PassState state;
-    rasterizer::FragmentNeeds needs;       // what is simulated
-    rasterizer::FragmentNeeds called_for;  // what is under Effects::needed
-    bool samples_textures = false;
-    bool is_opaque_priming = false;
-    int iteration = 0;  // 0: before the first
-};
-
-// What literal execution did (one region, one thread); Frame::pass_log.
-struct PassLog {
-    std::vector<PassRecord> passes;
-    int queries = 0;  // whose answer was asked for
-};
-
 // The tiles of a frame by what their pixels hold before any test, and the fragments by material.
 struct TileCensus {
     std::uint64_t tiles = 0;
@@ -73,6 +59,8 @@ void walk(const PreparedDraw& list, const rasterizer::DepthRequest& depth, const
           int threads);
 // The fragments of the deepest pixel, before any test.
 [[nodiscard]] std::uint32_t deepest_pixel(const PreparedDraw& list);
+// The fragments of all pixels, before any test.
+[[nodiscard]] std::uint64_t fragment_count(const PreparedDraw& list);
 [[nodiscard]] TileCensus count_tiles(const PreparedDraw& transparent, const PreparedDraw& opaque);
 
 }  // namespace strata::pipeline

@@ -4,48 +4,13 @@
 #include <optional>
 
 #include "pipeline/device/profile.h"
+#include "pipeline/frame/run_settings.h"
 #include "pipeline/stages/depth_compare.h"
-#include "pipeline/vertices/prepare.h"
+#include "pipeline/vertices/draw_list.h"
 #include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/rules/raster_state.h"
 
 namespace strata::pipeline {
-
-enum class Execution : std::uint8_t { literal, tiled, replay };
-
-// How occlusion queries end a peel (keys-and-counts.md 3.1).
-enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
-struct Termination {
-    TerminationRule rule = TerminationRule::exact;
-    double ratio = 0;  // ratio: stop when the count is below ratio * width * height
-    int passes = 0;    // fixed: that many geometry passes, no query
-    friend bool operator==(const Termination&, const Termination&) = default;
-};
-
-// What an algorithm orders fragments by (keys-and-counts.md 1.1).
-enum class DepthKey : std::uint8_t { shader_z, stored_code };
-
-// Of a listing with errata: repaired as little as it takes, or as it was printed.
-enum class Formulation : std::uint8_t { resolved, published };
-
-enum class Effects : std::uint8_t {
-    needed,
-    all
-};  // all: simulate every stage even where nothing calls for it; same bits
-
-// What a pass may simulate though nobody calls for it: values of its fragments, and stages with a state that changes nothing.
-enum class Effect : std::uint8_t {
-    none,
-    color,
-    texcoord,
-    shader_z,
-    code,
-    facing,
-    loads,
-    alpha_test,
-    stencil_test,
-    depth_test,
-    blending
-};
 
 // What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
 struct Replay {
@@ -53,7 +18,7 @@ struct Replay {
     rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
 };
 
-struct PassLog;
+struct PreparedDraw;
 struct ShadowStage;
 
 struct Frame {
@@ -72,26 +37,20 @@ struct Frame {
     Formulation formulation = Formulation::resolved;
     int max_passes = 0;  // geometry passes; 0: no limit
     Effects effects = Effects::needed;
-    Effect once_more =
-        Effect::none;  // simulated once more than its state asks for; same bits, and what it costs can be measured
     bool alike_where_blank =
         false;  // a promise: what the body does where nothing is drawn depends on a tile's size, not on its place
-    bool needs_frame = false;  // its texture lookups go anywhere: literal, whatever execution is asked for
-    bool trust_idle = true;  // false: as if every algorithm promised Idle::no; same bits, more reruns (a test's switch)
+    bool needs_frame = false;             // its texture lookups go anywhere: literal, whatever execution is asked for
     const ShadowStage* shadow = nullptr;  // for lists that receive a shadow (pipeline/textures/shadow_stage.h)
     Replay replay;
     bool keep_layers = false;
     bool trace = false;
+    std::uint64_t trace_bytes = ~std::uint64_t{0};  // what a region's trace may take (pipeline/frame/trace.h)
+    std::uint64_t list_bytes =
+        ~std::uint64_t{0};       // what an algorithm without a machine may keep of a region's fragments
     bool nearest_depth = false;  // also make the frame's Z
-    PassLog* pass_log =
-        nullptr;  // filled by literal execution, for whoever wants to see the passes (pipeline/frame/effects.h)
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
-    // Whether to simulate an effect that changes nothing.
-    [[nodiscard]] bool idles(Effect effect, bool is_called_for) const noexcept {
-        return once_more == effect || (effects == Effects::all && !is_called_for);
-    }
-    [[nodiscard]] rasterizer::Rect rect() const noexcept { return transparent->geometry.state.viewport; }
+    [[nodiscard]] rasterizer::Rect rect() const noexcept;  // of its viewport
 
     // How depths that this frame compares are computed and stored.
     [[nodiscard]] rasterizer::DepthRequest key_request() const noexcept {

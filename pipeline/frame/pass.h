@@ -95,6 +95,7 @@ class Count {
 
   private:
     friend class Region;
+    friend class RegionShortcuts;
     explicit Count(std::uint64_t own) noexcept : own_{own} {}
     std::uint64_t own_ = 0;
 };

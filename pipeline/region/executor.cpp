@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 
 #include "pipeline/frame/verdict.h"
+#include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
 
@@ -14,15 +17,7 @@ namespace {
 
 // What stays of a region when its storage is gone.
 struct RegionRun {
-    std::vector<Decision> decisions;
-    std::vector<IterationRecord> records;
-    std::vector<KeptLayer> layers;
-    std::vector<TraceEntry> trace;
-    std::vector<Diagnostic> diagnostics;
-    int iterations = 0;
-    int idle_from = -1;
-    bool probed = false;
-    std::size_t idle_layers = 0;
+    RegionBooks books;
     std::uint64_t fragments = 0;  // of all its runs
     int runs = 0;
 };
@@ -30,11 +25,13 @@ struct RegionRun {
 class FrameRun {
   public:
     FrameRun(const Frame& frame, const Body& body, Execution execution, int threads,
-             const std::function<void(double)>& progress)
+             const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch)
         : frame_{frame},
           body_{body},
           threads_{threads},
           progress_{progress},
+          instruments_{instruments},
+          watch_{watch},
           extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
         const auto& geometry = frame.transparent->geometry;
         const std::size_t tiles =
@@ -103,7 +100,7 @@ class FrameRun {
                 continue;
             }
             run_region(r, {});
-            if (regions_[r].diagnostics.empty()) blanks_.push_back(r);  // they name pixels
+            if (regions_[r].books.diagnostics.empty()) blanks_.push_back(r);  // they name pixels
         }
         return others;
     }
@@ -112,6 +109,7 @@ class FrameRun {
         regions_[r] = regions_[twin_[r]];
         regions_[r].fragments = 0;
         copy(twin_[r], r, result_.color);
+        if (watch_.alike) watch_.alike(twin_[r], r);
         if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
     }
 
@@ -125,22 +123,22 @@ class FrameRun {
     }
 
     void run_region(std::size_t r, const std::vector<bool>& script) {
-        Region region{frame_, rect(r), r, extent_, script, &scratch_};
+        const Clock::time_point start = Clock::now();
+        RegionBooks books;
+        books.script = script;
+        Region region{frame_, {rect(r), r, extent_}, books, instruments_, &scratch_};
         body_(region);
-        region.write_image(region.published(), result_.color);
-        if (frame_.nearest_depth && regions_[r].runs == 0) region.write_image(region.nearest_depth(), result_.depth);
+        RegionShortcuts shortcuts{region};
+        shortcuts.write_image(books.published, result_.color);
         RegionRun& kept = regions_[r];
-        kept.decisions = region.decisions();
-        kept.records = region.records();
-        kept.layers = std::move(region.layers());
-        kept.trace = std::move(region.trace());
-        kept.diagnostics = std::move(region.diagnostics());
-        kept.iterations = region.iterations();
-        kept.idle_from = region.idle_from();
-        kept.probed = region.probed();
-        kept.idle_layers = region.idle_layers();
-        kept.fragments += region.fragments_drawn();
+        if (frame_.nearest_depth && kept.runs == 0) shortcuts.write_image(shortcuts.nearest_depth(), result_.depth);
+        kept.fragments += books.fragments_drawn;
+        kept.books = std::move(books);
         ++kept.runs;
+        const Clock::time_point ended = Clock::now();
+        if (watch_.ended) watch_.ended(region, r, result_.color);
+        time_in_bodies_ += (ended - start).count();
+        time_in_watch_ += (Clock::now() - ended).count();
         if (progress_)  // runs again count as well: never more than the whole
             progress_(std::min(1.0, static_cast<double>(++finished_) / static_cast<double>(regions_.size())));
     }
@@ -151,7 +149,7 @@ class FrameRun {
 
     // True if region r went past decision d of the frame without being bound by its answer: it counted nothing there, or it
     // had stopped before, and has promised that further iterations change nothing.
-    [[nodiscard]] static bool is_idle(const RegionRun& r, std::size_t d) {
+    [[nodiscard]] static bool is_idle(const RegionBooks& r, std::size_t d) {
         const std::size_t last = std::min(d, r.decisions.size() - 1);
         return r.decisions[last].own == 0 && r.decisions[last].idle != Idle::no;
     }
@@ -160,7 +158,7 @@ class FrameRun {
     // by itself. A hint that saves runs: every answer is settled in its own round.
     [[nodiscard]] std::size_t certain_after(std::size_t d, bool answer) const {
         std::size_t longest = 0;
-        for (const RegionRun& r : regions_) {
+        for (const auto& [r, fragments, runs] : regions_) {
             std::size_t next = d + 1;
             if (r.decisions.size() <= next || r.decisions[d].answer != answer) continue;
             while (next < r.decisions.size() && continues(frame_.termination, frame_.rect(), r.decisions[next].own))
@@ -173,12 +171,15 @@ class FrameRun {
     // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
     // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
     void settle() {
-        if (extent_ == Extent::frame) return;
-        std::vector<bool> answers;
+        if (extent_ == Extent::frame) {
+            for (const Decision& d : regions_[0].books.decisions) result_.answers.push_back(d.answer);
+            return;
+        }
+        std::vector<bool>& answers = result_.answers;
         for (std::size_t d = 0;; ++d) {
             std::uint64_t sum = 0;
             bool anyone = false;
-            for (const RegionRun& r : regions_) {
+            for (const auto& [r, fragments, runs] : regions_) {
                 if (d >= r.decisions.size()) continue;
                 sum += r.decisions[d].own;
                 anyone = true;
@@ -187,9 +188,9 @@ class FrameRun {
             answers.push_back(continues(frame_.termination, frame_.rect(), sum));
             std::vector<std::size_t> again;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                if (regions_[r].decisions.empty() || is_idle(regions_[r], d)) continue;
-                if (d >= regions_[r].decisions.size() || regions_[r].decisions[d].answer != answers[d])
-                    again.push_back(r);
+                const RegionBooks& books = regions_[r].books;
+                if (books.decisions.empty() || is_idle(books, d)) continue;
+                if (d >= books.decisions.size() || books.decisions[d].answer != answers[d]) again.push_back(r);
             }
             std::vector<bool> script = answers;
             if (!again.empty()) script.insert(script.end(), certain_after(d, answers[d]), true);
@@ -199,28 +200,38 @@ class FrameRun {
     }
 
     void gather() {
-        const bool ends_by_query = !regions_[0].decisions.empty();
-        result_.iterations = ends_by_query ? iterations_of_answers() : regions_[0].iterations;
+        const RegionBooks& first = regions_[0].books;
+        result_.iterations = first.decisions.empty() ? first.iterations : iterations_of_answers();
         result_.work.regions = regions_.size();
         result_.work.tile_size = extent_ == Extent::frame ? 0 : frame_.transparent->geometry.tile_size;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
-            gather_counters(regions_[r]);
-            for (const Diagnostic& d : regions_[r].diagnostics) merge(result_.diagnostics, d);
+            RegionBooks& books = regions_[r].books;
+            gather_counters(books);
+            for (const Diagnostic& d : books.diagnostics) merge(result_.diagnostics, d);
+            gather_log(books.pass_log);
             result_.work.fragments += regions_[r].fragments;
-            if (frame_.trace) result_.traces.push_back({rect(r), r, std::move(regions_[r].trace)});
         }
+        const auto watched = static_cast<double>(time_in_watch_), bodies = static_cast<double>(time_in_bodies_);
+        result_.watched = watched > 0 ? watched / (watched + bodies) : 0;
         if (frame_.keep_layers) gather_layers();
     }
 
     // The frame runs as long as any region had something to count: idle probes do not prolong it.
     [[nodiscard]] int iterations_of_answers() const {
         int longest = 0;
-        for (const RegionRun& r : regions_) longest = std::max(longest, r.iterations - (r.probed ? 1 : 0));
+        for (const auto& [r, fragments, runs] : regions_)
+            longest = std::max(longest, r.iterations - (r.probed ? 1 : 0));
         return longest;
     }
 
+    void gather_log(const PassLog& log) {
+        PassLog& all = result_.pass_log;
+        all.passes.insert(all.passes.end(), log.passes.begin(), log.passes.end());
+        all.queries += log.queries;
+    }
+
     // Prologue, the frame's iterations (those that the region did not run repeat its idle one), epilogue.
-    void gather_counters(const RegionRun& r) {
+    void gather_counters(const RegionBooks& r) {
         PassCount passes;
         const auto add = [&](const IterationRecord& record) {
             result_.counters += record.counters;
@@ -236,12 +247,13 @@ class FrameRun {
     // A region that stopped early shows its last layer, an empty one, in every further layer of the frame.
     void gather_layers() {
         std::size_t count = 0;
-        for (const RegionRun& r : regions_) count = std::max(count, r.layers.size() - r.idle_layers);
+        for (const auto& [r, fragments, runs] : regions_) count = std::max(count, r.layers.size() - r.idle_layers);
         const rasterizer::Rect whole = frame_.rect();
         for (std::size_t layer = 0; layer < count; ++layer) {
             KeptLayer kept;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                const KeptLayer& part = regions_[r].layers[std::min(layer, regions_[r].layers.size() - 1)];
+                const std::vector<KeptLayer>& layers = regions_[r].books.layers;
+                const KeptLayer& part = layers[std::min(layer, layers.size() - 1)];
                 if (kept.color.codes.empty()) {
                     kept.color = Image{part.color.format, whole.width(), whole.height()};
                     kept.depth = Image{part.depth.format, whole.width(), whole.height()};
@@ -253,32 +265,41 @@ class FrameRun {
         }
     }
 
+    using Clock = std::chrono::steady_clock;
+
     const Frame& frame_;
     const Body& body_;
     int threads_;
     const std::function<void(double)>& progress_;
+    Instruments instruments_;
+    const Watch& watch_;
     Extent extent_;
-    Region::ScratchPool scratch_;
+    RegionScratchPool scratch_;
     std::vector<RegionRun> regions_;
     static constexpr std::size_t no_twin = ~std::size_t{0};
     std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
     FrameResult result_;
     std::atomic<std::size_t> finished_{0};
+    std::atomic<Clock::rep> time_in_bodies_{0}, time_in_watch_{0};
 };
 
 }  // namespace
 
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
-                const std::function<void(double)>& progress) {
+                const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch) {
     const FloatEnvironment ours;
-    if (execution == Execution::literal) return FrameRun{frame, body, execution, threads, progress}.finish();
+    const auto run_as = [&](const Frame& given, Execution way) {
+        return FrameRun{given, body, way, threads, progress, instruments, watch}.finish();
+    };
+    Frame rasterized = frame;  // in every pass
+    rasterized.replay = {};
+    const Frame& given = instruments.once_more == Effect::none ? frame : rasterized;
+    if (execution == Execution::literal) return run_as(given, execution);
     if (!frame.needs_frame) try {
-            return FrameRun{frame, body, execution, threads, progress}.finish();
+            return run_as(given, execution);
         } catch (const NeedsFrame&) {  // a lookup left its region: all of it again, as the definition has it
         }
-    Frame whole = frame;
-    whole.replay = {};
-    return FrameRun{whole, body, Execution::literal, threads, progress}.finish();
+    return run_as(rasterized, Execution::literal);
 }
 
 }  // namespace strata::pipeline

@@ -9,27 +9,15 @@
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/image_words.h"
-#include "pipeline/formats/narrow.h"
 #include "pipeline/formats/unorm8.h"
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/region/region_shortcuts.h"
+#include "rasterizer/walk/tile_rasterizer.h"
 
 namespace strata::pipeline {
 
 namespace {
-
-std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color) {
-    std::array<std::uint32_t, 4> codes{};
-    for (std::size_t c = 0; c < 4; ++c) {
-        switch (info(format).type) {
-            case ChannelType::unorm8: codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c])); break;
-            case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
-            case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
-            case ChannelType::depth:
-            case ChannelType::stencil: break;
-        }
-    }
-    return codes;
-}
 
 // Neighbouring pixels of the two commonest layouts, whose words are nearly the image's codes; false for the others.
 bool read_words(const Texels& from, std::size_t first, std::size_t count, std::uint32_t* out) {
@@ -51,27 +39,30 @@ std::uint64_t bytes(const TargetStorage& s) {
 
 }  // namespace
 
-Region::Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script,
-               ScratchPool* pool)
+Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books, const Instruments& instruments,
+               RegionScratchPool* pool)
     : frame_{frame},
-      rect_{rect},
-      tile_{tile},
-      extent_{extent},
-      script_{std::move(script)},
-      rasterizer_{rect},
+      rect_{place.rect},
+      tile_{place.tile},
+      extent_{place.extent},
+      books_{books},
+      instruments_{instruments},
       pool_{pool},
-      scratch_{pool == nullptr ? std::make_unique<Scratch>() : pool->take()},
-      records_(1) {
+      scratch_{pool == nullptr ? std::make_unique<RegionScratch>() : pool->take()},
+      rasterizer_{std::make_unique<rasterizer::TileRasterizer>(place.rect)} {
+    scratch_->trace.start(frame.trace_bytes);
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
-    counts_ = false;
+    books_.counts = false;
     clear(opaque_depth_, {.depth = 1.0f});
     clear(opaque_color_, {.color = frame.background});
     opaque_depth_is_cleared_ =
-        frame.opaque == nullptr || (extent == Extent::tile && frame.opaque->geometry.bin(tile).empty());
+        frame.opaque == nullptr || (extent_ == Extent::tile && frame.opaque->geometry.bin(tile_).empty());
     if (!opaque_depth_is_cleared_) draw_opaque();
-    counts_ = true;
+    books_.counts = true;
 }
+
+Trace& Region::traced() noexcept { return scratch_->trace; }
 
 Region::~Region() {
     if (pool_ != nullptr) pool_->give(std::move(scratch_));
@@ -98,15 +89,14 @@ void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_m
         storage.fill({code, 0, 0, 0}, sample_mask);
     }
     if (has_stencil(format)) storage.fill_stencil(value.stencil, sample_mask);
-    record().counters.bytes_written += bytes(storage);
+    record().counters += of_clear(1, bytes(storage));
 }
 
 void Region::copy(Target from, Target to) {
     assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
     opaque_depth_is_cleared_ &= to != opaque_depth_;
     at(to) = at(from);
-    record().counters.bytes_read += bytes(at(from));
-    record().counters.bytes_written += bytes(at(to));
+    record().counters += of_copy(1, bytes(at(from)));
     ++record().passes.copies;
 }
 
@@ -122,9 +112,7 @@ void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Targ
             .area() != written.area())
         throw NeedsFrame{};
     for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
-    const std::uint64_t moved = written.area() * static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel);
-    record().counters.bytes_read += moved;
-    record().counters.bytes_written += moved;
+    record().counters += of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area());
     ++record().passes.copies;
 }
 
@@ -134,7 +122,7 @@ void Region::copy_row(const TargetStorage& source, const rasterizer::Rect& writt
     const auto index = [&](int column, int row) {
         return static_cast<std::uint32_t>((row - rect_.y0) * rect_.width() + column - rect_.x0);
     };
-    Scratch& s = *scratch_;
+    RegionScratch& s = *scratch_;
     for (int x = written.x0; x < written.x1; x += batch_capacity) {
         const int count = std::min(written.x1 - x, batch_capacity);
         Lanes<std::uint32_t>& pixel = s.screen.pixel;
@@ -170,23 +158,14 @@ void Region::draw_opaque() {
     static_cast<void>(draw_list(state, *frame_.opaque, program));
 }
 
-Target Region::nearest_depth() {
-    counts_ = false;
-    const Target nearest = make_depth();
-    copy(opaque_depth_, nearest);
-    PassState state;
-    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
-    state.depth_target = nearest;
-    state.needs = {
-        .shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
-    static_cast<void>(draw_depth(state));
-    counts_ = true;
-    return nearest;
-}
-
 std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
-    counts_ = bookkeeping == Bookkeeping::counted;
+    books_.counts = bookkeeping == Bookkeeping::counted;
+    std::uint64_t fragments = 0;
+    std::vector<std::uint32_t> coverage(rect_.area());
+    RegionShortcuts{*this}.count_coverage(coverage);
+    for (const std::uint32_t of_pixel : coverage) fragments += of_pixel;
     std::vector<CapturedFragment> all;
+    all.reserve(fragments);
     PassState state;
     state.needs = {
         .shader_z = true, .code = true, .exact_code = true, .color = true, .texcoord = false, .facing = false};
@@ -201,34 +180,8 @@ std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
                            {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}});
         }
     }));
-    counts_ = true;
+    books_.counts = true;
     return all;
-}
-
-void Region::store_pixel(Target target, std::uint32_t pixel, const Rgba& color) {
-    const auto codes = color_codes(at(target).format(), profile().half_rounding, color);
-    Scratch& s = *scratch_;
-    Lanes<std::uint32_t>& index = s.depth_stored;  // one lane of it
-    index[0] = pixel;
-    s.alive[0] = ~0u;
-    for (std::size_t c = 0; c < 4; ++c) s.codes[c][0] = codes[c];
-    at(target).scatter(index, s.alive, 1, 0, 0xfu, s.codes);
-}
-
-Arena& Region::arena() noexcept { return scratch_->arena; }
-
-void Region::count(const Counters& counters, const PassCount& passes) {
-    record().counters += counters;
-    record().passes += passes;
-    geometry_passes_ += passes.geometry;
-}
-
-// Consecutive pixels, all channels, sample 0.
-void Region::store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes) {
-    Scratch& s = *scratch_;
-    std::iota(s.screen.pixel.begin(), s.screen.pixel.begin() + pixels, first);
-    std::fill_n(s.alive.begin(), pixels, ~0u);
-    at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
 }
 
 Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
@@ -251,13 +204,6 @@ Image Region::image(Target target) const {
     for (int y = 0; y < rect_.height(); ++y) read_row(from, y, &image.codes[image.index(0, y)]);
     finish_words();
     return image;
-}
-
-void Region::write_image(Target target, Image& frame) const {
-    const rasterizer::Rect& whole = frame_.rect();
-    for (int y = 0; y < rect_.height(); ++y)
-        read_row(storage(target), y, &frame.codes[frame.index(rect_.x0 - whole.x0, rect_.y0 - whole.y0 + y)]);
-    finish_words();
 }
 
 // One row of the region as Image orders it: pixels, their samples, their channels.

@@ -1,87 +1,58 @@
 // pipeline/region/region.h - a rectangle of the frame with render targets of its own: what peeling algorithms are written against.
 //
-// Rule     An algorithm is one function over a region. Literal execution gives it the frame, tiled execution one tile after
-//          another; bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
+// Rule     An algorithm is one function over a region. Literal execution gives it the frame, replay one tile after another;
+//          bits, pass counts and query results are the same. `any` is the only road from a query to a branch.
+//          What the executor reads afterwards stands in RegionBooks (region_books.h); what fast ways need, in
+//          RegionShortcuts (region_shortcuts.h).
 // Source   execution.md 1 and 4.
 // Tests    tests/pipeline/region/region_test.cpp, tests/peeling/execution_test.cpp
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "pipeline/frame/counters.h"
-#include "pipeline/frame/diagnostics.h"
+#include "pipeline/frame/captured_fragment.h"
 #include "pipeline/frame/frame.h"
+#include "pipeline/frame/instruments.h"
 #include "pipeline/frame/pass.h"
+#include "pipeline/frame/region_books.h"
+#include "pipeline/frame/trace.h"
 #include "pipeline/region/target_storage.h"
 #include "pipeline/textures/depth_texels.h"
-#include "rasterizer/walk/rows.h"
-#include "rasterizer/walk/tile_rasterizer.h"
+#include "pipeline/vertices/prepare.h"
+#include "rasterizer/walk/batch_sink.h"
+#include "rasterizer/walk/depth_drawn.h"
+
+namespace strata::rasterizer {
+class TileRasterizer;
+}
 
 namespace strata::pipeline {
 
-class Arena;
 class FragmentStore;
-
-// One step of what a pixel composited, in the order in which it happened; see Outputs::side.
-struct TraceEntry {
-    std::uint32_t pixel = 0, key = 0, primitive = 0;
-    Side side = Side::none;
-    bool is_fragment = false;  // `primitive` counts; false: a layer, known by its key alone
-};
-
-struct CapturedFragment {
-    std::uint32_t pixel = 0, primitive = 0;
-    std::uint32_t code = 0, exact_code = 0;
-    float shader_z = 0;
-    Rgba color{};
-};
-
-// What one iteration (or what stands before the first and after the last) did in one region.
-struct IterationRecord {
-    Counters counters;
-    PassCount passes;
-};
-
-struct Decision {
-    std::uint64_t own = 0;
-    Idle idle = Idle::no;
-    bool answer = false;
-};
-
-struct KeptLayer {
-    Image color, depth;  // of the region's rectangle
-};
-
-// The targets of a full-screen pass as they are stored: for kernels that leave by themselves what the pass would leave.
-struct ScreenWords {
-    std::array<Texels, max_reads> reads;  // as PassState::reads; sample 0
-    Texels color;                         // target 0
-    std::size_t pixels = 0;
-};
-
-// What a walk over a region's fragments row by row needs (rasterizer/walk/row_walk-inl.h).
-struct RowSource {
-    const rasterizer::Geometry& geometry;
-    std::span<const std::uint32_t> triangles;
-    rasterizer::DepthRequest depth;
-};
+class RegionScratchPool;
+struct RegionScratch;  // the arrays that a batch passes through
 
 enum class Extent : std::uint8_t { frame, tile };
 // Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
 enum class List : std::uint8_t { first, second };
 enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
 
+struct RegionPlace {
+    rasterizer::Rect rect;
+    std::size_t tile = 0;  // its number; of an extent `tile`
+    Extent extent = Extent::frame;
+};
+
 class Region {
   public:
-    class ScratchPool;
-
-    // `script`: the frame's answers that are known already; further ones are guessed from the region's own counts. `pool`: where
-    // the region borrows its arrays; without one it brings its own.
-    Region(const Frame& frame, rasterizer::Rect rect, std::size_t tile, Extent extent, std::vector<bool> script = {},
-           ScratchPool* pool = nullptr);
+    // `pool`: where the region borrows its arrays; without one it brings its own.
+    Region(const Frame& frame, const RegionPlace& place, RegionBooks& books, const Instruments& instruments = {},
+           RegionScratchPool* pool = nullptr);
     Region(const Region&) = delete;
     Region& operator=(const Region&) = delete;
     ~Region();
@@ -136,14 +107,11 @@ class Region {
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
 
-    // The same without a program, for targets of these formats: counts a pass that reads and writes every pixel and hands out its
-    // words. Nothing, and nothing counted, where a kernel must not stand in for the pass.
-    [[nodiscard]] std::optional<ScreenWords> full_screen_words(const PassState& state, std::span<const Format> reads,
-                                                               Format color);
-
     // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.
     template <FragmentProgram P>
     void trace_pixels(Target read, P&& program);
+    // The same of one step that no pass shows.
+    void trace(const TraceEntry& entry) { traced().push_back(entry); }
 
     // The frame's answer to "is the count above the limit that --termination sets?".
     // A promise belongs to the query that ends the loop, the last act of its iteration: a region that keeps it may stop there.
@@ -152,67 +120,30 @@ class Region {
     void begin_iteration();
     // Work after the last iteration that each iteration causes (the compositing of its layer) is counted with it: from now on
     // counters go to the record of iteration `iteration`, from 1.
-    void count_with(int iteration) { counted_record_ = static_cast<std::size_t>(iteration); }
+    void count_with(int iteration) { books_.counted_record = static_cast<std::size_t>(iteration); }
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1);
     void keep_layer(Target color, Target depth);
     // `pixels` of this region, the first of them at region index `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail);
+    void report(Fault fault, std::string detail);  // no pixel is meant
 
     // What an algorithm leaves: its final colour.
-    void publish(Target color) { published_ = color; }
+    void publish(Target color) { books_.published = color; }
 
     // Every fragment of the transparent list in submission order, after MASK, before any test.
     [[nodiscard]] std::vector<CapturedFragment> capture(Bookkeeping bookkeeping);
-    // Depth of the nearest visible key: the frame's Z. The emulator's own look, never counted.
-    [[nodiscard]] Target nearest_depth();
-
-    // For closed forms (peeling/closed/closed_form.h): a way to the same bits that is not the machine's, in the machine's own books.
-    // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
-    void count_coverage(std::span<std::uint32_t> coverage);
-    // program(batch, outputs) for the list's fragments in `band`, whole rows of this region, after MASK; `pixel` counts from the
-    // band's first. Not a pass. Once the program answers false it sees no more, and so does the caller.
-    template <class P>
-    [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
-    // The same fragments without batches, where rows have their depths and colours; whoever walks them says how many they were.
-    [[nodiscard]] std::optional<RowSource> row_source() const;
-    void looked_at(std::uint64_t fragments) noexcept { fragments_drawn_ += fragments; }
-    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
-    [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return opaque_depth_is_cleared_; }
-    [[nodiscard]] Arena& arena() noexcept;                          // free again when the region is gone
-    void count(const Counters& counters, const PassCount& passes);  // what a pass would have counted
-    [[nodiscard]] static Count counted(std::uint64_t own) noexcept { return Count{own}; }
-    void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
-    // An rgba8 target's codes: a word a pixel, red lowest, and spare_words behind the last.
-    [[nodiscard]] Word* words(Target target) { return at(target).depth_plane(0).words; }
-    void trace(const TraceEntry& entry) { trace_.push_back(entry); }
-
-    // For algorithms without a machine behind them (a_buffer): writes a pixel's colour, converted like a write without blending.
-    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;  // as a program would load it
-    void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
+    // What a target holds: a colour as a program would load it, the stored codes, all of them as an image of the region.
+    [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;
     [[nodiscard]] const TargetStorage& storage(Target target) const {
         return storages_[static_cast<std::size_t>(target.id)];
     }
     [[nodiscard]] Image image(Target target) const;
-    void write_image(Target target, Image& frame) const;  // into this region's place in an image of the frame
-
-    // For the executor.
-    [[nodiscard]] const std::vector<Decision>& decisions() const noexcept { return decisions_; }
-    [[nodiscard]] const std::vector<IterationRecord>& records() const noexcept { return records_; }
-    [[nodiscard]] int idle_from() const noexcept { return idle_from_; }
-    [[nodiscard]] int iterations() const noexcept { return iterations_; }
-    [[nodiscard]] bool probed() const noexcept { return probed_; }  // the last iteration was an idle probe
-    [[nodiscard]] std::vector<KeptLayer>& layers() noexcept { return layers_; }
-    [[nodiscard]] std::size_t idle_layers() const noexcept {
-        return idle_layers_;
-    }  // the last ones, kept while idle: empty
-    [[nodiscard]] std::vector<TraceEntry>& trace() noexcept { return trace_; }
-    [[nodiscard]] std::vector<Diagnostic>& diagnostics() noexcept { return diagnostics_; }
-    [[nodiscard]] Target published() const noexcept { return published_; }
-    [[nodiscard]] std::uint64_t fragments_drawn() const noexcept { return fragments_drawn_; }
 
   private:
-    struct Scratch;  // the arrays that a batch passes through
+    friend class RegionShortcuts;
+
+    [[nodiscard]] Trace& traced() noexcept;  // in the scratch
 
     enum class PassKind : std::uint8_t { geometry, full_screen };
 
@@ -225,13 +156,12 @@ class Region {
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
-    void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
-                        const bool& goes_on);
     void replay(rasterizer::BatchSink sink);
     [[nodiscard]] FragmentStore& store() noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
     [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
-    [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list) const;
-    [[nodiscard]] bool sums_suit_rows(const PassState& state) const;
+    [[nodiscard]] bool draws_rows(const PassState& state, const PreparedDraw& list);
+    [[nodiscard]] bool sums_suit_rows(const PassState& state);
     Drawn draw_sum_rows(const PassState& state);
     void count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn);
     [[nodiscard]] DepthOutcome depth_outcome(const PassState& state, const PreparedDraw& list) const;
@@ -262,26 +192,30 @@ class Region {
     void copy_row(const TargetStorage& source, const rasterizer::Rect& written, int y, int dx, int dy,
                   TargetStorage& texture);
     void read_row(const TargetStorage& from, int y, std::uint32_t* out) const;
-    bool stop_iterating();
-    void join_tail();
+    // Whether to simulate an effect that changes nothing.
+    [[nodiscard]] bool idles(Effect effect, bool is_called_for) const noexcept {
+        return instruments_.once_more == effect || (frame_.effects == Effects::all && !is_called_for);
+    }
 
     [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && storage(t).samples() == 1; }
     [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] const Loads& loads() const noexcept;
     [[nodiscard]] FragmentBatch& screen_batch() noexcept;
     bool next_screen_batch(FragmentBatch& batch, std::size_t& next) const;
-    [[nodiscard]] IterationRecord& record() noexcept { return counts_ ? records_[counted_record_] : uncounted_; }
+    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
+    [[nodiscard]] IterationRecord& record() noexcept { return books_.record(); }
 
     const Frame& frame_;
     rasterizer::Rect rect_;
     std::size_t tile_;
     Extent extent_;
-    std::vector<bool> script_;
-    rasterizer::TileRasterizer rasterizer_;
-    ScratchPool* pool_;
-    std::unique_ptr<Scratch> scratch_;
+    RegionBooks& books_;
+    Instruments instruments_;
+    RegionScratchPool* pool_;
+    std::unique_ptr<RegionScratch> scratch_;
+    std::unique_ptr<rasterizer::TileRasterizer> rasterizer_;
     std::vector<TargetStorage> storages_;
-    Target opaque_depth_, opaque_color_, published_;
+    Target opaque_depth_, opaque_color_;
 
     std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, once asked for
     std::optional<TargetStorage> idle_stencil_;
@@ -298,23 +232,64 @@ class Region {
     bool samples_textures_ = false;  // somebody looks at the colours of this pass
     bool takes_shadow_ = false;      // and they are shadowed
     std::uint64_t tallied_ = 0;
-    bool counts_ = true;         // false during the emulator's own work (opaque priming, capture)
-    IterationRecord uncounted_;  // where that work is counted instead
-    int geometry_passes_ = 0;
-    int idle_from_ = -1;  // index of the record whose counters every further iteration repeats; -1: never idle
-    bool probing_ = false, probed_ = false;
-    int iterations_ = 0;
-    std::size_t counted_record_ = 0;
-    std::vector<IterationRecord> records_;  // [0] before the first iteration, then one each, at last what follows
-    std::vector<Decision> decisions_;
-    std::vector<KeptLayer> layers_;
-    std::size_t idle_layers_ = 0;
-    std::vector<TraceEntry> trace_;
-    std::vector<Diagnostic> diagnostics_;
+    bool probing_ = false;
     std::vector<bool> has_saturated_;  // pixels whose stencil has met its limit; empty until one does
-    std::uint64_t fragments_drawn_ = 0;
 };
 
-}  // namespace strata::pipeline
+template <FragmentProgram P>
+Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& program) {
+    begin_pass(state, PassKind::geometry);
+    Drawn drawn;
+    auto sink = [&](FragmentBatch& batch) {
+        Outputs& out = start_batch(batch);
+        shade_or_recall(list, batch, out);
+        load(state, batch);
+        run_program(program, batch, out);
+        finish(state, batch, out, drawn);
+    };
+    for_each_batch(list, state, rasterizer::BatchSink{sink});
+    return drawn;
+}
 
-#include "pipeline/region/region_draw.h"
+template <FragmentProgram P>
+Drawn Region::full_screen(const PassState& state, P&& program) {
+    begin_pass(state, PassKind::full_screen);
+    Drawn drawn;
+    FragmentBatch& batch = screen_batch();
+    for (std::size_t next = 0; next_screen_batch(batch, next);) {
+        Outputs& out = start_batch(batch);
+        load(state, batch);
+        run_program(program, batch, out);
+        finish(state, batch, out, drawn);
+    }
+    return drawn;
+}
+
+template <FragmentProgram P>
+void Region::trace_pixels(Target read, P&& program) {
+    if (!frame_.trace) return;
+    kind_ = PassKind::full_screen;
+    PassState state;
+    state.reads[0] = read;
+    const IterationRecord before = record();
+    FragmentBatch& batch = screen_batch();
+    for (std::size_t next = 0; next_screen_batch(batch, next);) {
+        Outputs& out = start_batch(batch);
+        load(state, batch);
+        program(static_cast<const FragmentBatch&>(batch), loads(), out);
+        record_trace(batch, out, out.alive);
+    }
+    record() = before;
+}
+
+template <class P>
+void Region::run_program(P& program, FragmentBatch& batch, Outputs& out) {
+    const std::uint64_t before = alive_count(out, batch.count);
+    const std::uint64_t tally = out.tally;
+    program(static_cast<const FragmentBatch&>(batch), loads(), out);
+    if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
+    tallied_ += out.tally - tally;
+    if (kind_ == PassKind::geometry) record().counters.discarded += before - alive_count(out, batch.count);
+}
+
+}  // namespace strata::pipeline

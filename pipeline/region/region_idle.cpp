@@ -22,15 +22,15 @@ void Region::idle_alpha_test(const PassState& state, const FragmentBatch& batch,
 
 void Region::idle_tests(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
     const PixelLanes at_pixels{batch.pixel.data(), static_cast<std::size_t>(batch.count)};
-    if (frame_.idles(Effect::depth_test, state.depth.enabled)) {
+    if (idles(Effect::depth_test, state.depth.enabled)) {
         constexpr DepthTest passes_all{.enabled = true, .func = CompareFunc::always, .write = false};
         TargetStorage& depth = at(opaque_depth_);
         static_cast<void>(test_depth(passes_all, depth_format(depth.format()), depth.depth_plane(0), at_pixels,
                                      batch.code.data(), alive.data()));
     }
-    if (!frame_.idles(Effect::stencil_test, state.stencil.enabled)) return;
+    if (!idles(Effect::stencil_test, state.stencil.enabled)) return;
     if (!idle_stencil_) idle_stencil_.emplace(Format::s8, 1, rect_.area());
-    Scratch& s = *scratch_;
+    RegionScratch& s = *scratch_;
     const Texels stencil{idle_stencil_->stencil_plane(0), 1, 32};
     gather_codes(stencil, at_pixels, &s.stencil_stored);
     std::fill_n(s.depth_pass.begin(), batch.count, ~0u);

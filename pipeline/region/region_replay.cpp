@@ -7,6 +7,7 @@
 #include "pipeline/region/region_scratch.h"
 #include "rasterizer/rules/depth_code.h"
 #include "rasterizer/set_up/depth_bound.h"
+#include "rasterizer/walk/tile_rasterizer.h"
 
 namespace strata::pipeline {
 
@@ -23,48 +24,25 @@ const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
     return *needs;
 }
 
+std::span<const std::uint32_t> Region::triangles_of(const PreparedDraw& list) const noexcept {
+    return extent_ == Extent::frame ? std::span<const std::uint32_t>{list.geometry.all_triangles}
+                                    : list.geometry.bin(tile_);
+}
+
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink sink) {
     samples_textures_ = needs.color && needs_of_tile(list).texcoord;
     takes_shadow_ = needs.color && list.needs.shadow != 0;
     const auto& geometry = list.geometry;
-    const auto triangles =
-        extent_ == Extent::frame ? std::span<const std::uint32_t>{geometry.all_triangles} : geometry.bin(tile_);
-    if (primitives.empty()) rasterizer_.draw(geometry, triangles, frame_.key_request(), needs, sink);
+    const auto triangles = triangles_of(list);
+    if (primitives.empty()) rasterizer_->draw(geometry, triangles, frame_.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
         return geometry.triangles[triangle].primitive < primitive;
     };
     for (const PrimitiveRange& range : primitives) {
         const auto first = std::lower_bound(triangles.begin(), triangles.end(), range.first, before);
         const auto last = std::lower_bound(first, triangles.end(), range.last, before);
-        rasterizer_.draw(geometry, {first, last}, frame_.key_request(), needs, sink);
-    }
-}
-
-void Region::count_coverage(std::span<std::uint32_t> coverage) {
-    constexpr FragmentNeeds nothing{false, false, false, false, false, false};
-    auto add = [&](FragmentBatch& batch) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
-    };
-    const rasterizer::Geometry& geometry = frame_.transparent->geometry;
-    rasterizer_.draw(geometry, geometry.bin(tile_), frame_.key_request(), nothing, rasterizer::BatchSink{add});
-}
-
-// Twice as many triangles each time: whoever has had enough soon is asked soon, and few batches end early for it.
-void Region::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
-                            const bool& goes_on) {
-    const PreparedDraw& list = *frame_.transparent;
-    needs.color |= needs_of_tile(list).color;  // MASK decides which fragments there are
-    needs.texcoord |= needs_of_tile(list).texcoord && needs.color;
-    samples_textures_ = needs.texcoord;
-    takes_shadow_ = needs.color && list.needs.shadow != 0;
-    if (takes_shadow_) needs.units |= list.needs.shadow;
-    rasterizer::TileRasterizer rows{band};
-    auto triangles = list.geometry.bin(tile_);
-    for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
-        part = std::min(part, triangles.size());
-        rows.draw(list.geometry, triangles.first(part), frame_.key_request(), needs, sink);
-        triangles = triangles.subspan(part);
+        rasterizer_->draw(geometry, {first, last}, frame_.key_request(), needs, sink);
     }
 }
 
@@ -98,10 +76,11 @@ DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& l
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     depth_ = depth_outcome(state, list);
     const MaterialNeeds& materials = needs_of_tile(list);
-    FragmentNeeds needs = with_value(pass_needs(state, materials, frame_.effects, depth_), frame_.once_more);
-    if (frame_.pass_log != nullptr)
-        frame_.pass_log->passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
-                                           needs.color && materials.texcoord, &list == frame_.opaque, iterations_});
+    FragmentNeeds needs = with_value(pass_needs(state, materials, frame_.effects, depth_), instruments_.once_more);
+    if (instruments_.log_passes)
+        books_.pass_log.passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
+                                          needs.color && materials.texcoord, &list == frame_.opaque,
+                                          books_.iterations});
     const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent && state.primitives.empty();
     FragmentNeeds kept = needs;
     kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow

@@ -2,9 +2,11 @@
 // that leaves the same bits and the same counts. Literal execution never takes this way: it is what this one is tested against.
 #include <algorithm>
 
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/stages/sum_rows.h"
+#include "rasterizer/walk/rows.h"
 
 namespace strata::pipeline {
 
@@ -12,33 +14,20 @@ namespace {
 
 static_assert(rasterizer::row_padding <= spare_words);
 
-// What the materials of a region's triangles call for; mostly nothing, and then no triangle is looked at.
-MaterialNeeds needs_in(const PreparedDraw& list, std::size_t tile) {
-    return list.needs == MaterialNeeds{} ? list.needs : needs_of(list, list.geometry.bin(tile));
-}
-
 }  // namespace
 
 bool Region::may_walk_rows(const PreparedDraw& list) const {
-    return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.once_more == Effect::none &&
+    return extent_ == Extent::tile && frame_.effects == Effects::needed && instruments_.once_more == Effect::none &&
            row_walk_suits(list.geometry, frame_.key_request(), rect_);
 }
 
-std::optional<RowSource> Region::row_source() const {
-    const PreparedDraw& list = *frame_.transparent;
-    if (!may_walk_rows(list) || profile().raster.color != rasterizer::ColorInterpolation::exact_plane ||
-        needs_in(list, tile_) != MaterialNeeds{})
-        return {};
-    return RowSource{list.geometry, list.geometry.bin(tile_), frame_.key_request()};
-}
-
 // Whether nothing stands between the rasterizer and the tests of this pass.
-bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const {
+bool Region::draws_rows(const PassState& state, const PreparedDraw& list) {
     if (!may_walk_rows(list)) return false;
     const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
                           (state.sample_mask & 1u) != 0 && state.primitives.empty() && !state.needs.reference &&
                           !state.replaces_depth && std::ranges::none_of(state.reads, &Target::exists) &&
-                          std::ranges::none_of(state.textures, &Target::exists) && !needs_in(list, tile_).color;
+                          std::ranges::none_of(state.textures, &Target::exists) && !needs_of_tile(list).color;
     const bool is_recalled = frame_.replay.bytes > 0 && scratch_->store.serves(state.needs);
     return is_plain && !is_recalled;
 }
@@ -46,12 +35,9 @@ bool Region::draws_rows(const PassState& state, const PreparedDraw& list) const 
 // What batches would have counted, with the test against the depth target.
 void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn) {
     const auto bytes = static_cast<std::uint64_t>(info(at(state.depth_target).format()).bytes_per_pixel);
-    fragments_drawn_ += drawn.fragments;
-    record().counters += {.fragments_rasterized = drawn.fragments,
-                          .depth_killed = drawn.fragments - drawn.passed,
-                          .blended = drawn.passed,
-                          .bytes_read = bytes * drawn.fragments,
-                          .bytes_written = state.depth.write ? bytes * drawn.passed : 0};
+    books_.fragments_drawn += drawn.fragments;
+    record().counters += Counters{.fragments_rasterized = drawn.fragments, .blended = drawn.passed} +
+                         of_depth_test(bytes, drawn.fragments, drawn.passed, state.depth.write);
 }
 
 Drawn Region::draw_depth(const PassState& state) {
@@ -68,7 +54,7 @@ Drawn Region::draw_depth(const PassState& state) {
     return drawn;
 }
 
-bool Region::sums_suit_rows(const PassState& state) const {
+bool Region::sums_suit_rows(const PassState& state) {
     const auto is_sum = [&](std::size_t k, Format format) {
         return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format &&
                state.blend[k] == blend_mode::sum;
@@ -79,7 +65,7 @@ bool Region::sums_suit_rows(const PassState& state) const {
     return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
            (!counts || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
            profile().raster.color == rasterizer::ColorInterpolation::exact_plane && draws_rows(state, list) &&
-           list.needs.shadow == 0 && !needs_in(list, tile_).texcoord;
+           list.needs.shadow == 0 && !needs_of_tile(list).texcoord;
 }
 
 Drawn Region::draw_sum_rows(const PassState& state) {
@@ -98,22 +84,6 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     Drawn drawn;
     drawn.passed.own_ = rows.passed;
     return drawn;
-}
-
-std::optional<ScreenWords> Region::full_screen_words(const PassState& state, std::span<const Format> reads,
-                                                     Format color) {
-    const auto is = [&](Target t, Format format) { return is_one_sample(t) && storage(t).format() == format; };
-    const auto first_read = state.reads.begin();
-    if (extent_ != Extent::tile || frame_.effects != Effects::needed || !is(state.color[0], color) ||
-        !std::equal(reads.begin(), reads.end(), first_read, [&](Format format, Target t) { return is(t, format); }))
-        return {};
-    begin_pass(state, PassKind::full_screen);
-    ScreenWords words{{}, at(state.color[0]).texels(0), rect_.area()};
-    for (std::size_t r = 0; r < reads.size(); ++r) {
-        words.reads[r] = at(state.reads[r]).texels(0);
-        record().counters.bytes_read += static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel) * words.pixels;
-    }
-    return words;
 }
 
 }  // namespace strata::pipeline

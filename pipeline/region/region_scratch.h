@@ -1,15 +1,18 @@
 // pipeline/region/region_scratch.h - what a region borrows while it runs: the arrays that one batch passes through, the rasterizer's own,
 // and the captured fragments. Handed from region to region, so that nothing is allocated per batch and little per tile.
 #pragma once
+#include <memory>
 #include <mutex>
+#include <vector>
 
+#include "pipeline/frame/pass.h"
 #include "pipeline/region/arena.h"
 #include "pipeline/region/fragment_store.h"
-#include "pipeline/region/region.h"
+#include "pipeline/frame/trace.h"
 
 namespace strata::pipeline {
 
-struct alignas(64) Region::Scratch {
+struct alignas(64) RegionScratch {
     Loads loads;
     Outputs out;
     FragmentBatch screen;
@@ -23,29 +26,30 @@ struct alignas(64) Region::Scratch {
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     FragmentStore store;
+    Trace trace;
     Arena arena;
 };
 
 // Free sets; as many as regions ever ran at once. A set carries no values from one region to the next.
-class Region::ScratchPool {
+class RegionScratchPool {
   public:
-    [[nodiscard]] std::unique_ptr<Scratch> take() {
+    [[nodiscard]] std::unique_ptr<RegionScratch> take() {
         const std::scoped_lock lock{mutex_};
-        if (free_.empty()) return std::make_unique<Scratch>();
-        std::unique_ptr<Scratch> scratch = std::move(free_.back());
+        if (free_.empty()) return std::make_unique<RegionScratch>();
+        std::unique_ptr<RegionScratch> scratch = std::move(free_.back());
         free_.pop_back();
         scratch->store.forget();
         scratch->arena.reset();
         return scratch;
     }
-    void give(std::unique_ptr<Scratch> scratch) {
+    void give(std::unique_ptr<RegionScratch> scratch) {
         const std::scoped_lock lock{mutex_};
         free_.push_back(std::move(scratch));
     }
 
   private:
     std::mutex mutex_;
-    std::vector<std::unique_ptr<Scratch>> free_;
+    std::vector<std::unique_ptr<RegionScratch>> free_;
 };
 
 }  // namespace strata::pipeline

@@ -7,6 +7,7 @@
 #include "pipeline/formats/narrow.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/frame/effects.h"
+#include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/check_pass.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
@@ -81,7 +82,7 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
         if (t.exists()) pass_samples_ = at(t).samples();
     if (kind == PassKind::geometry) {
         ++record().passes.geometry;
-        if (counts_) ++geometry_passes_;
+        if (books_.counts) ++books_.geometry_passes;
         return;
     }
     ++record().passes.full_screen;
@@ -91,8 +92,7 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
 }
 
 void Region::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
-    if (blending.enabled) record().counters.bytes_read += pixel_bytes(target) * pixels;
-    record().counters.bytes_written += pixel_bytes(target) * pixels;
+    record().counters += of_color(pixel_bytes(target), pixels, blending.enabled);
 }
 
 bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
@@ -119,7 +119,7 @@ Outputs& Region::start_batch(const FragmentBatch& batch) {
 }
 
 void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
-    fragments_drawn_ += static_cast<std::uint64_t>(batch.count);
+    books_.fragments_drawn += static_cast<std::uint64_t>(batch.count);
     record().counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
     const MaterialStage& material = list.materials[batch.material];
     if (material.texture != nullptr && samples_textures_) {
@@ -139,13 +139,13 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
 
 void Region::load(const PassState& state, const FragmentBatch& batch) {
     for (const Target t : state.textures)
-        if (t.exists()) record().counters.bytes_read += pixel_bytes(at(t)) * static_cast<std::uint64_t>(batch.count);
+        if (t.exists()) record().counters += of_loads(pixel_bytes(at(t)), static_cast<std::uint64_t>(batch.count));
     for (std::size_t r = 0; r < state.reads.size(); ++r) {
         if (!state.reads[r].exists()) continue;
         TargetStorage& from = at(state.reads[r]);
-        record().counters.bytes_read += pixel_bytes(from) * static_cast<std::uint64_t>(batch.count);
+        record().counters += of_loads(pixel_bytes(from), static_cast<std::uint64_t>(batch.count));
         load_target(from, r, batch);
-        if (frame_.once_more == Effect::loads) load_target(from, r, batch);
+        if (instruments_.once_more == Effect::loads) load_target(from, r, batch);
     }
 }
 
@@ -170,7 +170,7 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
                    out.alive.data(), batch.count);
         record().counters.alpha_killed += before - alive_count(out, batch.count);
     }
-    if (frame_.idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
+    if (idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
     for (int sample = 0; sample < pass_samples_; ++sample)
         if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
     drawn.tallied = Count{tallied_};
@@ -189,14 +189,14 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
     if (passed == 0) return;
     if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
     write_colors(state, batch, out, sample, alive, passed);
-    if (out.traced && frame_.trace && counts_ && sample == 0) record_trace(batch, out, alive);
+    if (out.traced && frame_.trace && books_.counts && sample == 0) record_trace(batch, out, alive);
 }
 
 void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
-            trace_.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
-                              out.side[i], kind_ == PassKind::geometry});
+            scratch_->trace.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
+                                    out.side[i], kind_ == PassKind::geometry});
 }
 
 void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
@@ -205,14 +205,13 @@ void Region::test_depth_units(const PassState& state, const FragmentBatch& batch
         const DepthTest test{.enabled = true, .func = state.depth_units[unit].func, .write = false};
         const DepthResult result = test_depth(test, depth_format(target.format()), target.depth_plane(0),
                                               lanes_of(batch), batch.code.data(), alive.data());
-        record().counters.bytes_read += pixel_bytes(target) * result.arriving;
-        record().counters.depth_killed += result.arriving - result.passed;
+        record().counters += of_depth_test(pixel_bytes(target), result.arriving, result.passed, false);
     }
 }
 
 std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                              Lanes<std::uint32_t>& alive) {
-    Scratch& s = *scratch_;
+    RegionScratch& s = *scratch_;
     Counters& counters = record().counters;
     TargetStorage* const depth = state.depth.enabled ? &at(state.depth_target) : nullptr;
     DepthResult tested;
@@ -236,17 +235,15 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
             scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
     counters.stencil_killed += stencil_killed;
-    counters.depth_killed += tested.arriving - stencil_killed - tested.passed;
-    if (depth != nullptr) {
-        counters.bytes_read += pixel_bytes(*depth) * (tested.arriving - stencil_killed);
-        if (state.depth.write) counters.bytes_written += pixel_bytes(*depth) * tested.passed;
-    }
+    if (depth != nullptr)
+        counters +=
+            of_depth_test(pixel_bytes(*depth), tested.arriving - stencil_killed, tested.passed, state.depth.write);
     return tested.passed;
 }
 
 std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                    Lanes<std::uint32_t>& alive) {
-    Scratch& s = *scratch_;
+    RegionScratch& s = *scratch_;
     const Texels stencil = codes_in(at(state.stencil_target).stencil_plane(sample));
     const std::uint64_t arriving = count_lanes(alive, batch.count);
     gather_codes(stencil, lanes_of(batch), &s.stencil_stored);
@@ -282,9 +279,10 @@ void Region::write_colors(const PassState& state, const FragmentBatch& batch, co
         TargetStorage& target = at(state.color[k]);
         const FormatInfo format = info(target.format());
         if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
-        const bool idles = frame_.idles(Effect::blending, blending.enabled);
-        const bool keeps_source = idles && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do
-        if (idles && !keeps_source) idle_blend(blending, batch, out.color[k], target, sample);
+        const bool is_idle = idles(Effect::blending, blending.enabled);
+        const bool keeps_source =
+            is_idle && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do
+        if (is_idle && !keeps_source) idle_blend(blending, batch, out.color[k], target, sample);
         const bool adds_halves = frame_.effects == Effects::needed && format.type == ChannelType::half &&
                                  profile().half_rounding == HalfRounding::nearest_even && blending == blend_mode::sum;
         if (adds_halves && target.add(batch.pixel, alive, batch.count, sample, out.color[k],

@@ -5,6 +5,7 @@
 #include "pipeline/device/check.h"
 #include "pipeline/formats/narrow.h"
 #include "pipeline/region/fragment_path.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/base/float_environment.h"
 
 namespace strata::pipeline {
@@ -15,7 +16,7 @@ struct Surface::State {
           layout{l},
           list{empty(l)},
           frame{make_frame(profile, l, list)},
-          region{frame, frame.rect(), 0, Extent::frame},
+          region{frame, {frame.rect()}, books},
           color{region.make(l.color)},
           depth{region.make_depth()},
           stencil{region.make(Format::s8)} {}
@@ -42,6 +43,7 @@ struct Surface::State {
     SurfaceLayout layout;
     PreparedDraw list;  // what is drawn
     Frame frame;
+    RegionBooks books;
     Region region;
     Target color, depth, stencil;
 };
@@ -100,8 +102,9 @@ void Surface::clear_depth(std::uint32_t code) {
     codes[0].fill(code);
     const std::size_t pixels = s.frame.rect().area();
     for (std::size_t first = 0; first < pixels; first += batch_capacity)
-        s.region.store_pixels(s.depth, static_cast<std::uint32_t>(first),
-                              static_cast<int>(std::min<std::size_t>(batch_capacity, pixels - first)), codes);
+        RegionShortcuts{s.region}.store_pixels(s.depth, static_cast<std::uint32_t>(first),
+                                               static_cast<int>(std::min<std::size_t>(batch_capacity, pixels - first)),
+                                               codes);
 }
 
 void Surface::clear_stencil(std::uint8_t value) { state_->region.clear(state_->stencil, {.stencil = value}); }
@@ -118,7 +121,8 @@ void Surface::fill(const std::function<PixelCode(int x, int y)>& value) {
                     codes[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)] =
                         narrowed(s.layout.color, c, pixel[static_cast<std::size_t>(c)]);
             }
-            s.region.store_pixels(s.color, static_cast<std::uint32_t>(y * s.layout.width + x), count, codes);
+            RegionShortcuts{s.region}.store_pixels(s.color, static_cast<std::uint32_t>(y * s.layout.width + x), count,
+                                                   codes);
         }
 }
 
@@ -137,7 +141,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
     pass.blend[0].write_mask = state.color_mask;
     pass.needs.shader_z = false;
     pass.needs.code = false;
-    const std::uint64_t before = s.region.records().front().counters.blended;
+    const std::uint64_t before = s.books.records.front().counters.blended;
     if (state.path != nullptr) {
         FragmentPathProgram program{s.region, *state.path};
         program.apply(pass);
@@ -147,7 +151,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
             for (std::size_t c = 0; c < 4; ++c) std::copy_n(in.color[c].begin(), in.count, out.color[0][c].begin());
         }));
     }
-    return s.region.records().front().counters.blended - before;
+    return s.books.records.front().counters.blended - before;
 }
 
 Image Surface::color() const {

@@ -1,8 +1,26 @@
 #include "pipeline/region/target_storage.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "pipeline/formats/narrow.h"
+#include "pipeline/formats/unorm8.h"
 
 namespace strata::pipeline {
+
+std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color) {
+    std::array<std::uint32_t, 4> codes{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        switch (info(format).type) {
+            case ChannelType::unorm8: codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c])); break;
+            case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
+            case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
+            case ChannelType::depth:
+            case ChannelType::stencil: break;
+        }
+    }
+    return codes;
+}
 
 namespace {
 

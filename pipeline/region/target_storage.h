@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "pipeline/formats/format.h"
+#include "pipeline/formats/half.h"
 #include "pipeline/formats/image.h"
 #include "pipeline/stages/lane_words.h"
 #include "pipeline/stages/target.h"
+#include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/uninitialized.h"
 #include "rasterizer/coverage/fragment_batch.h"
 
@@ -72,5 +74,8 @@ class TargetStorage {
     mutable UninitializedVector<std::uint32_t> words_;
     mutable bool has_words_ = false;  // else zeros that nobody has asked for yet: most targets are cleared first
 };
+
+// What a colour target of this format holds of a colour; 0 for depth and stencil.
+[[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color);
 
 }  // namespace strata::pipeline

@@ -7,7 +7,6 @@
 #include "hwy/highway.h"
 #include "pipeline/formats/half-inl.h"
 #include "pipeline/stages/blend_lanes.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
@@ -42,6 +41,8 @@ using Halves = scalar::PlainHalves;
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::pipeline {
 
 HWY_EXPORT(blend_lanes);
@@ -50,7 +51,7 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
            const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) noexcept {
     if (simd_is_scalar())
         return scalar::blend(state, type, profile, channels, src, codes, static_cast<std::size_t>(count));
-    HWY_DYNAMIC_DISPATCH(blend_lanes)(state, type, profile, channels, src, codes, count);
+    kernel_of(HWY_DISPATCH_TABLE(blend_lanes))(state, type, profile, channels, src, codes, count);
 }
 
 }  // namespace strata::pipeline

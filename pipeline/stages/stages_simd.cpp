@@ -14,7 +14,6 @@
 #include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/lane_words.h"
 #include "pipeline/stages/stencil_lanes.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
@@ -281,6 +280,8 @@ bool add(const Texels& to, const PixelLanes& at, const Word* alive, const raster
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::pipeline {
 
 HWY_EXPORT(count_set);
@@ -294,53 +295,54 @@ HWY_EXPORT(test_alpha);
 HWY_EXPORT(test_stencil);
 
 std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept {
-    return simd_is_scalar() ? scalar::count_lanes(alive, count) : HWY_DYNAMIC_DISPATCH(count_set)(alive, count);
+    return simd_is_scalar() ? scalar::count_lanes(alive, count)
+                            : kernel_of(HWY_DISPATCH_TABLE(count_set))(alive, count);
 }
 
 void gather_codes(const Texels& from, const PixelLanes& at, CodeLanes* codes) noexcept {
     if (simd_is_scalar()) return scalar::gather_codes(from, at, codes);
-    HWY_DYNAMIC_DISPATCH(gather)(from, at, codes);
+    kernel_of(HWY_DISPATCH_TABLE(gather))(from, at, codes);
 }
 
 void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, unsigned mask,
                    const CodeLanes* codes) noexcept {
     if (simd_is_scalar()) return scalar::scatter_codes(to, at, alive, mask, codes);
-    HWY_DYNAMIC_DISPATCH(scatter)(to, at, alive, mask, codes);
+    kernel_of(HWY_DISPATCH_TABLE(scatter))(to, at, alive, mask, codes);
 }
 
 DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* code,
                        Word* alive) noexcept {
     if (simd_is_scalar()) return scalar::test_depth(state, format, plane, at, code, alive);
-    return HWY_DYNAMIC_DISPATCH(test_plane)(state, format, plane, at, code, alive);
+    return kernel_of(HWY_DISPATCH_TABLE(test_plane))(state, format, plane, at, code, alive);
 }
 
 bool add_halves(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source,
                 bool flushes) noexcept {
-    return !simd_is_scalar() && HWY_DYNAMIC_DISPATCH(add)(to, at, alive, source, flushes);
+    return !simd_is_scalar() && kernel_of(HWY_DISPATCH_TABLE(add))(to, at, alive, source, flushes);
 }
 
 void decode(ChannelType type, const rasterizer::Lanes<std::uint32_t>& codes, rasterizer::Lanes<float>& values,
             int count) noexcept {
     const auto n = static_cast<std::size_t>(count);
     if (simd_is_scalar()) return scalar::decode(type, codes.data(), values.data(), n);
-    HWY_DYNAMIC_DISPATCH(decode_lanes)(type, codes.data(), values.data(), n);
+    kernel_of(HWY_DISPATCH_TABLE(decode_lanes))(type, codes.data(), values.data(), n);
 }
 
 void encode(ChannelType type, HalfRounding rounding, const rasterizer::Lanes<float>& values,
             rasterizer::Lanes<std::uint32_t>& codes, int count) noexcept {
     const auto n = static_cast<std::size_t>(count);
     if (simd_is_scalar()) return scalar::encode(type, rounding, values.data(), codes.data(), n);
-    HWY_DYNAMIC_DISPATCH(encode_lanes)(type, rounding, values.data(), codes.data(), n);
+    kernel_of(HWY_DISPATCH_TABLE(encode_lanes))(type, rounding, values.data(), codes.data(), n);
 }
 
 void alpha_test(const AlphaTest& state, bool eight_bit, const float* alpha, std::uint32_t* alive, int count) noexcept {
     if (simd_is_scalar()) return scalar::alpha_test(state, eight_bit, alpha, alive, count);
-    HWY_DYNAMIC_DISPATCH(test_alpha)(state, eight_bit, alpha, alive, count);
+    kernel_of(HWY_DISPATCH_TABLE(test_alpha))(state, eight_bit, alpha, alive, count);
 }
 
 int stencil_test(const StencilTest& state, const StencilLanes& lanes) noexcept {
     if (simd_is_scalar()) return scalar::stencil_test(state, lanes);
-    return HWY_DYNAMIC_DISPATCH(test_stencil)(state, lanes);
+    return kernel_of(HWY_DISPATCH_TABLE(test_stencil))(state, lanes);
 }
 
 }  // namespace strata::pipeline

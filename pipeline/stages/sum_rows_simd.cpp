@@ -151,6 +151,7 @@ rasterizer::DepthDrawn add_rows(const rasterizer::Geometry& geometry, std::span<
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
 #include "rasterizer/set_up/window.h"
 
 namespace strata::pipeline {
@@ -160,8 +161,8 @@ rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::s
                                     const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
                                     const SumPlanes& planes, bool flushes) noexcept {
     const rasterizer::FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
-    return HWY_DYNAMIC_DISPATCH(add_rows)(geometry, triangles, region, values.to_code(),
-                                          z_units(geometry.state, geometry.rules), planes, flushes);
+    return kernel_of(HWY_DISPATCH_TABLE(add_rows))(geometry, triangles, region, values.to_code(),
+                                                   z_units(geometry.state, geometry.rules), planes, flushes);
 }
 
 }  // namespace strata::pipeline

@@ -4,7 +4,6 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 #include "pipeline/vertices/vertex_lanes.h"
-#include "rasterizer/base/simd.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
@@ -53,11 +52,13 @@ const VertexKernels* vertex_table() {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::pipeline {
 HWY_EXPORT(vertex_table);
 
 const VertexKernels* vertex_kernels() noexcept {
-    return simd_is_scalar() ? nullptr : HWY_DYNAMIC_DISPATCH(vertex_table)();
+    return simd_is_scalar() ? nullptr : kernel_of(HWY_DISPATCH_TABLE(vertex_table))();
 }
 
 }  // namespace strata::pipeline

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/simd.h"
 
 #ifdef STRATA_HAS_TBB
 #include <tbb/global_control.h>
@@ -37,8 +38,9 @@ tbb::task_arena& arena_of(int threads) {
 #endif
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-    const auto call = [&](std::size_t i) {
+    const auto call = [&, simd = chosen_simd()](std::size_t i) {
         const FloatEnvironment ours;
+        const SimdScope same{simd};
         body(i);
     };
 #ifdef STRATA_HAS_TBB

@@ -1,55 +1,42 @@
 #include "rasterizer/base/simd.h"
 
 #include <algorithm>
-#include <atomic>
+#include <cassert>
 
-#include "hwy/targets.h"
+#include "rasterizer/base/simd_dispatch.h"
 
 namespace strata {
 namespace {
 
-[[nodiscard]] std::int64_t target_of(Simd simd) noexcept {
-    switch (simd) {
-        case Simd::sse4: return HWY_SSE4;
-        case Simd::avx2: return HWY_AVX2;
-        case Simd::avx512: return HWY_AVX3;
-        case Simd::scalar:
-        case Simd::best: break;
-    }
-    return 0;
+[[nodiscard]] Simd best_simd() noexcept {
+    static const Simd best = available_simd().back();
+    return best;
 }
 
-[[nodiscard]] Simd best_simd() { return available_simd().back(); }
-
-// The one piece of process-wide state in the project, for no result depends on it.
-std::atomic<Simd>& chosen() noexcept {
-    static std::atomic<Simd> simd{best_simd()};
-    return simd;
-}
+thread_local constinit Simd chosen = Simd::best;
 
 }  // namespace
 
 std::vector<Simd> available_simd() {
-    static const std::int64_t machine =
-        hwy::SupportedTargets() & HWY_TARGETS;  // before any choice narrows what Highway sees
+    static const std::int64_t machine = hwy::SupportedTargets() & HWY_TARGETS;
     std::vector<Simd> all{Simd::scalar};
     for (const Simd simd : {Simd::sse4, Simd::avx2, Simd::avx512})
         if ((machine & target_of(simd)) != 0) all.push_back(simd);
     return all;
 }
 
-bool choose_simd(Simd simd) {
-    if (simd == Simd::best) simd = best_simd();
+bool has_simd(Simd simd) {
     const std::vector<Simd> available = available_simd();
-    if (std::find(available.begin(), available.end(), simd) == available.end()) return false;
-    hwy::SetSupportedTargetsForTest(target_of(simd));  // 0: whatever the machine has; the twins run then
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    chosen() = simd;
-    return true;
+    return simd == Simd::best || std::find(available.begin(), available.end(), simd) != available.end();
 }
 
-Simd chosen_simd() noexcept { return chosen(); }
+SimdScope::SimdScope(Simd simd) noexcept : before_{chosen} {
+    assert(has_simd(simd) && "an instruction set that the processor lacks");
+    chosen = simd;
+}
 
-bool simd_is_scalar() noexcept { return chosen().load(std::memory_order_relaxed) == Simd::scalar; }
+SimdScope::~SimdScope() { chosen = before_; }
+
+Simd chosen_simd() noexcept { return chosen == Simd::best ? best_simd() : chosen; }
 
 }  // namespace strata

@@ -4,8 +4,11 @@
 //          header, its scalar twin. `scalar` runs the twins. Only operations that are exact or correctly rounded on every
 //          set: no fused multiply-add, no approximate reciprocal, no horizontal float sum; NaN and -0 go by the rules of
 //          the twins, not by a machine's MIN and MAX.
+//          The choice belongs to a call, not to the process: a public entry opens a SimdScope, as it opens a
+//          FloatEnvironment, and parallel_for hands it to its workers. What Highway chooses for the host program is not
+//          changed, and no change of it is looked at.
 // Source   Highway's run-time dispatch; fragment-stages.md 9.3 (MIN and MAX).
-// Tests    tests/rasterizer/base/simd_test.cpp
+// Tests    tests/rasterizer/base/simd_test.cpp, tests/peeling/simd_test.cpp
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -16,13 +19,23 @@ enum class Simd : std::uint8_t { scalar, sse4, avx2, avx512, best };
 
 // What this processor has of the first four, in that order; `scalar` is always there.
 [[nodiscard]] std::vector<Simd> available_simd();
+[[nodiscard]] bool has_simd(Simd simd);  // `best` is there, too
 
-// From now on the whole process uses `simd`. Returns false, and changes nothing, if the processor lacks it.
-// Not while a frame is being rendered.
-bool choose_simd(Simd simd);
-[[nodiscard]] Simd chosen_simd() noexcept;  // never `best`: the one that it stands for
+// While it lives, the kernels that this thread calls use `simd`, which the processor must have. Scopes nest.
+class SimdScope {
+  public:
+    explicit SimdScope(Simd simd) noexcept;
+    ~SimdScope();
+    SimdScope(const SimdScope&) = delete;
+    SimdScope& operator=(const SimdScope&) = delete;
+
+  private:
+    Simd before_;
+};
+
+[[nodiscard]] Simd chosen_simd() noexcept;  // of this thread; never `best`: the one that it stands for
 
 // For kernels: take the scalar twin.
-[[nodiscard]] bool simd_is_scalar() noexcept;
+[[nodiscard]] inline bool simd_is_scalar() noexcept { return chosen_simd() == Simd::scalar; }
 
 }  // namespace strata

@@ -7,7 +7,6 @@
 
 #include "hwy/foreach_target.h"  // compiles this file once a target
 #include "hwy/highway.h"
-#include "rasterizer/base/simd.h"
 #include "rasterizer/coverage/small_coverage-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -100,6 +99,8 @@ const SmallKernels* small_table() {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::rasterizer {
 HWY_EXPORT(small_table);
 
@@ -107,7 +108,7 @@ inline namespace strict {
 
 const SmallKernels& small_kernels() noexcept {
     static constexpr SmallKernels twins{scalar::set_up_group, scalar::set_up_boxes, scalar::emit_small};
-    return simd_is_scalar() ? twins : *HWY_DYNAMIC_DISPATCH(small_table)();
+    return simd_is_scalar() ? twins : *kernel_of(HWY_DISPATCH_TABLE(small_table))();
 }
 
 }  // namespace strict

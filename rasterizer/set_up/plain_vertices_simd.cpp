@@ -3,7 +3,6 @@
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once a target
 #include "hwy/highway.h"
-#include "rasterizer/base/simd.h"
 #include "rasterizer/set_up/clip.h"
 #include "rasterizer/set_up/plain_vertices.h"
 
@@ -107,10 +106,12 @@ SetUpPlain plain_table() { return set_up; }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::rasterizer {
 HWY_EXPORT(plain_table);
 
-SetUpPlain set_up_plain() noexcept { return simd_is_scalar() ? nullptr : HWY_DYNAMIC_DISPATCH(plain_table)(); }
+SetUpPlain set_up_plain() noexcept { return simd_is_scalar() ? nullptr : kernel_of(HWY_DISPATCH_TABLE(plain_table))(); }
 
 }  // namespace strata::rasterizer
 #endif

@@ -6,7 +6,6 @@
 
 #include "hwy/foreach_target.h"  // compiles this file once a target
 #include "hwy/highway.h"
-#include "rasterizer/base/simd.h"
 #include "rasterizer/values/weights-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -150,6 +149,8 @@ const LaneKernels* table() {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
 namespace strata::rasterizer {
 HWY_EXPORT(table);
 
@@ -157,7 +158,7 @@ inline namespace strict {
 
 const LaneKernels& lane_kernels() noexcept {
     static constexpr LaneKernels twins{scalar::emit, scalar::weights, scalar::attributes, nullptr};
-    return simd_is_scalar() ? twins : *HWY_DYNAMIC_DISPATCH(table)();
+    return simd_is_scalar() ? twins : *kernel_of(HWY_DISPATCH_TABLE(table))();
 }
 
 }  // namespace strict

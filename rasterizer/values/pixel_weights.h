@@ -10,14 +10,10 @@
 #include "rasterizer/coverage/fragment_batch.h"
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/weight_lanes.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
-
-// The weights of a batch's fragments in their own triangles.
-struct alignas(64) WeightLanes {
-    Lanes<double> b1, b2;
-};
 
 struct PixelWeights {
     enum class Kind : std::uint8_t { snapped, snapped_wide, unsnapped };

@@ -80,6 +80,7 @@ DepthDrawn draw_depth(const Geometry& geometry, std::span<const std::uint32_t> t
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
 #include "rasterizer/set_up/window.h"
 
 namespace strata::rasterizer {
@@ -88,8 +89,8 @@ HWY_EXPORT(draw_depth);
 DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {
     const FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
-    return HWY_DYNAMIC_DISPATCH(draw_depth)(geometry, triangles, values.to_code(),
-                                            z_units(geometry.state, geometry.rules), region, codes);
+    return kernel_of(HWY_DISPATCH_TABLE(draw_depth))(geometry, triangles, values.to_code(),
+                                                     z_units(geometry.state, geometry.rules), region, codes);
 }
 
 }  // namespace strata::rasterizer

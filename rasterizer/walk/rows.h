@@ -10,7 +10,8 @@
 
 #include "rasterizer/coverage/fragment_batch.h"
 #include "rasterizer/set_up/geometry.h"
-#include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/plane.h"
+#include "rasterizer/walk/depth_drawn.h"
 
 namespace strata::rasterizer {
 
@@ -19,10 +20,6 @@ inline constexpr std::size_t row_padding = 8;  // words behind the last pixel th
 
 // Whether rows can do what the batches of `geometry` would hold, in `region` and on the chosen instruction set.
 [[nodiscard]] bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;
-
-struct DepthDrawn {
-    std::uint64_t fragments = 0, passed = 0;
-};
 
 // Every fragment of `triangles` (as TileRasterizer::draw takes them) whose code is LESS than the stored one replaces it, in
 // submission order. `codes`: the region's pixels row by row, and row_padding words more. Only where row_walk_suits.

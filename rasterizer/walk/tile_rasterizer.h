@@ -5,27 +5,14 @@
 // Tests    tests/rasterizer/walk/tile_rasterizer_test.cpp
 #pragma once
 #include <span>
-#include <type_traits>
 
 #include "rasterizer/coverage/fragment_batch.h"
 #include "rasterizer/coverage/pixel_claims.h"
 #include "rasterizer/set_up/geometry.h"
-#include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/weight_lanes.h"
+#include "rasterizer/walk/batch_sink.h"
 
 namespace strata::rasterizer {
-
-// A borrowed callable, called once a batch.
-class BatchSink {
-  public:
-    template <class F>
-    requires(!std::is_same_v<std::remove_cvref_t<F>, BatchSink>) explicit BatchSink(F& f) noexcept
-        : object_{&f}, call_{[](void* object, FragmentBatch& batch) { (*static_cast<F*>(object))(batch); }} {}
-    void operator()(FragmentBatch& batch) const { call_(object_, batch); }
-
-  private:
-    void* object_;
-    void (*call_)(void*, FragmentBatch&);
-};
 
 class TileRasterizer {
   public:

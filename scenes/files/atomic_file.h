@@ -47,8 +47,9 @@ void write_file(const std::string& path, std::string_view bytes);
 // Unlinks every file that is being written. Async-signal-safe.
 void remove_unfinished_files() noexcept;
 
-// On SIGINT, SIGTERM and SIGHUP: remove_unfinished_files(), then _exit(128 + signal), which is 130 for SIGINT. A signal
-// that the process was told to ignore (nohup) stays ignored.
+// On SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE and SIGXCPU: remove_unfinished_files(), then _exit(128 + signal), which is
+// 130 for SIGINT. A signal that the process was told to ignore (nohup) stays ignored. SIGXFSZ is ignored, so that a
+// write beyond the limit of file sizes fails like one on a full disk.
 void remove_unfinished_files_when_interrupted() noexcept;
 
 }  // namespace strata::scenes

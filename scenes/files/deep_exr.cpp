@@ -2,11 +2,13 @@
 //
 // Rule     Channels R G B A (FLOAT, premultiplied), Z (FLOAT), Zbits and id (UINT32: depth code and primitive). Samples
 //          stand in the order of `fragments`, which need not be that of Z.
-#include <OpenImageIO/deepdata.h>
-
+#include <array>
+#include <bit>
 #include <cassert>
+#include <cstring>
 #include <numeric>
 
+#include "pipeline/formats/word_digest.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_formats.h"
@@ -14,86 +16,126 @@
 namespace strata::scenes {
 namespace {
 
-using OIIO::TypeDesc;
+constexpr std::size_t words_a_fragment = 7;
+constexpr std::array<const char*, words_a_fragment> names{"R", "G", "B", "A", "Z", "Zbits", "id"};
+constexpr std::size_t first_integer = 5;  // the words before are FLOAT
 
-enum Channel : int { red, green, blue, alpha, depth, depth_code, id, channel_count };
-constexpr const char* names[channel_count] = {"R", "G", "B", "A", "Z", "Zbits", "id"};
+using Words = std::array<std::uint32_t, words_a_fragment>;
 
-OIIO::ImageSpec deep_spec(const DeepFragments& fragments, const Attributes& attributes) {
-    OIIO::ImageSpec spec = base_spec(fragments.width, fragments.height, attributes);
-    for (int c = 0; c < channel_count; ++c) {
-        spec.channelnames.emplace_back(names[c]);
-        spec.channelformats.emplace_back(c < depth_code ? TypeDesc::FLOAT : TypeDesc::UINT32);
-    }
-    spec.nchannels = channel_count;
-    spec.deep = true;
-    spec.attribute("compression", "zips");  // the strongest that deep images may have
-    return spec;
+PartHeader header_of(const DeepFragments& fragments, const Attributes& attributes) {
+    PartHeader header{.width = fragments.width, .height = fragments.height, .is_deep = true};
+    for (std::size_t i = 0; i < words_a_fragment; ++i)
+        header.channels.push_back({names[i], i < first_integer ? StoredType::single : StoredType::word});
+    header.attributes = prefixed(attributes);
+    header.space = stored_space(fragments.space);
+    header.attributes["strata:colour"] = name_of(fragments.space);
+    header.attributes["strata:digest.fragments"] = digest(fragments);
+    return header;
 }
 
-void set_sample(OIIO::DeepData& data, std::int64_t pixel, int sample, const DeepFragments& fragments, std::size_t i) {
-    const pipeline::Rgba& color = fragments.rgba[i];
-    for (int c = red; c < alpha; ++c)
-        data.set_deep_value(pixel, c, sample, color[static_cast<std::size_t>(c)] * color[3]);
-    data.set_deep_value(pixel, alpha, sample, color[3]);
-    data.set_deep_value(pixel, depth, sample, fragments.z[i]);
-    data.set_deep_value(pixel, depth_code, sample, fragments.depth_code[i]);
-    data.set_deep_value(pixel, id, sample, fragments.primitive[i]);
+// As the file holds it: premultiplied.
+Words words_of(const DeepFragments& fragments, std::size_t i) noexcept {
+    const pipeline::Rgba& c = fragments.rgba[i];
+    const float scale = fragments.premultiplied ? 1.0f : c[3];
+    return {std::bit_cast<std::uint32_t>(c[0] * scale),
+            std::bit_cast<std::uint32_t>(c[1] * scale),
+            std::bit_cast<std::uint32_t>(c[2] * scale),
+            std::bit_cast<std::uint32_t>(c[3]),
+            std::bit_cast<std::uint32_t>(fragments.z[i]),
+            fragments.depth_code[i],
+            fragments.primitive[i]};
 }
 
-void append_sample(const OIIO::DeepData& data, std::int64_t pixel, int sample, const int (&index)[channel_count],
-                   DeepFragments& fragments) {
+void append(const Words& words, DeepFragments& fragments) {
     pipeline::Rgba color{};
-    for (int c = red; c <= alpha; ++c) color[static_cast<std::size_t>(c)] = data.deep_value(pixel, index[c], sample);
+    for (std::size_t c = 0; c < 4; ++c) color[c] = std::bit_cast<float>(words[c]);
     fragments.rgba.push_back(color);
-    fragments.z.push_back(data.deep_value(pixel, index[depth], sample));
-    fragments.depth_code.push_back(data.deep_value_uint(pixel, index[depth_code], sample));
-    fragments.primitive.push_back(data.deep_value_uint(pixel, index[id], sample));
+    fragments.z.push_back(std::bit_cast<float>(words[4]));
+    fragments.depth_code.push_back(words[5]);
+    fragments.primitive.push_back(words[6]);
 }
 
-OIIO::DeepData deep_data(const OIIO::ImageSpec& spec, const DeepFragments& fragments) {
-    OIIO::DeepData data{spec};
-    data.set_all_samples(fragments.count);
-    std::size_t fragment = 0;
-    for (std::int64_t pixel = 0; pixel < data.pixels(); ++pixel)
-        for (int sample = 0; sample < data.samples(pixel); ++sample)
-            set_sample(data, pixel, sample, fragments, fragment++);
-    return data;
+// Hands out the fragments row by row, from the top.
+class DeepRows {
+  public:
+    explicit DeepRows(const DeepFragments& fragments) : fragments_{fragments} {}
+
+    [[nodiscard]] const std::byte* encode(int first, int last) {
+        const auto width = static_cast<std::size_t>(fragments_.width);
+        const auto begin = fragments_.count.begin() + static_cast<std::ptrdiff_t>(first * width);
+        const auto end = fragments_.count.begin() + static_cast<std::ptrdiff_t>(last * width);
+        words_.clear();
+        for (std::size_t left = std::accumulate(begin, end, std::size_t{0}); left > 0; --left)
+            words_.push_back(words_of(fragments_, next_++));
+        return std::as_bytes(std::span{words_}).data();
+    }
+
+  private:
+    const DeepFragments& fragments_;
+    std::size_t next_ = 0;
+    std::vector<Words> words_;
+};
+
+// Where a fragment of the file keeps each of our words.
+std::array<std::size_t, words_a_fragment> offsets_in(const PartHeader& header, const std::string& path) {
+    std::array<std::size_t, words_a_fragment> offsets{};
+    for (std::size_t i = 0; i < words_a_fragment; ++i) {
+        const auto channel = find_channel(header, names[i]);
+        const StoredType type = i < first_integer ? StoredType::single : StoredType::word;
+        if (!channel || channel->type != type)
+            throw InputError(path, "part 0", std::string{"a channel "} + names[i] + " as strata writes it", "none");
+        offsets[i] = channel->offset;
+    }
+    return offsets;
 }
 
 }  // namespace
+
+std::string digest(const DeepFragments& fragments) {
+    const FloatEnvironment environment;
+    pipeline::WordDigest hash{"deep"};
+    hash.add(static_cast<std::uint32_t>(fragments.width));
+    hash.add(static_cast<std::uint32_t>(fragments.height));
+    for (const std::uint32_t count : fragments.count) hash.add(count);
+    for (std::size_t i = 0; i < fragments.z.size(); ++i)
+        for (const std::uint32_t word : words_of(fragments, i)) hash.add(word);
+    return hash.hexadecimal();
+}
 
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes) {
     const FloatEnvironment environment;
     assert(std::accumulate(fragments.count.begin(), fragments.count.end(), std::size_t{0}) == fragments.z.size());
     if (image_file(path) != ImageFile::exr)
         throw InputError(path, "name", "a file name that ends in .exr", "another ending");
-    const OIIO::ImageSpec spec = deep_spec(fragments, attributes);
-    const OIIO::DeepData data = deep_data(spec, fragments);
-    write_exr_by_name(path, [&](OIIO::ImageOutput& output, const std::string& name) {
-        return output.open(name, spec) && output.write_deep_image(data) && output.close();
-    });
+    DeepRows rows{fragments};
+    const PartSource part{.header = header_of(fragments, attributes),
+                          .rows = [&](int first, int last) { return rows.encode(first, last); },
+                          .samples = fragments.count};
+    write_exr_parts(path, {&part, 1});
+}
+
+DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
+    if (!part.header.is_deep || !part.is_whole) throw InputError(path, "part 0", "a whole deep image", "none");
+    const auto offsets = offsets_in(part.header, path);
+    DeepFragments fragments{.width = part.header.width, .height = part.header.height, .premultiplied = true};
+    if (attribute(part.header, "colour") == name_of(pipeline::ColorSpace::linear))
+        fragments.space = pipeline::ColorSpace::linear;
+    fragments.count = part.samples;
+    const std::size_t stride = pixel_bytes(part.header);
+    for (std::size_t at = 0; at < part.bytes.size(); at += stride) {
+        Words words{};
+        for (std::size_t i = 0; i < words_a_fragment; ++i)
+            std::memcpy(&words[i], &part.bytes[at + offsets[i]], sizeof words[i]);
+        append(words, fragments);
+    }
+    return fragments;
 }
 
 DeepFragments read_deep(const std::string& path) {
     const FloatEnvironment environment;
-    const auto input = open_exr(path);
-    const OIIO::ImageSpec spec = input->spec();
-    OIIO::DeepData data;
-    if (!spec.deep || !input->read_native_deep_image(0, 0, data))
-        throw InputError(path, "part 0", "a whole deep image", "none");
-    int index[channel_count];
-    for (int c = 0; c < channel_count; ++c) {
-        index[c] = spec.channelindex(names[c]);
-        if (index[c] < 0) throw InputError(path, "part 0", std::string{"a channel "} + names[c], "none");
-    }
-    DeepFragments fragments{.width = spec.width, .height = spec.height};
-    for (std::int64_t pixel = 0; pixel < data.pixels(); ++pixel) {
-        fragments.count.push_back(static_cast<std::uint32_t>(data.samples(pixel)));
-        for (int sample = 0; sample < data.samples(pixel); ++sample)
-            append_sample(data, pixel, sample, index, fragments);
-    }
-    return fragments;
+    std::vector<StoredPart> parts;
+    image_module().read_exr(path, [&](StoredPart&& part) { parts.push_back(std::move(part)); });
+    return as_fragments(parts.front(), path);
 }
 
 }  // namespace strata::scenes

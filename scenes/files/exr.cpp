@@ -11,6 +11,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <memory>
 #include <optional>
 
 #include "rasterizer/base/enum_values.h"
@@ -21,7 +22,6 @@
 namespace strata::scenes {
 namespace {
 
-using OIIO::TypeDesc;
 using pipeline::ChannelType;
 using pipeline::Format;
 using pipeline::Image;
@@ -32,25 +32,23 @@ bool values_are_codes(const OutputColor& image) noexcept {
     return image.premultiplied && pipeline::info(image.color.format).type != ChannelType::unorm8;
 }
 
-OIIO::ImageSpec spec_of(const OutputColor& image) {
-    OIIO::ImageSpec spec = base_spec(image.color.width, image.color.height, described(image));
-    const auto add = [&](std::string name, TypeDesc type) {
-        spec.channelnames.push_back(std::move(name));
-        spec.channelformats.push_back(type);
-    };
+PartHeader header_of(const OutputColor& image) {
+    PartHeader header{.width = image.color.width, .height = image.color.height};
+    const auto add = [&](std::string name, StoredType type) { header.channels.push_back({std::move(name), type}); };
     const bool is_half = values_are_codes(image) && pipeline::info(image.color.format).type == ChannelType::half;
     const int channels = image.color.channels();
-    for (int c = 0; c < channels; ++c) add(std::string{channel_names[c]}, is_half ? TypeDesc::HALF : TypeDesc::FLOAT);
-    if (!image.depth.codes.empty()) add("Z", TypeDesc::FLOAT);
+    for (int c = 0; c < channels; ++c)
+        add(std::string{channel_names[c]}, is_half ? StoredType::half : StoredType::single);
+    if (!image.depth.codes.empty()) add("Z", StoredType::single);
     if (!values_are_codes(image))
-        for (int c = 0; c < channels; ++c) add(fmt::format("{}bits", channel_names[c]), TypeDesc::UINT32);
-    if (!image.depth.codes.empty()) add("Zbits", TypeDesc::UINT32);
-    spec.nchannels = static_cast<int>(spec.channelnames.size());
-    spec.attribute("compression", "zip");
-    return spec;
+        for (int c = 0; c < channels; ++c) add(fmt::format("{}bits", channel_names[c]), StoredType::word);
+    if (!image.depth.codes.empty()) add("Zbits", StoredType::word);
+    header.attributes = prefixed(described(image));
+    header.space = stored_space(image.space);
+    return header;
 }
 
-// Rows of pixels as OpenImageIO takes them: the channels of one pixel after the other, each in its own type.
+// Rows of pixels as PartSource gives them: the channels of one pixel after the other, each in its own type.
 class Rows {
   public:
     explicit Rows(const OutputColor& image) : image_{image}, type_{pipeline::info(image.color.format).type} {}
@@ -97,40 +95,9 @@ class Rows {
     std::vector<std::byte> bytes_;
 };
 
-bool write_part(OIIO::ImageOutput& output, const OutputColor& image) {
-    constexpr int rows_at_once = 64;  // a multiple of zip's 16
-    Rows rows{image};
-    for (int y = 0; y < image.color.height; y += rows_at_once) {
-        const int end = std::min(y + rows_at_once, image.color.height);
-        if (!output.write_scanlines(y, end, 0, TypeDesc::UNKNOWN, rows.encode(y, end))) return false;
-    }
-    return true;
-}
-
-bool write_parts(OIIO::ImageOutput& output, const std::string& name, std::span<const OutputColor> layers) {
-    std::vector<OIIO::ImageSpec> specs;
-    for (const OutputColor& layer : layers) {
-        specs.push_back(spec_of(layer));
-        specs.back().attribute("oiio:subimagename", fmt::format("layer.{:03}", specs.size() - 1));
-    }
-    if (!output.open(name, static_cast<int>(specs.size()), specs.data())) return false;
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        if (i > 0 && !output.open(name, specs[i], OIIO::ImageOutput::AppendSubimage)) return false;
-        if (!write_part(output, layers[i])) return false;
-    }
-    return output.close();
-}
-
-// Where a part keeps a target's codes: a channel's offset in the native pixel, and its type.
-struct Source {
-    std::size_t offset = 0;
-    TypeDesc type;
-};
-
-std::optional<Source> find_channel(const OIIO::ImageSpec& spec, const std::string& name) {
-    const int index = spec.channelindex(name);
-    if (index < 0) return std::nullopt;
-    return Source{spec.pixel_bytes(0, index, true), spec.channelformat(index)};
+PartSource source_of(const OutputColor& image) {
+    const auto rows = std::make_shared<Rows>(image);
+    return {.header = header_of(image), .rows = [rows](int first, int last) { return rows->encode(first, last); }};
 }
 
 std::optional<Format> format_named(std::string_view name) {
@@ -139,81 +106,77 @@ std::optional<Format> format_named(std::string_view name) {
     return std::nullopt;
 }
 
-TypeDesc type_of_codes(Format format) {
-    return pipeline::info(format).type == ChannelType::half ? TypeDesc::HALF : TypeDesc::FLOAT;
+StoredType type_of_codes(Format format) {
+    return pipeline::info(format).type == ChannelType::half ? StoredType::half : StoredType::single;
 }
 
 class PartReader {
   public:
-    PartReader(OIIO::ImageInput& input, int part, const std::string& path)
-        : path_{path}, part_{part}, spec_{input.spec(part, 0)}, pixel_bytes_{spec_.pixel_bytes(true)} {
-        pixels_.resize(spec_.image_bytes(true));
-        if (!input.read_image(part, 0, 0, spec_.nchannels, TypeDesc::UNKNOWN, pixels_.data()))
-            fail("a whole image", "a damaged one");
+    PartReader(const StoredPart& part, int number, const std::string& path)
+        : path_{path}, number_{number}, part_{part}, header_{part.header}, pixel_bytes_{pixel_bytes(header_)} {
+        if (header_.is_deep) fail("a flat image", "a deep one");
+        if (!part.is_whole) fail("a whole image", "a damaged one");
     }
 
     void append_to(std::vector<FileImage>& images) const {
-        const std::string part{spec_.get_string_attribute("oiio:subimagename")};
-        images.push_back({part, "color", target(color_format(), {"R", "G", "B", "A"})});
-        if (spec_.channelindex("Zbits") < 0) return;
-        const auto depth = format_named(attribute(spec_, "format.depth"));
+        images.push_back({header_.name, "color", target(color_format(), {"R", "G", "B", "A"})});
+        if (!find_channel(header_, "Zbits")) return;
+        const auto depth = format_named(attribute(header_, "format.depth"));
         if (!depth || !pipeline::is_depth(*depth))
             fail("an attribute strata:format.depth that names a depth format", "none");
-        images.push_back({part, "depth", target(*depth, {"Z"})});
+        images.push_back({header_.name, "depth", target(*depth, {"Z"})});
     }
 
   private:
     [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
-        throw InputError(path_, fmt::format("part {}", part_), expected, found);
+        throw InputError(path_, fmt::format("part {}", number_), expected, found);
     }
 
     // By name, or, in somebody else's file, by the type of R.
     [[nodiscard]] Format color_format() const {
-        if (const auto format = format_named(attribute(spec_, "format.color")); format && pipeline::is_color(*format))
+        if (const auto format = format_named(attribute(header_, "format.color")); format && pipeline::is_color(*format))
             return *format;
-        const auto red = find_channel(spec_, "R");
-        if (!red || red->type == TypeDesc::UINT32) fail("colour channels R G B A", "none");
-        return red->type == TypeDesc::HALF ? Format::rgba16f : Format::rgba32f;
+        const auto red = find_channel(header_, "R");
+        if (!red || red->type == StoredType::word) fail("colour channels R G B A", "none");
+        return red->type == StoredType::half ? Format::rgba16f : Format::rgba32f;
     }
 
     [[nodiscard]] Image target(Format format, const std::vector<std::string>& names) const {
-        Image image{format, spec_.width, spec_.height};
+        Image image{format, header_.width, header_.height};
         const auto channels = static_cast<std::size_t>(image.channels());
         for (std::size_t c = 0; c < channels; ++c) {
-            const auto bits = find_channel(spec_, names[c] + "bits");
-            const auto source = bits ? bits : find_channel(spec_, names[c]);
-            if (!source || source->type != (bits ? TypeDesc{TypeDesc::UINT32} : type_of_codes(format)))
+            const auto bits = find_channel(header_, names[c] + "bits");
+            const auto source = bits ? bits : find_channel(header_, names[c]);
+            if (!source || source->type != (bits ? StoredType::word : type_of_codes(format)))
                 fail(fmt::format("a channel {} with codes of {}", names[c], pipeline::info(format).name), "none");
             copy_codes(*source, image, c);
         }
         return image;
     }
 
-    void copy_codes(const Source& source, Image& image, std::size_t channel) const {
+    void copy_codes(const ChannelPlace& source, Image& image, std::size_t channel) const {
         const auto channels = static_cast<std::size_t>(image.channels());
-        const std::byte* from = pixels_.data() + source.offset;
+        const std::byte* from = part_.bytes.data() + source.offset;
         for (std::size_t i = channel; i < image.codes.size(); i += channels, from += pixel_bytes_) {
             std::uint16_t half = 0;
             std::memcpy(&half, from, sizeof half);
-            if (source.type == TypeDesc::HALF) image.codes[i] = half;
-            if (source.type != TypeDesc::HALF) std::memcpy(&image.codes[i], from, sizeof image.codes[i]);
+            if (source.type == StoredType::half) image.codes[i] = half;
+            if (source.type != StoredType::half) std::memcpy(&image.codes[i], from, sizeof image.codes[i]);
         }
     }
 
     const std::string& path_;
-    int part_;
-    OIIO::ImageSpec spec_;
+    int number_;
+    const StoredPart& part_;
+    const PartHeader& header_;
     std::size_t pixel_bytes_;
-    std::vector<std::byte> pixels_;
 };
 
 }  // namespace
 
 void write_exr(const std::string& path, const OutputColor& image) {
-    const OIIO::ImageSpec spec = spec_of(image);
-    write_with("openexr", path, [&](OIIO::ImageOutput& output, const std::string& name) {
-        return output.open(name, spec) && write_part(output, image) && output.close();
-    });
+    const PartSource part = source_of(image);
+    write_with(path, [&](const ByteSink& sink) { return image_module().write_exr(sink, part); });
 }
 
 void write_layers(const std::string& path, std::span<const OutputColor> layers) {
@@ -221,17 +184,25 @@ void write_layers(const std::string& path, std::span<const OutputColor> layers) 
     if (image_file(path) != ImageFile::exr)
         throw InputError(path, "name", "a file name that ends in .exr", "another ending");
     const FloatEnvironment environment;
-    write_exr_by_name(
-        path, [&](OIIO::ImageOutput& output, const std::string& name) { return write_parts(output, name, layers); });
+    std::vector<PartSource> parts;
+    for (const OutputColor& layer : layers) {
+        parts.push_back(source_of(layer));
+        parts.back().header.name = fmt::format("layer.{:03}", parts.size() - 1);
+    }
+    write_exr_parts(path, parts);
+}
+
+std::vector<FileImage> as_images(const StoredPart& part, int number, const std::string& path) {
+    std::vector<FileImage> images;
+    PartReader{part, number, path}.append_to(images);
+    return images;
 }
 
 std::vector<FileImage> read_exr(const std::string& path) {
-    const auto input = open_exr(path);
     std::vector<FileImage> images;
-    for (int part = 0; input->seek_subimage(part, 0); ++part) {
-        if (input->spec().deep) throw InputError(path, fmt::format("part {}", part), "a flat image", "a deep one");
-        PartReader{*input, part, path}.append_to(images);
-    }
+    image_module().read_exr(path, [&, number = 0](StoredPart&& part) mutable {
+        PartReader{part, number++, path}.append_to(images);
+    });
     return images;
 }
 

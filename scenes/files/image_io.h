@@ -41,10 +41,12 @@ void write_layers(const std::string& path, std::span<const OutputColor> layers);
 // Every fragment of every pixel, pixel by pixel in rows from the top; within a pixel in the order given.
 struct DeepFragments {
     int width = 0, height = 0;
+    bool premultiplied = false;  // whether `rgba` holds colours times alpha
+    pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
     std::vector<std::uint32_t> count{};       // fragments a pixel
     std::vector<std::uint32_t> depth_code{};  // the others: one entry a fragment
     std::vector<float> z{};
-    std::vector<pipeline::Rgba> rgba{};  // straight
+    std::vector<pipeline::Rgba> rgba{};
     std::vector<std::uint32_t> primitive{};
     friend bool operator==(const DeepFragments&, const DeepFragments&) = default;
 };
@@ -52,14 +54,26 @@ struct DeepFragments {
 void write_deep(const std::string& path, const DeepFragments& fragments, const Attributes& attributes);
 [[nodiscard]] DeepFragments read_deep(const std::string& path);  // rgba as in the file: premultiplied
 
+// The hash of pipeline::digest over "deep", a zero byte, width and height, the fragments of each pixel, then of each
+// fragment R G B A (premultiplied), Z, depth code and primitive: u32 all of them.
+[[nodiscard]] std::string digest(const DeepFragments& fragments);
+
 // A target found in a file: "color" or "depth", of the part `layer.000` or of the whole file (part "").
 struct FileImage {
     std::string part, target;
     pipeline::Image image;
 };
 
-// Everything that `digest` can speak of: a PNG's 8-bit codes, an EXR's codes. InputError for what is no such image.
+// The targets of a file: a PNG's 8-bit codes, an EXR's codes. InputError for what is no such image, or a deep one.
 [[nodiscard]] std::vector<FileImage> read_images(const std::string& path);
+
+// One target's digest; of a deep part that of its "fragments", format "deep".
+struct FileDigest {
+    std::string part, target, format;
+    int width = 0, height = 0;
+    std::string digest;
+};
+[[nodiscard]] std::vector<FileDigest> digests_of(const std::string& path);
 
 // What a .png of `image` holds: straight 8-bit colours, encoded.
 [[nodiscard]] pipeline::Image as_straight_rgba8(const OutputColor& image);

@@ -65,14 +65,11 @@ Image as_straight_rgba8(const OutputColor& image) {
 void write_png(const std::string& path, const OutputColor& image) {
     const Image straight = as_straight_rgba8(image);
     const std::vector<std::uint8_t> bytes(straight.codes.begin(), straight.codes.end());
-    OIIO::ImageSpec spec = base_spec(straight.width, straight.height, image.attributes);
-    spec.erase_attribute("DateTime");  // which PNG has no need to be told
-    spec.nchannels = 4;
-    spec.default_channel_names();
-    spec.set_format(OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);  // else colours are divided by alpha on the way out
-    write_with("png", path, [&](OIIO::ImageOutput& output, const std::string& name) {
-        return output.open(name, spec) && output.write_image(OIIO::TypeDesc::UINT8, bytes.data()) && output.close();
+    write_with(path, [&](const ByteSink& sink) {
+        return image_module().write_png(sink, {.width = straight.width,
+                                               .height = straight.height,
+                                               .rgba = bytes,
+                                               .attributes = prefixed(image.attributes)});
     });
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "rasterizer/base/simd.h"
 #include "tests/golden/core_scenes.h"
 
@@ -33,6 +35,7 @@ peeling::RenderOptions options_for(const golden::GoldenScene& scene) {
     options.height = scene.height;
     options.threads = 1;
     options.audit = false;
+    options.simd = Simd::avx2;
     return options;
 }
 
@@ -53,7 +56,7 @@ extern "C" [[gnu::noinline]] void strata_counted_job(const golden::GoldenScene& 
 namespace {
 
 int run(const Job& job) {
-    if (!choose_simd(Simd::avx2)) return 77;
+    if (!has_simd(Simd::avx2)) return 77;
     for (const golden::GoldenScene& scene : golden::core_scenes()) {
         if (scene.name != job.scene) continue;
         peeling::RenderResult result = draw(scene, job.algorithm);  // tables, profiles and allocators are set up once

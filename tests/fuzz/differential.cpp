@@ -5,6 +5,8 @@
 #include <ostream>
 #include <sstream>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "tests/support/difference.h"
 
 namespace strata::fuzz {
@@ -12,16 +14,15 @@ namespace strata::fuzz {
 namespace {
 
 peeling::RenderResult run(const FrameCase& frame, const Way& way) {
-    choose_simd(way.simd);  // a set that this processor lacks leaves the one before
     peeling::RenderOptions options = frame.options;
     options.execution = way.execution;
     options.tile_size = way.tile_size;
     options.effects = way.effects;
-    options.trust_idle = way.trust_idle;
+    options.simd = has_simd(way.simd) ? way.simd : Simd::best;
     options.fragment_memory = way.fragment_memory;
     peeling::Renderer renderer{frame.list, frame.view, *pipeline::find_profile(frame.profile), options};
-    if (frame.algorithm == "depth_pass") return renderer.depth_pass();
-    return renderer.render(*peeling::find_algorithm(frame.algorithm));
+    if (frame.algorithm == "depth_pass") return renderer.depth_pass({}, {.trust_idle = way.trust_idle});
+    return renderer.render(*peeling::find_algorithm(frame.algorithm), {}, {.trust_idle = way.trust_idle});
 }
 
 // Keeps what `change` makes of the frame if it still differs.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "peeling/registry.h"
 #include "tests/fuzz/scene_of_bytes.h"
 
 namespace strata::fuzz {
@@ -11,7 +12,15 @@ using rasterizer::DepthPath;
 
 namespace {
 
-constexpr std::array executions{Execution::replay, Execution::tiled, Execution::literal};
+constexpr std::uint64_t usual_memory = std::uint64_t{256} << 20;
+
+struct Running {
+    Execution execution;
+    std::uint64_t fragment_memory;  // unless the bytes say otherwise
+};
+constexpr Running rasterizing{Execution::replay, 0}, replaying{Execution::replay, usual_memory},
+    literal{Execution::literal, usual_memory};
+constexpr std::array runnings{replaying, rasterizing, literal};
 
 // A profile that can run the algorithm; now and then any.
 std::string profile_for(ByteSource& bytes, const peeling::Algorithm* algorithm) {
@@ -123,22 +132,24 @@ peeling::RenderOptions options(ByteSource& bytes, const DeviceProfile& profile, 
     return o;
 }
 
-Way way(ByteSource& bytes, Execution execution, Simd simd) {
-    constexpr std::array<std::uint64_t, 6> memories{std::uint64_t{256} << 20, 300 << 10, 40 << 10, 4 << 10, 600, 0};
-    Way w{.execution = execution, .simd = simd};
+Way way(ByteSource& bytes, const Running& running, Simd simd) {
+    constexpr std::array<std::uint64_t, 6> memories{usual_memory, 300 << 10, 40 << 10, 4 << 10, 600, 0};
+    Way w{.execution = running.execution, .simd = simd, .fragment_memory = running.fragment_memory};
     w.tile_size = bytes.pick(std::array{8, 16, 32, 64, 128});
     if (bytes.one_in(4)) w.effects = Effects::all;
     if (bytes.one_in(4)) w.trust_idle = false;
-    if (bytes.one_in(2)) w.fragment_memory = bytes.pick(memories);
+    const bool has_memory_of_its_own = bytes.one_in(2);
+    const std::uint64_t memory = has_memory_of_its_own ? bytes.pick(memories) : w.fragment_memory;
+    if (running.fragment_memory > 0) w.fragment_memory = memory;
     return w;
 }
 
 std::vector<Way> ways(ByteSource& bytes) {
-    std::vector<Way> all{way(bytes, Execution::literal, Simd::best), way(bytes, Execution::tiled, Simd::best),
-                         way(bytes, Execution::replay, Simd::best)};
-    all.push_back(way(bytes, bytes.pick(executions), Simd::scalar));
+    std::vector<Way> all{way(bytes, literal, Simd::best), way(bytes, rasterizing, Simd::best),
+                         way(bytes, replaying, Simd::best)};
+    all.push_back(way(bytes, bytes.pick(runnings), Simd::scalar));
     if (bytes.one_in(6))
-        all.push_back(way(bytes, bytes.pick(executions), bytes.pick(std::array{Simd::avx2, Simd::sse4})));
+        all.push_back(way(bytes, bytes.pick(runnings), bytes.pick(std::array{Simd::avx2, Simd::sse4})));
     return all;
 }
 

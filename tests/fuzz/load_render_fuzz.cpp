@@ -43,15 +43,16 @@ void check_invariants(const Scene& scene) {
     }
 }
 
-// At 16 x 16, by the layered and the min-max peel, opaque surfaces first; tiled and literal execution must agree.
+// At 16 x 16, by the layered and the min-max peel, opaque surfaces first; replay (by rasterizing every pass) and literal execution must agree.
 void render(const Scene& scene) {
     strata::peeling::RenderOptions options{.width = 16, .height = 16, .max_passes = 8, .tile_size = 8, .threads = 1};
     const auto view = strata::scenes::orbit_view(scene.bounds, 30, 20, 1.0);
     const auto& profile = *strata::pipeline::find_profile("geforce8");
     std::array<strata::pipeline::Image, 2> color;
     for (const char* name : {"front_to_back", "dual"}) {
-        for (const auto execution : {strata::pipeline::Execution::literal, strata::pipeline::Execution::tiled}) {
+        for (const auto execution : {strata::pipeline::Execution::literal, strata::pipeline::Execution::replay}) {
             options.execution = execution;
+            options.fragment_memory = 0;
             strata::peeling::Renderer renderer{scene.list, view, profile, options};
             auto result = renderer.render(*strata::peeling::find_algorithm(name));
             require(result.outcome == strata::peeling::Outcome::done);

@@ -8,6 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
+
 namespace strata::golden {
 
 namespace {
@@ -56,8 +59,10 @@ Settings parse(int count, char** words) {
             settings.threads = to_int(value);
         else if (key == "tile")
             settings.tile_size = to_int(value);
-        else if (word == "execution=literal" || word == "execution=tiled")
-            settings.execution = value == "literal" ? pipeline::Execution::literal : pipeline::Execution::tiled;
+        else if (word == "execution=literal" || word == "execution=replay")
+            settings.execution = value == "literal" ? pipeline::Execution::literal : pipeline::Execution::replay;
+        else if (key == "memory")
+            settings.fragment_memory = to_int(value);
         else if (word == "effects=needed" || word == "effects=all")
             settings.effects = value == "all" ? pipeline::Effects::all : pipeline::Effects::needed;
         else if (key == "simd")
@@ -65,14 +70,13 @@ Settings parse(int count, char** words) {
         else if (key == "check")
             settings.check = value;
         else
-            throw std::invalid_argument("expected threads=, tile=, execution=, effects=, simd= or check=, found " +
-                                        word);
+            throw std::invalid_argument(
+                "expected threads=, tile=, execution=, memory=, effects=, simd= or check=, found " + word);
     }
     return settings;
 }
 
 std::string lines(const GoldenScene& scene, const Settings& settings) {
-    if (!choose_simd(settings.simd)) choose_simd(Simd::best);
     std::string text;
     for (const pipeline::DeviceProfile& profile : pipeline::builtin_profiles()) {
         if (profile.name == "llvmpipe") continue;  // its fragments are held to Mesa's own, by tools/bench
@@ -83,7 +87,9 @@ std::string lines(const GoldenScene& scene, const Settings& settings) {
         options.threads = settings.threads;
         options.tile_size = settings.tile_size;
         options.execution = settings.execution;
+        options.fragment_memory = static_cast<std::uint64_t>(settings.fragment_memory);
         options.effects = settings.effects;
+        options.simd = has_simd(settings.simd) ? settings.simd : Simd::best;
         options.audit = false;
         peeling::Renderer renderer(scene.list, scene.view, profile, options);
         for (const peeling::Algorithm& algorithm : peeling::algorithms()) {

@@ -9,12 +9,13 @@
 
 namespace strata::golden {
 
-// What must not change a bit. Given as words: threads=N tile=N execution=literal|tiled effects=needed|all
+// What must not change a bit. Given as words: threads=N tile=N execution=literal|replay memory=BYTES effects=needed|all
 // simd=scalar|sse4|avx2|avx512 check=FILE. An instruction set that this processor lacks is replaced by the best it has.
 struct Settings {
     int threads = 1;
     int tile_size = 32;
-    pipeline::Execution execution = pipeline::Execution::tiled;
+    pipeline::Execution execution = pipeline::Execution::replay;
+    int fragment_memory = 0;  // bytes
     pipeline::Effects effects = pipeline::Effects::needed;
     Simd simd = Simd::best;
     std::string check;  // the file to compare with; empty: print

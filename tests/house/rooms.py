@@ -17,7 +17,7 @@ FLOORS = {
     "rasterizer": ["base", "rules", "coverage", "set_up", "values", "walk"],
     "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "region"],
     "peeling": ["programs", "closed", "algorithms", "audit"],
-    "scenes": ["numbers", "", "gltf/document", "files", "procedural", "gltf"],
+    "scenes": ["numbers", "", "gltf/document", "images", "files", "procedural", "gltf"],
     "tools": ["hardware_check", "strata", "bench"],
 }
 # Which floors a floor stands on. scenes stands beside peeling.

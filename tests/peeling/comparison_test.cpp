@@ -247,7 +247,7 @@ TEST_CASE("a window that lies elsewhere on its surface shows the same picture by
     CHECK(there.audit.max_difference == here.audit.max_difference);
 }
 
-TEST_CASE("literal, tiled and replayed peels agree whatever depth they compare", "[slow]") {
+TEST_CASE("literal, rasterized and replayed peels agree whatever depth they compare", "[slow]") {
     const TriangleScene scene = random_triangles(966, 24);
     struct Setting {
         const char* name;
@@ -276,9 +276,9 @@ TEST_CASE("literal, tiled and replayed peels agree whatever depth they compare",
         INFO(setting.name << ", " << setting.machine.algorithm);
         setting.options.execution = Execution::literal;
         const RenderResult literal = run(scene, setting.machine, setting.options);
-        for (const Execution execution : {Execution::tiled, Execution::replay})
+        for (const Running& running : all_ways_of_running)
             for (const auto effects : {strata::pipeline::Effects::needed, strata::pipeline::Effects::all}) {
-                setting.options.execution = execution;
+                running.apply(setting.options);
                 setting.options.effects = effects;
                 setting.options.tile_size = 16;
                 CHECK(difference(run(scene, setting.machine, setting.options), literal) == "");

@@ -41,12 +41,12 @@ struct Way {
 };
 
 constexpr std::array<Way, 13> ways{{{Execution::literal, 64, 4, Effects::all, false},
-                                    {Execution::tiled, 8, 1, Effects::needed, true},
-                                    {Execution::tiled, 16, 4, Effects::all, true},
-                                    {Execution::tiled, 16, 2, Effects::needed, false},
-                                    {Execution::tiled, 32, 4, Effects::needed, true},
-                                    {Execution::tiled, 64, 2, Effects::all, false},
-                                    {Execution::tiled, 128, 1, Effects::needed, true},
+                                    {Execution::replay, 8, 1, Effects::needed, true, 0},
+                                    {Execution::replay, 16, 4, Effects::all, true, 0},
+                                    {Execution::replay, 16, 2, Effects::needed, false, 0},
+                                    {Execution::replay, 32, 4, Effects::needed, true, 0},
+                                    {Execution::replay, 64, 2, Effects::all, false, 0},
+                                    {Execution::replay, 128, 1, Effects::needed, true, 0},
                                     {Execution::replay, 8, 1, Effects::needed, true},
                                     {Execution::replay, 32, 4, Effects::needed, false},
                                     {Execution::replay, 64, 2, Effects::all, true},
@@ -59,7 +59,6 @@ RenderOptions with(RenderOptions options, const Way& way) {
     options.tile_size = way.tile_size;
     options.threads = way.threads;
     options.effects = way.effects;
-    options.trust_idle = way.trust_idle;
     options.fragment_memory = way.fragment_memory;
     return options;
 }
@@ -73,7 +72,8 @@ void check_all_ways(const TriangleScene& scene, const Machine& machine, RenderOp
     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
     CHECK(difference(render(scene.list, scene.view, machine, options), expected).empty());  // twice the same
     for (const Way& way : chosen) {
-        const RenderResult found = render(scene.list, scene.view, machine, with(options, way));
+        const RenderResult found =
+            render(scene.list, scene.view, machine, with(options, way), {.trust_idle = way.trust_idle});
         INFO(machine.algorithm << " on " << machine.profile << ", tile " << way.tile_size << ", threads " << way.threads
                                << ", literal " << (way.execution == Execution::literal) << ", trusts idle "
                                << way.trust_idle << ", fragment memory " << way.fragment_memory);
@@ -196,10 +196,11 @@ TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts"
 TEST_CASE("an algorithm that keeps layers keeps one for each distinct depth of the deepest pixel") {
     const TriangleScene scene = random_triangles(76, 24);
     for (const Machine& machine : {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}})
-        for (const Execution execution : {Execution::literal, Execution::tiled}) {
+        for (const Execution execution : {Execution::literal, Execution::replay}) {
             RenderOptions options = small_frame();
             options.keep_layers = true;
             options.execution = execution;
+            options.fragment_memory = 0;
             const RenderResult result = render(scene.list, scene.view, machine, options);
             CHECK(result.frame.layers.size() == static_cast<std::size_t>(result.audit.layers_max));
         }

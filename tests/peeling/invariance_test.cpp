@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "peeling/registry.h"
+
 using namespace strata::peeling;
 using namespace strata::pipeline;
 using strata::rasterizer::DepthPath;

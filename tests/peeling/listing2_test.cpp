@@ -5,6 +5,7 @@
 
 #include "peeling/programs/layer_quads.h"
 #include "pipeline/geforce3/texture_environment.h"
+#include "pipeline/region/executor.h"
 #include "pipeline/region/fragment_path.h"
 #include "pipeline/vertices/matrix.h"
 #include "rasterizer/values/depth_quotient.h"
@@ -98,7 +99,8 @@ using Codes = std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>; 
 // The codes that a pass would store if nothing lay before anything.
 template <class Program>
 Codes codes_of(const Frame& frame, PassState state, Program&& program) {
-    Region region{frame, frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{frame, {frame.rect()}, books};
     state.needs.code = true;
     Codes codes;
     static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
@@ -143,7 +145,8 @@ void peel(Region& region) {
 TEST_CASE("Listing 2's state replaces depth by the bits of depth path depth_replace, and compares the same bits") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         Scene scene{401, 60, format};
-        Region region{scene.frame, scene.frame.rect(), 0, Extent::frame};
+        RegionBooks books;
+        Region region{scene.frame, {scene.frame.rect()}, books};
         PassState state;
         FragmentPathProgram listing{region, stages({})};
         listing.apply(state);
@@ -184,7 +187,7 @@ TEST_CASE("a peel by Listing 2's state alone is shadow_map_depth_replace, to the
         render(scene.triangles.list, scene.triangles.view, {"geforce3", "shadow_map_depth_replace"}, options);
     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
     CHECK(expected.frame.passes.geometry > 5);
-    for (const Execution execution : {Execution::literal, Execution::tiled}) {
+    for (const Execution execution : {Execution::literal, Execution::replay}) {
         const FrameResult found = run(scene.frame, peel, execution, 2);
         CHECK(found.color == expected.frame.color);
         CHECK(found.passes.geometry == expected.frame.passes.geometry);

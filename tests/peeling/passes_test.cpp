@@ -137,9 +137,8 @@ TEST_CASE("E14 spares a tile whose back layers have alpha 0 while another tile's
     options.tile_size = 8;
     const RenderResult exact = render(scene, {"geforce8", "dual"}, options);
     options.termination.rule = TerminationRule::paper;
-    using strata::pipeline::Execution;
-    for (const auto execution : {Execution::literal, Execution::tiled, Execution::replay}) {
-        options.execution = execution;
+    for (const Running& running : all_ways_of_running) {
+        running.apply(options);
         const RenderResult paper = render(scene, {"geforce8", "dual"}, options);
         CHECK(paper.frame.color == exact.frame.color);
         CHECK(paper.frame.passes.geometry == 4);

@@ -13,7 +13,6 @@ using namespace strata::testing;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
 using strata::pipeline::DrawList;
-using strata::pipeline::Execution;
 using strata::pipeline::Fault;
 using strata::pipeline::Formulation;
 
@@ -33,18 +32,18 @@ std::vector<GivenFragment> fragments_at(const std::vector<int>& depths, float (*
 }
 
 RenderResult run(const DrawList& list, const FragmentScene& scene, const Machine& machine, Formulation formulation,
-                 Execution execution = Execution::replay) {
+                 const Running& running = {}) {
     RenderOptions options = options_for(scene);
     options.tile_size = 8;
     options.background = background;
     options.color_format = Format::rgba32f;
     options.formulation = formulation;
-    options.execution = execution;
+    running.apply(options);
     return render(list, {}, machine, options);
 }
 
-RenderResult published(const FragmentScene& scene, const Machine& machine, Execution execution = Execution::replay) {
-    return run(draw_list(scene), scene, machine, Formulation::published, execution);
+RenderResult published(const FragmentScene& scene, const Machine& machine, const Running& running = {}) {
+    return run(draw_list(scene), scene, machine, Formulation::published, running);
 }
 
 // Pixel p shows these fragments, near to far.
@@ -219,9 +218,9 @@ TEST_CASE(
     auto& first = scene.pixels[0].fragments = fragments_at({6, 0, 6}, eighths, random);
     auto& second = scene.pixels[9].fragments = fragments_at({1, 2}, eighths, random);
     scene.pixels[0].opaque = scene.pixels[9].opaque = GivenFragment{eighths(6), background};
-    for (const Execution execution : {Execution::literal, Execution::tiled, Execution::replay}) {
+    for (const Running& running : all_ways_of_running) {
         const RenderResult result =
-            run(two_sets(scene, FragmentScene{16, 8}), scene, hybrid, Formulation::published, execution);
+            run(two_sets(scene, FragmentScene{16, 8}), scene, hybrid, Formulation::published, running);
         CHECK(shows(result, 0, {first[0], first[2], first[0], first[2]}));
         CHECK(shows(result, 9, second));
         CHECK(diagnosed(result, Fault::as_published) == 1);
@@ -234,8 +233,8 @@ TEST_CASE("E25, regression: Algorithm 2 as printed composites a finished pixel's
     auto& first = scene.pixels[0].fragments = fragments_at({1}, eighths, random);
     auto& second = scene.pixels[9].fragments = fragments_at({2, 4, 2, 1}, eighths, random);
     scene.pixels[0].opaque = scene.pixels[9].opaque = GivenFragment{eighths(6), background};
-    for (const Execution execution : {Execution::literal, Execution::tiled, Execution::replay}) {
-        const RenderResult result = published(scene, ideal, execution);
+    for (const Running& running : all_ways_of_running) {
+        const RenderResult result = published(scene, ideal, running);
         CHECK(shows(result, 0, {first[0], first[0], first[0]}));
         CHECK(shows(result, 9, {second[3], second[0], second[2], second[1]}));
         CHECK(diagnosed(result, Fault::as_published) == 1);

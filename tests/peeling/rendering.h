@@ -13,6 +13,17 @@ struct Machine {
     std::string profile, algorithm;
 };
 
+// How a frame is run: replay with 0 bytes rasterizes every pass, tile by tile.
+struct Running {
+    pipeline::Execution execution = pipeline::Execution::replay;
+    std::uint64_t fragment_memory = std::uint64_t{256} << 20;
+    void apply(peeling::RenderOptions& options) const {
+        options.execution = execution;
+        options.fragment_memory = fragment_memory;
+    }
+};
+inline constexpr Running all_ways_of_running[]{{pipeline::Execution::literal}, {pipeline::Execution::replay, 0}, {}};
+
 [[nodiscard]] inline peeling::RenderOptions options_for(const FragmentScene& scene) {
     peeling::RenderOptions options;
     options.width = scene.width;
@@ -22,9 +33,10 @@ struct Machine {
 }
 
 [[nodiscard]] inline peeling::RenderResult render(const pipeline::DrawList& list, const pipeline::View& view,
-                                                  const Machine& machine, const peeling::RenderOptions& options) {
+                                                  const Machine& machine, const peeling::RenderOptions& options,
+                                                  const pipeline::Instruments& instruments = {}) {
     peeling::Renderer renderer{list, view, *pipeline::find_profile(machine.profile), options};
-    return renderer.render(*peeling::find_algorithm(machine.algorithm));
+    return renderer.render(*peeling::find_algorithm(machine.algorithm), {}, instruments);
 }
 
 [[nodiscard]] inline peeling::RenderResult render(const FragmentScene& scene, const Machine& machine,

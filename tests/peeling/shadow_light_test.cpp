@@ -112,10 +112,10 @@ TEST_CASE("transparent surfaces let the light through, and colours in shadow are
         options.execution = Execution::literal;
         const auto expected = render(opaque, from_above, {"geforce8", algorithm}, options);
         CHECK(expected.frame.color != lit.frame.color);
-        for (const Execution execution : {Execution::tiled, Execution::replay})
+        for (const Running& running : all_ways_of_running)
             for (const Effects effects : {Effects::needed, Effects::all}) {
                 auto other = options;
-                other.execution = execution;
+                running.apply(other);
                 other.effects = effects;
                 CHECK(render(opaque, from_above, {"geforce8", algorithm}, other).frame.color == expected.frame.color);
             }

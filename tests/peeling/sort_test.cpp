@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
+#include "pipeline/vertices/prepare.h"
 #include "tests/support/random_numbers.h"
 
 namespace {

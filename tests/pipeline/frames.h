@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "pipeline/region/executor.h"
+#include "pipeline/region/region.h"
 #include "tests/support/fragment_scene.h"
 
 namespace strata::testing {

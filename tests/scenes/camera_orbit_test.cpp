@@ -14,9 +14,9 @@ using strata::pipeline::View;
 std::array<double, 4> to_clip(const View& view, const std::array<double, 3>& p) {
     std::array<double, 4> eye{}, clip{};
     for (std::size_t r = 0; r < 4; ++r)
-        eye[r] = view.view[r] * p[0] + view.view[4 + r] * p[1] + view.view[8 + r] * p[2] + view.view[12 + r];
+        eye[r] = view.view[0][r] * p[0] + view.view[1][r] * p[1] + view.view[2][r] * p[2] + view.view[3][r];
     for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t c = 0; c < 4; ++c) clip[r] += view.projection[4 * c + r] * eye[c];
+        for (std::size_t c = 0; c < 4; ++c) clip[r] += view.projection[c][r] * eye[c];
     return clip;
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("a job's literal fragments and picture are the same in every execution
     const Folder folder;
     const Ended ended = bench(folder, {"--algorithm", "front_to_back", "--execution", "all", "--json", "-"});
     const auto jobs = ordered_json::parse(ended.out).at("jobs");
-    REQUIRE(jobs.size() == 3);
+    REQUIRE(jobs.size() == 2);
     for (const auto& job : jobs)
         for (const char* key : {"digest", "fragments", "geometry_passes", "bytes_per_fragment"})
             CHECK(job[key] == jobs[0][key]);
@@ -83,4 +83,29 @@ TEST_CASE("strata bench --baseline prints old over new for equal jobs and names 
     const auto jobs = ordered_json::parse(bench(folder, with_json).out).at("jobs");
     CHECK(jobs[0]["ratio"].get<double>() == Approx(1e6 / jobs[0]["seconds"]["median"].get<double>()));
     CHECK(jobs[1]["ratio"].is_null());
+}
+
+TEST_CASE("a baseline's execution tiled is replay without fragment memory, and one without a memory had the usual") {
+    const Folder folder;
+    const std::vector<std::string> unsorted{"--algorithm", "unsorted", "--json"};
+    const auto run = [&](std::vector<std::string> words) {
+        words.insert(words.end(), unsorted.begin(), unsorted.end());
+        return words;
+    };
+    auto with_file = run({});
+    with_file.push_back("old.json");
+    CHECK(bench(folder, with_file).status == 0);
+    auto old = ordered_json::parse(content_of(folder / "old.json"));
+    old["jobs"][0].erase("fragment_memory");
+    for (const bool is_tiled : {false, true}) {
+        if (is_tiled) old["jobs"][0]["execution"] = "tiled";
+        CHECK(shell(folder, "cat > old.json <<'END'\n" + old.dump() + "\nEND").status == 0);
+        for (const char* memory : {"0", "256M"}) {
+            auto words = run({"--baseline", "old.json", "--fragment-memory", memory});
+            words.emplace_back("-");
+            const auto job = ordered_json::parse(bench(folder, words).out).at("jobs")[0];
+            INFO("memory " << memory << ", tiled " << is_tiled);
+            CHECK(job["ratio"].is_null() == ((memory[0] == '0') != is_tiled));
+        }
+    }
 }

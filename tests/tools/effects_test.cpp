@@ -95,6 +95,22 @@ TEST_CASE("what --effects all simulates the plan says, and where it is needed it
     }
 }
 
+TEST_CASE("no effect costs less than nothing, however short the run is") {
+    const Folder folder;
+    const auto all = plans(folder, {"volume-beam:slices=2", "--algorithm", "all"});
+    std::size_t timed = 0;
+    std::string below;
+    for (const auto& plan : all) {
+        for (const auto& row : plan.at("effects")) {
+            if (!row.at("seconds").is_number()) continue;
+            ++timed;
+            if (row["seconds"] < 0 && below.empty()) below = row.dump();
+        }
+    }
+    CHECK(timed > 50);
+    CHECK(below == "");
+}
+
 TEST_CASE("every effect that can be timed has its time, whether it is simulated or left out") {
     const Folder folder;
     const auto plan = plans(folder, {"volume-beam:slices=2", "--algorithm", "front_to_back"})[0];

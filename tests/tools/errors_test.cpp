@@ -54,8 +54,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --simd: expected scalar, sse4, avx2, avx512 or best, found 'avx3' (did you mean 'avx2'?)"},
         {{"render", "teapot", "--fragment-memory", "64Q"},
          "strata: --fragment-memory: expected bytes such as 65536, 64M or 1G, found '64Q'"},
-        {{"render", "teapot", "--execution", "tile"},
-         "strata: --execution: expected literal, tiled or replay, found 'tile' (did you mean 'tiled'?)"},
+        {{"render", "teapot", "--execution", "tile"}, "strata: --execution: expected literal or replay, found 'tile'"},
         {{"render", "teapot", "--reference-path", "rq"},
          "strata: --reference-path: expected window_z, perspective_rq, depth_replace, float32, float32_plane or exact, "
          "found 'rq'"},
@@ -71,7 +70,10 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapot", "--polygon-offset", "1"},
          "strata: --polygon-offset: expected two numbers such as 1,1, found '1'"},
         {{"bench", "teapot", "--execution", "replay,tile"},
-         "strata: --execution: expected literal, tiled, replay or all, found 'tile' (did you mean 'tiled'?)"},
+         "strata: --execution: expected literal, replay or all, found 'tile'"},
+        {{"bench", "teapot", "--execution", "replay,tiled"},
+         "strata: --execution: expected replay once, found it beside 'tiled', which is replay with --fragment-memory "
+         "0"},
         {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
         {{"bench", "teapot", "--warm-up", "-1"}, "strata: --warm-up: expected seconds, from 0, found '-1'"},
         {{"bench", "teapot", "--baseline", "none.json"}, "strata: none.json: ..."},
@@ -113,6 +115,16 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "none.glb"}, "strata: none.glb: ..."},
         {{"digest", "none.exr"}, "strata: none.exr: ..."},
         {{"layers", "teapot"}, "strata: ..."},
+        {{"layers", "teapot", "-o", "x.exr", "--deep", "x.exr"},
+         "strata: --deep: expected another file than that of -o, found 'x.exr'"},
+        {{"layers", "teapot", "-o", "x.exr", "--deep", "./x.exr"},
+         "strata: --deep: expected another file than that of -o, found './x.exr'"},
+        {{"render", "teapot", "-o", ""}, "strata: -o: expected a file name, found ''"},
+        {{"layers", "teapot", "--deep", ""}, "strata: --deep: expected a file name, found ''"},
+        {{"render", "teapot", "--stats", ""}, "strata: --stats: expected a file name or -, found ''"},
+        {{"render", "teapot", "--camera", ""}, "strata: --camera: expected a camera's name or file, found ''"},
+        {{"bench", "teapot", "--json", ""}, "strata: --json: expected a file name or -, found ''"},
+        {{"invariance", "teapot", "-o", ""}, "strata: -o: expected a folder, found ''"},
         {{"profiles", "ideel"},
          "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, found "
          "'ideel' "
@@ -126,6 +138,27 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
     CHECK(lines_of(ended.err).size() == 1);
     CHECK(ended.out.empty());
     CHECK(folder.files().empty());
+}
+
+TEST_CASE("two outputs that are one file through a linked folder are refused; a link to a file gives way to a file") {
+    const Folder folder;
+    std::filesystem::create_directory(folder / "real");
+    std::filesystem::create_directory_symlink("real", folder / "linked");
+    const std::vector<std::string> layers{"layers",     "teapot", "--size",     "16x16",
+                                          "--no-audit", "-o",     "real/x.exr", "--deep"};
+    const auto with = [&](const std::string& deep) {
+        auto words = layers;
+        words.push_back(deep);
+        return run_strata(folder, words);
+    };
+    const Ended same = with("linked/x.exr");
+    CHECK(same.status == 2);
+    CHECK(same.err == "strata: --deep: expected another file than that of -o, found 'linked/x.exr'\n");
+    CHECK(std::filesystem::is_empty(folder / "real"));
+    std::filesystem::create_symlink("x.exr", folder / "real/y.exr");
+    CHECK(with("linked/y.exr").status == 0);
+    CHECK(run_strata(folder, {"digest", "real/x.exr"}).out.find("color") != std::string::npos);
+    CHECK(run_strata(folder, {"digest", "real/y.exr"}).out.find("fragments") != std::string::npos);
 }
 
 TEST_CASE("an algorithm that the profile cannot run is exit status 2 alone, and a row of the table among others") {

@@ -39,6 +39,21 @@ TEST_CASE("every example of every --help runs as printed") {
     }
 }
 
+TEST_CASE("strata alone tells its commands, an example that runs, and where there is more") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {});
+    CHECK(ended.status == 0);
+    CHECK(ended.err.empty());
+    CHECK(lines_of(ended.out).size() < 20);
+    for (const char* verb : {"render", "layers", "bench", "effects", "invariance", "reproduce", "hardware-check",
+                             "scene", "digest", "algorithms", "profiles", "scenes"})
+        CHECK(ended.out.find(std::string{"\n  "} + verb + " ") != std::string::npos);
+    const std::size_t example = ended.out.find("strata render");
+    REQUIRE(example != std::string::npos);
+    CHECK(shell(folder, ended.out.substr(example, ended.out.find('\n', example) - example)).status == 0);
+    CHECK(ended.out.find("strata COMMAND --help") != std::string::npos);
+}
+
 TEST_CASE("the options --help and --version succeed and write to standard output alone") {
     const auto word = GENERATE(as<std::string>{}, "--help", "--version");
     const Folder folder;

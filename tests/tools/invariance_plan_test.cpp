@@ -68,6 +68,24 @@ TEST_CASE("numbers may stand for their text, and a remedy may have parts") {
     CHECK(name_of(cells[0].remedy) == "bias:3+slope:0.5+epsilon:2ulp+unquantized");
 }
 
+TEST_CASE("a plan takes every value that the option of the same meaning takes, up to its limits") {
+    const auto cells =
+        parse_plan(R"({"grids": [{"scene": "teapot", "orbit": "-400.5,120", "size": "16384x1", "alpha": 1,
+                                      "remedy": "epsilon:16777216ulp", "vertex_path": "fused+double", "max_passes": 2000000}]})",
+                   "p.json", {});
+    REQUIRE(cells.size() == 2);  // the two depth formats that are the default
+    CHECK(cells[0].azimuth == -400.5);
+    CHECK(cells[0].elevation == 120);
+    CHECK(cells[0].width == 16384);
+    CHECK(cells[0].alpha == 1.0f);
+    CHECK(cells[0].remedy.epsilon.ulps == 16777216);
+    CHECK(cells[0].vertex_paths.second == strata::pipeline::VertexPath::double_precision);
+    CHECK(cells[0].max_passes == 2000000);
+    for (const char* wrong : {R"("size": "16385x1")", R"("alpha": 1.5)", R"("remedy": "epsilon:16777217ulp")",
+                              R"("orbit": "30")", R"("vertex_path": "fused+double+nv20")", R"("max_passes": -1)"})
+        CHECK_FALSE(message(std::string{R"({"grids": [{"scene": "teapot", )"} + wrong + "}]}").empty());
+}
+
 TEST_CASE("every fault of a plan is one sentence with its place") {
     CHECK_THAT(message("{"), Catch::StartsWith("p.json: byte 2: expected JSON"));
     CHECK(message("[]") == "p.json: /: expected an object with \"grids\", found []");

@@ -42,6 +42,13 @@ TEST_CASE("a sweep gives the same bytes for any threads, in shards, and taken up
     const Ended whole = sweep(folder, "whole");
     CHECK(whole.status == 0);
     CHECK(whole.err.empty());
+    const auto told = lines_of(whole.out);
+    REQUIRE(told.size() == 15);  // a title, a row a cell, and where it all is
+    CHECK(told[0].find("duplicated") != std::string::npos);
+    CHECK(told[13].find("refused") != std::string::npos);
+    CHECK(told[14] ==
+          "All of it: whole/results.csv and whole/results.jsonl. A page with plots, whole/index.html: "
+          "tools/invariance/report.py whole");
     const Results expected = results_in(folder, "whole");
     REQUIRE(lines_of(expected.lines).size() == 13);
 

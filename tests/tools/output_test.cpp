@@ -38,6 +38,40 @@ TEST_CASE("strata digest of an image is the digest that its statistics gave") {
         CHECK(digest_line(folder, "out.exr").find(row["digest"]["depth"].get<std::string>()) != std::string::npos);
 }
 
+TEST_CASE("strata digest prints the files that it can read, says which it cannot, and ends with status 2") {
+    const Folder folder;
+    CHECK(render(folder, {"-o", "a.exr"}).status == 0);
+    CHECK(render(folder, {"-o", "b.png"}).status == 0);
+    const std::string both = digest_line(folder, "a.exr") + digest_line(folder, "b.png");
+    const Ended ended = run_strata(folder, {"digest", "a.exr", "none.exr", "b.png"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err == "strata: none.exr: file: expected an image, found no file of that name\n");
+    REQUIRE(lines_of(ended.out).size() == 4);
+    for (const std::string& line : lines_of(ended.out)) CHECK(both.find(line.substr(0, 32)) != std::string::npos);
+    const Ended json = run_strata(folder, {"digest", "--json", "none.exr", "b.png"});
+    CHECK(json.status == 2);
+    CHECK(ordered_json::parse(json.out).size() == 1);
+}
+
+TEST_CASE("strata digest tells a deep EXR by its fragments, and a change of one of them") {
+    const Folder folder;
+    const auto deep = [&](const std::string& file, const std::string& alpha) {
+        CHECK(run_strata(folder, {"layers", small[0], small[1], small[2], "--alpha", alpha, "--deep", file}).status ==
+              0);
+        const Ended ended = run_strata(folder, {"digest", "--json", file});
+        INFO(ended.err);
+        REQUIRE(ended.status == 0);
+        return ordered_json::parse(ended.out)[0];
+    };
+    const auto first = deep("a.exr", "1"), again = deep("b.exr", "1"), other = deep("c.exr", "0.5");
+    CHECK(first["target"] == "fragments");
+    CHECK(first["format"] == "deep");
+    CHECK(first["width"] == 40);
+    CHECK(first["digest"] == again["digest"]);
+    CHECK(first["digest"] != other["digest"]);
+    CHECK(content_of(folder / "a.exr").find(first["digest"].get<std::string>()) != std::string::npos);
+}
+
 TEST_CASE("the same run gives the same bytes, whatever threads, tiles, execution and effects make it") {
     const auto ending = GENERATE(as<std::string>{}, ".exr", ".png");
     const Folder folder;
@@ -122,4 +156,18 @@ TEST_CASE("a locale with decimal commas changes no byte") {
         return run_strata(folder, {"profiles", "--json", "geforce3"}, setting).out;
     };
     CHECK(profile({}) == profile(german));
+}
+
+TEST_CASE("--execution tiled is replay without fragment memory, and says so on standard error") {
+    const Folder folder;
+    const Ended tiled = render(folder, {"--execution", "tiled", "--fragment-memory", "1M", "--stats", "-"});
+    CHECK(tiled.status == 0);
+    CHECK(tiled.err.find("strata: warning: --execution tiled is replay with --fragment-memory 0\n") !=
+          std::string::npos);
+    const auto row = ordered_json::parse(tiled.out)[0];
+    CHECK(row["execution"] == "replay");
+    CHECK(row["fragment_memory"] == 0);
+    const Ended replay = render(folder, {"--execution", "replay", "--stats", "-"});
+    CHECK(replay.err.find("warning: --execution") == std::string::npos);
+    CHECK(ordered_json::parse(replay.out)[0]["digest"] == row["digest"]);
 }

@@ -28,7 +28,6 @@ class Folder {
 struct Ended {
     int status = -1;  // the exit status, or 128 + the signal's number
     std::string out, err;
-    std::uint64_t peak_bytes = 0;  // of its resident set
 };
 
 struct Setting {
@@ -41,6 +40,8 @@ struct Setting {
 // Runs in `folder`. The first overload runs strata, the second one a line of shell that finds strata in its PATH.
 [[nodiscard]] Ended run_strata(const Folder& folder, const std::vector<std::string>& words,
                                const Setting& setting = {});
+// The peak of strata's resident set, bytes; 0 if it does not end with status 0.
+[[nodiscard]] std::uint64_t peak_of_strata(const Folder& folder, const std::vector<std::string>& words);
 [[nodiscard]] Ended shell(const Folder& folder, const std::string& line, const Setting& setting = {});
 
 [[nodiscard]] std::string content_of(const std::string& path);

@@ -13,6 +13,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.dont_write_bytecode = True
 import side_by_side  # noqa: E402
@@ -64,14 +65,15 @@ def scenes_of(options, folder):
 
 
 MEASURED = {}
+NO_MEMORY = "replay, 0 bytes"  # every pass rasterized, tile by tile
 TURNS = range(3)  # of what is compared run by run
 
 
-def bench(options, scene, *, small=False, execution="replay", simd="best", effects="needed", threads=2, turn=0):
+def bench(options, scene, *, small=False, execution="replay", memory="256M", simd="best", effects="needed", threads=2, turn=0):
     """The jobs of one run of strata bench, which is done once a turn. `small`: where the slow ways can be waited for."""
     spec = f"volume-beam:slices={options.slices // 4}" if small and scene.name == "planes" else scene.spec
     command = [options.strata, "bench", spec, *scene.options, "--size", options.small if small else options.size,
-               "--profile", "llvmpipe", "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--simd", simd,
+               "--profile", "llvmpipe", "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--fragment-memory", memory, "--simd", simd,
                "--effects", effects, "--threads", str(threads), "--repeat", str(options.repeat), "--json", "-"]
     line = " ".join(command)
     if (line, turn) not in MEASURED:
@@ -149,7 +151,9 @@ def ways_section(options, scenes, key, values, title, words):
     """A table a scene, at the small size, where the slow way can be waited for."""
     text = f"## {title}\n\n{words} {options.small}, a quarter of the planes, 2 threads, ms.\n"
     for scene in scenes:
-        jobs = bench(options, scene, small=True, **{key: "all" if key == "simd" else ",".join(values)})
+        jobs = bench(options, scene, small=True, **{key: "all" if key == "simd" else ",".join(v for v in values if v != NO_MEMORY)})
+        if NO_MEMORY in values:
+            jobs = jobs + [{**job, key: NO_MEMORY} for job in bench(options, scene, small=True, memory="0")]
         shown = [v for v in values if any(job[key] == v for job in jobs)]
         text += f"\n**{scene.name}**\n\n" + table(["job", *shown, "ratio"], side_by_side_of(jobs, key, shown))
     return text
@@ -189,15 +193,15 @@ def items_section(options, scenes):
     for scene in scenes:
         on = {j["algorithm"]: milliseconds(j) for j in bench(options, scene, small=True)}
         off = {
-            "replay": bench(options, scene, small=True, execution="tiled"),
+            "replay": bench(options, scene, small=True, memory="0"),
             "tiles and replay": bench(options, scene, small=True, execution="literal"),
             "SIMD": bench(options, scene, small=True, simd="scalar"),
             "threads": bench(options, scene, small=True, threads=1),
-            "needed effects (tiled)": bench(options, scene, small=True, execution="tiled", effects="all"),
+            "needed effects (no replay)": bench(options, scene, small=True, memory="0", effects="all"),
         }
-        tiled = {j["algorithm"]: milliseconds(j) for j in off["replay"]}
+        rasterized = {j["algorithm"]: milliseconds(j) for j in off["replay"]}
         for item, jobs in off.items():
-            base = tiled if "effects" in item else on
+            base = rasterized if "effects" in item else on
             times = {j["algorithm"]: milliseconds(j) for j in jobs}
             rows.append([scene.name, item] + [f"{times[a] / base[a]:.2f}" for a in ALGORITHMS])
         passes = {j["algorithm"]: j for j in bench(options, scene, small=True)}
@@ -270,6 +274,29 @@ def memory_section(options, scenes):
             table(["scene", "job", "peak", "scene", "targets", "--fragment-memory", "bound", "kept"], rows))
 
 
+STARTS = [["algorithms"], ["render", "teapot", "--size", "64x64"], ["render", "teapot", "--size", "64x64", "-o", "FILE"]]
+MOST_SECONDS, MOST_MB = 0.05, 30  # of a run that touches no image file
+
+
+def start_section(options, folder):
+    """What a run takes that does next to nothing; the last one loads the image module."""
+    rows = []
+    for words in STARTS:
+        has_file = "FILE" in words
+        command = [options.strata, *(str(pathlib.Path(folder) / "start.png") if word == "FILE" else word for word in words)]
+        seconds = []
+        for _ in range(1 if options.quick else 15):
+            start = time.perf_counter()
+            subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
+            seconds.append(time.perf_counter() - start)
+        median, megabytes = statistics.median(seconds), peak_mib(command) * 2**20 / 1e6
+        kept = "-" if has_file else "yes" if median <= MOST_SECONDS and megabytes <= MOST_MB else "**no**"
+        rows.append(["strata " + " ".join(words), f"{median:.3f}", f"{megabytes:.0f}", kept])
+    return (f"## Start\n\nThe median of a process from its start to its end, and its largest resident set. Without an image file it "
+            f"keeps to {MOST_SECONDS} s and {MOST_MB} MB; image files bring OpenImageIO.\n\n" +
+            table(["command", "seconds", "MB", "kept"], rows))
+
+
 def mesa_section(options):
     title = "## Beside Mesa llvmpipe\n\n"
     build = pathlib.Path(options.strata).parent
@@ -290,15 +317,15 @@ def machine():
     return f"{names[0]}, {len(names)} threads" if names else "unknown processor"
 
 
-def page(options, scenes):
+def page(options, scenes, folder):
     tried = HERE / "tried.md"
     return "\n".join([
         f"# Performance\n\nMade by `tools/bench/performance.py` on {machine()}. Compare ratios, not milliseconds.\n",
         times_section(options, scenes), mesa_section(options), within_section(options, scenes),
-        ways_section(options, scenes, "execution", ["literal", "tiled", "replay"], "literal : tiled : replay",
+        ways_section(options, scenes, "execution", ["literal", NO_MEMORY, "replay"], "literal : replay without memory : replay",
                      "The same bits three ways, each over replay."),
         ways_section(options, scenes, "simd", ["scalar", "sse4", "avx2", "avx512"], "Instruction sets", "Each over the last."),
-        items_section(options, scenes), scaling_section(options, scenes), memory_section(options, scenes),
+        items_section(options, scenes), scaling_section(options, scenes), memory_section(options, scenes), start_section(options, folder),
         roofline_section(options, scenes),
         "## Tried and dropped\n\n" + (tried.read_text() if tried.exists() else "Nothing yet.\n")])
 
@@ -306,7 +333,7 @@ def page(options, scenes):
 def main():
     options = parse_arguments()
     with tempfile.TemporaryDirectory() as folder:
-        text = page(options, scenes_of(options, folder))
+        text = page(options, scenes_of(options, folder), folder)
     pathlib.Path(options.out).write_text(text)
     print(f"wrote {options.out}", file=sys.stderr)
 

@@ -1,7 +1,10 @@
 // tools/strata/digest.cpp - strata digest: one string a target, equal exactly if the bits are.
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
 #include "tools/strata/command.h"
 #include "tools/strata/table.h"
@@ -17,26 +20,40 @@ struct DigestOptions {
     bool json = false;
 };
 
+using Digests = std::vector<scenes::FileDigest>;
+
+// Nothing for a file that cannot be read; standard error then has the reason.
+std::optional<Digests> digests_or_reason(const std::string& file) {
+    try {
+        return scenes::digests_of(file);
+    } catch (const InputError& error) {
+        std::fprintf(stderr, "strata: %s\n", error.what());
+        return std::nullopt;
+    }
+}
+
 int digest(const DigestOptions& options) {
     ordered_json document = ordered_json::array();
     Table table{{{"digest"}, {"target"}, {"part"}, {"format"}, {"size"}, {"file"}}, {}};
+    bool all_read = true;
     for (const std::string& file : options.files) {
-        for (const auto& [part, target, image] : scenes::read_images(file)) {
-            const std::string value = pipeline::digest(image);
-            const std::string format(pipeline::info(image.format).name);
+        const auto digests = digests_or_reason(file);
+        all_read &= digests.has_value();
+        for (const auto& [part, target, format, width, height, value] : digests.value_or(Digests{})) {
             document.push_back({{"file", file},
                                 {"part", part},
                                 {"target", target},
                                 {"format", format},
-                                {"width", image.width},
-                                {"height", image.height},
+                                {"width", width},
+                                {"height", height},
                                 {"digest", value}});
             table.rows.push_back({value, target, part.empty() ? "-" : part, format,
-                                  std::to_string(image.width) + "x" + std::to_string(image.height), file});
+                                  std::to_string(width) + "x" + std::to_string(height), file});
         }
     }
-    print(options.json ? document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n' : to_text(table));
-    return 0;
+    if (options.json) print(document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n');
+    if (!options.json && !table.rows.empty()) print(to_text(table));
+    return all_read ? 0 : 2;
 }
 
 }  // namespace

@@ -66,10 +66,22 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& root) {
     return error.what();
 }
 
+// What somebody sees who types `strata` alone.
+std::string short_help(const std::vector<Command>& commands) {
+    Table table{{{"strata COMMAND"}, {"what it does"}}, {}};
+    for (const Command& command : commands)
+        table.rows.push_back({"  " + command.app->get_name(), command.app->get_description()});
+    return to_text(table) +
+           "Begin with: strata render teapot --size 400x300 -o teapot.png\n"
+           "More about a command: strata COMMAND --help\n";
+}
+
 int parse_and_run(CLI::App& root, const std::vector<Command>& commands, int count, char** words) {
     const auto names = names_of(commands);
-    if (count < 2)
-        return fail("expected a command (" + one_of(names) + "), found none; strata --help says more", bad_input);
+    if (count < 2) {
+        print(short_help(commands));
+        return 0;
+    }
     const std::string first = words[1];
     if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
         return fail("expected a command (" + one_of(names) + "), found " + found_but_near(first, names), bad_input);

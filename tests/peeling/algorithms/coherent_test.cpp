@@ -7,6 +7,7 @@
 #include "tests/peeling/rendering.h"
 #include "tests/pipeline/frames.h"
 #include "tests/support/random_numbers.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace {
 
@@ -27,11 +28,12 @@ FragmentScene one_pixel(const std::vector<int>& depths, int opaque = 0) {
 // The passes of an iteration, one at a time, over the frame; depths are in units of 1/128.
 struct Passes {
     TestFrame test;
+    strata::pipeline::RegionBooks books;
     Region region;
     CoherentPeel peel;
 
     explicit Passes(const FragmentScene& scene)
-        : test{scene, "geforce8"}, region{test.frame, test.frame.rect(), 0, Extent::frame}, peel{region} {
+        : test{scene, "geforce8"}, region{test.frame, {test.frame.rect()}, books}, peel{region} {
         test.frame.trace = true;
     }
     [[nodiscard]] double depth(Target target) const {
@@ -41,9 +43,10 @@ struct Passes {
     // Depths of pixel 0 that were composited since the last call, in units.
     std::vector<double> composited() {
         std::vector<double> depths;
-        for (const TraceEntry& e : region.trace())
-            if (e.pixel == 0) depths.push_back(128.0 * std::bit_cast<float>(e.key));
-        region.trace().clear();
+        for (std::size_t i = 0; i < RegionShortcuts{region}.trace().size(); ++i)
+            if (const TraceEntry& e = RegionShortcuts{region}.trace()[i]; e.pixel == 0)
+                depths.push_back(128.0 * std::bit_cast<float>(e.key));
+        RegionShortcuts{region}.trace().clear();
         return depths;
     }
 };

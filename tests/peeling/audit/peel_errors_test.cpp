@@ -1,10 +1,10 @@
 // Model: layers and traces typed by hand, one pixel a line.
 #include "peeling/audit/peel_errors.h"
+#include "peeling/audit/region_trace.h"
 
 #include <catch2/catch.hpp>
 
 using namespace strata::peeling;
-using strata::pipeline::RegionTrace;
 using strata::pipeline::TraceEntry;
 
 namespace {

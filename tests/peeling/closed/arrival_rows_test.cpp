@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/simd.h"
+#include "rasterizer/walk/rows.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 #include "tests/rasterizer/scene.h"
 
@@ -142,10 +143,10 @@ TEST_CASE(
                     const Surface surface = count % 16 == 0 ? Surface::cleared : Surface::uneven;
                     const Case given{random_triangles(811 + static_cast<std::uint64_t>(size), count, size, device),
                                      device.depth, region, by_shader_z, surface};
-                    REQUIRE(choose_simd(Simd::scalar));
+                    const SimdScope twins{Simd::scalar};
                     const std::vector<Pixel> expected = by_batches(given);
                     for (const Simd simd : available_simd()) {
-                        REQUIRE(choose_simd(simd));
+                        const SimdScope kernels{simd};
                         if (simd < Simd::avx2) continue;
                         const Room room{given};
                         for (std::size_t p = 0; p < expected.size(); ++p)
@@ -157,7 +158,6 @@ TEST_CASE(
                         ++compared;
                     }
                 }
-    REQUIRE(choose_simd(Simd::best));
     CHECK((compared > 0 || chosen_simd() < Simd::avx2));
     CHECK(wrong == 0);
 }

@@ -79,7 +79,7 @@ TEST_CASE("columns of any height and order are sorted, each on its own, on every
     Random random{91};
     std::uint64_t wrong = 0;
     for (const Simd simd : available_simd()) {
-        REQUIRE(choose_simd(simd));
+        const SimdScope kernels{simd};
         for (std::uint32_t depth = 0; depth <= 70; ++depth)
             for (const Order order :
                  {Order::any, Order::rising, Order::falling, Order::rising_but_for_two, Order::falling_but_for_two})
@@ -93,7 +93,6 @@ TEST_CASE("columns of any height and order are sorted, each on its own, on every
                                  : 1;
                 }
     }
-    REQUIRE(choose_simd(Simd::best));
     CHECK(wrong == 0);
 }
 
@@ -169,13 +168,12 @@ TEST_CASE("a block of columns is peeled from both ends like its passes, on every
             for (auto& code : channel) code = below(random, 256);
         for (std::size_t lane = 0; lane < block_lanes; ++lane) scene.expect(lane, opaque, front, back);
         for (const Simd simd : available_simd()) {
-            REQUIRE(choose_simd(simd));
+            const SimdScope kernels{simd};
             BlockCodes f{}, b = opaque;
             peel_both_ends(scene.block, f, b, pipeline::BlendRounding::nearest);
             wrong += f == front && b == back ? 0 : 1;
         }
     }
-    REQUIRE(choose_simd(Simd::best));
     CHECK(wrong == 0);
 }
 
@@ -280,7 +278,7 @@ TEST_CASE("fragments come up again sorted by depth and arrival, with their colou
     for (int trial = 0; trial < 40; ++trial) {
         const Fragments fragments{random, trial % 2 == 0};
         for (const Simd simd : available_simd()) {
-            REQUIRE(choose_simd(simd));
+            const SimdScope kernels{simd};
             Memory memory{fragments};
             REQUIRE(memory.append_all(fragments));
             for (std::size_t pixel = 0; pixel < 48; ++pixel) {
@@ -312,7 +310,6 @@ TEST_CASE("fragments come up again sorted by depth and arrival, with their colou
             }
         }
     }
-    REQUIRE(choose_simd(Simd::best));
     CHECK(wrong == 0);
 }
 
@@ -321,14 +318,13 @@ TEST_CASE("fragments that find no room are refused, on every instruction set") {
     for (const bool in_runs : {false, true}) {
         const Fragments fragments{random, in_runs};
         for (const Simd simd : available_simd()) {
-            REQUIRE(choose_simd(simd));
+            const SimdScope kernels{simd};
             Memory few_ranks{fragments, 5}, few_places{fragments};
             few_places.arrivals.most_places = 400;
             CHECK_FALSE(few_ranks.append_all(fragments));
             CHECK_FALSE(few_places.append_all(fragments));
         }
     }
-    REQUIRE(choose_simd(Simd::best));
 }
 
 TEST_CASE("the last earlier arrival before a fragment in its column is found, on every instruction set") {
@@ -344,13 +340,12 @@ TEST_CASE("the last earlier arrival before a fragment in its column is found, on
                         if (scene.block.place(lane, q) < scene.block.place(lane, k))
                             expected[k * block_lanes + lane] = static_cast<std::uint32_t>(q + 1);
             for (const Simd simd : available_simd()) {
-                REQUIRE(choose_simd(simd));
+                const SimdScope kernels{simd};
                 std::vector<std::uint32_t> before(depth * block_lanes, 77);
                 find_arrived_before(scene.block, before.data());
                 wrong += before == expected ? 0 : 1;
             }
         }
-    REQUIRE(choose_simd(Simd::best));
     CHECK(wrong == 0);
 }
 
@@ -366,7 +361,7 @@ TEST_CASE(
     const auto opaque = std::bit_cast<std::uint32_t>(surface);
     for (const Simd simd : available_simd())
         for (const bool with_denormal : {false, true}) {
-            REQUIRE(choose_simd(simd));
+            const SimdScope kernels{simd};
             std::vector<std::uint64_t> word(64);
             std::vector<std::uint32_t> count(48), hidden(48), at_surface(48);
             std::vector<float> color(64);
@@ -401,5 +396,4 @@ TEST_CASE(
             }
             CHECK(wrong == 0);
         }
-    REQUIRE(choose_simd(Simd::best));
 }

@@ -107,7 +107,7 @@ std::size_t wrong_codes(strata::rasterizer::DepthFormat format, std::uint32_t st
 
 TEST_CASE("fragment programs compute the same bits on every instruction set") {
     for (const Simd simd : available_simd()) {
-        REQUIRE(choose_simd(simd));
+        const SimdScope kernels{simd};
         testing::Random random{77};
         int wrong = 0;
         for (int round = 0; round < 400; ++round) {
@@ -120,7 +120,6 @@ TEST_CASE("fragment programs compute the same bits on every instruction set") {
         INFO("instruction set " << static_cast<int>(simd));
         CHECK(wrong == 0);
     }
-    REQUIRE(choose_simd(Simd::best));
 }
 
 TEST_CASE("the average of n fragments covers as n of them would, whatever the instruction set") {
@@ -136,7 +135,7 @@ TEST_CASE("the average of n fragments covers as n of them would, whatever the in
         }
     }
     for (const Simd simd : available_simd()) {
-        REQUIRE(choose_simd(simd));
+        const SimdScope kernels{simd};
         resolve_average(*sums, n, *background, *found, 256);
         double worst = 0;
         for (std::size_t i = 0; i < 256; ++i)
@@ -150,7 +149,6 @@ TEST_CASE("the average of n fragments covers as n of them would, whatever the in
         INFO("instruction set " << static_cast<int>(simd));
         CHECK(worst < 1e-4);  // rounding of binary32, up to 300 factors
     }
-    REQUIRE(choose_simd(Simd::best));
 }
 
 TEST_CASE("a visible fragment between the peeled depths is near, far or between, and one outside is none of them") {

@@ -84,15 +84,14 @@ FrameResult execute(const TestFrame& test, const Body& body, Execution execution
     return run(test.frame, body, execution, 2);
 }
 
-// Tiled execution of the test's tiles, and replay with memory for every fragment and for none, equal literal; literal is what
-// is returned.
+// Replay of the test's tiles, with memory for every fragment, for one byte and for none, equals literal, which is returned.
 FrameResult both(const TestFrame& test, const Body& body) {
     FrameResult literal = execute(test, body, Execution::literal);
     constexpr std::uint64_t megabyte = std::uint64_t{1} << 20;
-    for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1}, megabyte}) {  // 0: tiled
+    for (const std::uint64_t memory : {std::uint64_t{0}, std::uint64_t{1}, megabyte}) {
         Frame frame = test.frame;
         frame.replay.bytes = memory;
-        const FrameResult found = run(frame, body, memory > 0 ? Execution::replay : Execution::tiled, 2);
+        const FrameResult found = run(frame, body, Execution::replay, 2);
         INFO(memory << " bytes of fragments a region");
         CHECK(found.color == literal.color);
         CHECK(found.iterations == literal.iterations);
@@ -253,7 +252,7 @@ TEST_CASE("a pass that the profile lacks is refused out of every execution") {
         state.ordered_rmw = true;
         static_cast<void>(region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
     };
-    for (const Execution execution : {Execution::literal, Execution::tiled}) {
+    for (const Execution execution : {Execution::literal, Execution::replay}) {
         std::string sentence;
         try {
             static_cast<void>(execute(test, body, execution));

@@ -100,7 +100,8 @@ TestFrame frame_of(const FragmentScene& scene, double dx, double dy) {
 TEST_CASE("a screen-aligned depth texture peels: the second pass keeps what is behind the first layer") {
     const FragmentScene scene = layers(341);
     TestFrame test = frame_of(scene, 0, 0);
-    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
     const Peel peel{region};
     std::size_t wrong = 0, second_layers = 0;
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
@@ -123,11 +124,11 @@ TEST_CASE("a lookup that leaves its region runs the frame literally, one that st
         TestFrame test = frame_of(scene, shift, 0);
         const Body body = [](Region& region) { Peel{region}; };
         const FrameResult literal = run(test.frame, body, Execution::literal, 1);
-        for (const Execution execution : {Execution::tiled, Execution::replay}) {
-            test.frame.replay = execution == Execution::replay
+        for (const bool has_memory : {false, true}) {
+            test.frame.replay = has_memory
                                     ? Replay{1 << 20, {.shader_z = false, .code = true, .color = true, .units = 0xf000}}
                                     : Replay{};
-            const FrameResult found = run(test.frame, body, execution, 2);
+            const FrameResult found = run(test.frame, body, Execution::replay, 2);
             CHECK(found.color == literal.color);
             CHECK(found.counters == literal.counters);
             CHECK(found.passes == literal.passes);
@@ -140,7 +141,7 @@ TEST_CASE("a frame that says that it needs the whole runs literally") {
     TestFrame test = frame_of(layers(343), 0, 0);
     test.frame.needs_frame = true;
     const Body body = [](Region& region) { Peel{region}; };
-    CHECK(run(test.frame, body, Execution::tiled, 1).work.regions == 1);
+    CHECK(run(test.frame, body, Execution::replay, 1).work.regions == 1);
 }
 
 TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fragment leaves nothing") {
@@ -154,7 +155,8 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
     units[2].matrix = Matrix(0.0);  // r2 = w
     units[2].matrix[3][2] = 1;
     TestFrame test{draw_list(scene), {}, width, height, "geforce3", 8, units};
-    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
     HiloTexture zero;
     zero.texels = {{0, 0}};
     FragmentPath path;
@@ -183,14 +185,16 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
 
 TEST_CASE("texture shaders are refused by name where the device has none") {
     TestFrame test{layers(344), "geforce8"};
-    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
     CHECK_THROWS_WITH(FragmentPathProgram(region, {}),
                       "profile geforce8 has no texture shaders (NV_texture_shader); use geforce3 or ideal");
 }
 
 TEST_CASE("a depth texture that is written by its own pass is a feedback loop") {
     TestFrame test = frame_of(layers(345), 0, 0);
-    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
     const Target depth = region.make_depth();
     PassState state = peel_state(region.make_color(), depth);
     FragmentPathProgram program{region, compare_with(depth, CompareFunc::lequal)};
@@ -202,7 +206,8 @@ TEST_CASE(
     "a copied rectangle lands where it was moved, counts its bytes, and stays within its region or needs the frame") {
     const FragmentScene scene = layers(346);
     TestFrame test = frame_of(scene, 0, 0);
-    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
     const Target from = region.make_depth(), to = region.make_depth();
     region.clear(from, {});
     region.clear(to, {.depth = 0.0f});
@@ -210,7 +215,7 @@ TEST_CASE(
     FragmentPath path;
     path.combiners = texture_environment({});
     Peel::peel(region, path, state);
-    const auto before = region.records().front();
+    const auto before = books.records.front();
     const Rect part{2, 1, 14, 7};
     region.copy_rectangle(from, part, to, 3, -2);
     std::size_t wrong = 0;
@@ -225,11 +230,12 @@ TEST_CASE(
             pixels += written;
         }
     CHECK(wrong == 0);
-    CHECK(region.records().front().counters.bytes_read - before.counters.bytes_read == 4 * pixels);
-    CHECK(region.records().front().counters.bytes_written - before.counters.bytes_written == 4 * pixels);
-    CHECK(region.records().front().passes.copies - before.passes.copies == 1);
+    CHECK(books.records.front().counters.bytes_read - before.counters.bytes_read == 4 * pixels);
+    CHECK(books.records.front().counters.bytes_written - before.counters.bytes_written == 4 * pixels);
+    CHECK(books.records.front().passes.copies - before.passes.copies == 1);
 
-    Region tile{test.frame, {0, 0, 8, 8}, 0, Extent::tile};
+    RegionBooks tile_books;
+    Region tile{test.frame, {{0, 0, 8, 8}, 0, Extent::tile}, tile_books};
     const Target a = tile.make_depth(), b = tile.make_depth();
     CHECK_NOTHROW(tile.copy_rectangle(a, test.frame.rect(), b, 0, 0));
     CHECK_THROWS_AS(tile.copy_rectangle(a, test.frame.rect(), b, -1, 0), NeedsFrame);

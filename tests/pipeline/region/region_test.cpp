@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "pipeline/device/check.h"
+#include "pipeline/region/region_shortcuts.h"
 #include "tests/pipeline/frames.h"
 
 namespace {
@@ -17,9 +18,10 @@ using namespace strata::pipeline;
 // A frame and the region that covers it.
 struct Machine {
     TestFrame test;
+    strata::pipeline::RegionBooks books;
     Region region;
     Machine(const FragmentScene& scene, const char* profile)
-        : test{scene, profile}, region{test.frame, test.frame.rect(), 0, Extent::frame} {}
+        : test{scene, profile}, region{test.frame, {test.frame.rect()}, books} {}
 };
 
 // Pixel p gets counts[p] fragments; the i-th has depth 1/2 and red i.
@@ -57,11 +59,11 @@ TEST_CASE("INCR counts depth complexity up to 255, and pixels that saturate are 
     static_cast<void>(m.region.draw(state, write_nothing));
     const std::vector<std::uint32_t> expected{0, 1, 7, 255, 255, 255, 0, 3};
     for (std::size_t p = 0; p < expected.size(); ++p) CHECK(stencil_of(m.region, stencil, p) == expected[p]);
-    REQUIRE(m.region.diagnostics().size() == 1);
-    CHECK(m.region.diagnostics()[0].fault == Fault::stencil_saturated);
-    CHECK(m.region.diagnostics()[0].pixels == 2);  // those of 256 and of 300 fragments
-    CHECK(m.region.diagnostics()[0].first_x == 4);
-    CHECK(m.region.diagnostics()[0].first_y == 0);
+    REQUIRE(m.books.diagnostics.size() == 1);
+    CHECK(m.books.diagnostics[0].fault == Fault::stencil_saturated);
+    CHECK(m.books.diagnostics[0].pixels == 2);  // those of 256 and of 300 fragments
+    CHECK(m.books.diagnostics[0].first_x == 4);
+    CHECK(m.books.diagnostics[0].first_y == 0);
 }
 
 TEST_CASE("stencil-routed capture keeps the first k fragments of a pixel in k samples and tells an overflow") {
@@ -187,7 +189,7 @@ TEST_CASE("the alpha test kills by the program's alpha, before depth and stencil
     static_cast<void>(m.region.draw(state, pass_color));
     CHECK(stencil_of(m.region, state.stencil_target, 0) == 4);
     CHECK(m.region.color(state.color[0], 0)[0] == 7.0f);
-    const Counters& counted = m.region.records().front().counters;
+    const Counters& counted = m.books.records.front().counters;
     CHECK(counted.fragments_rasterized == 9);
     CHECK(counted.alpha_killed == 5);
     CHECK(counted.blended == 4);
@@ -260,13 +262,14 @@ TEST_CASE("a stencil count that stops by design is no fault") {
     state.saturates_by_design = true;
     static_cast<void>(m.region.draw(state, write_nothing));
     CHECK(stencil_of(m.region, state.stencil_target, 0) == 255);
-    CHECK(m.region.diagnostics().empty());
+    CHECK(m.books.diagnostics.empty());
 }
 
 TEST_CASE("a limit is reached when fewer passes are left than an iteration needs") {
     TestFrame test{stacks({1}), "geforce8"};
     test.frame.max_passes = 3;
-    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
     CHECK_FALSE(region.limit_reached(3));
     CHECK(region.limit_reached(4));
     static_cast<void>(region.draw({}, write_nothing));
@@ -291,7 +294,8 @@ TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere
     clamping.has_unclamped_depth_clear = false;
     TestFrame test{FragmentScene{1, 1}, "geforce8"};
     test.frame.profile = &clamping;
-    Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
     const Target depth = region.make(Format::d32f);
     region.clear(depth, {.depth = -1.0f});
     CHECK(region.storage(depth).depth(0)[0] == 0u);
@@ -300,13 +304,13 @@ TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere
 TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
     Machine m{FragmentScene{2, 1}, "geforce8"};
     const Target from = m.region.make(Format::rgba32f), to = m.region.make(Format::rgba32f);
-    m.region.store_pixel(from, 1,
-                         {std::bit_cast<float>(0x7fc12345u), std::bit_cast<float>(0xff800001u), -0.0f, 0x1p-149f});
+    strata::pipeline::RegionShortcuts{m.region}.store_pixel(
+        from, 1, {std::bit_cast<float>(0x7fc12345u), std::bit_cast<float>(0xff800001u), -0.0f, 0x1p-149f});
     m.region.copy(from, to);
     CHECK(m.region.image(to) == m.region.image(from));
     CHECK(m.region.image(to).codes[4] == 0x7fc12345u);
     CHECK(m.region.image(to).codes[5] == 0xff800001u);
-    CHECK(m.region.records().front().passes.copies == 1);
+    CHECK(m.books.records.front().passes.copies == 1);
 }
 
 TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {
@@ -316,5 +320,5 @@ TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {
     CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[0] == std::bit_cast<std::uint32_t>(1.0f));
     CHECK(m.region.storage(m.region.opaque_depth()).depth(0)[1] == std::bit_cast<std::uint32_t>(0.25f));
     CHECK(m.region.color(m.region.opaque_color(), 1) == Rgba{1, 0, 1, 1});  // alphaMode OPAQUE ignores alpha
-    CHECK(m.region.records().front().counters == Counters{});
+    CHECK(m.books.records.front().counters == Counters{});
 }

@@ -23,11 +23,10 @@ template <class Check>
 void for_each_set(Check&& check) {
     for (const Simd simd : available_simd()) {
         if (simd == Simd::scalar) continue;
-        REQUIRE(choose_simd(simd));
+        const SimdScope kernels{simd};
         INFO("instruction set " << static_cast<int>(simd));
         check();
     }
-    REQUIRE(choose_simd(Simd::best));
 }
 
 // Lengths around every number of lanes.

@@ -18,7 +18,7 @@ using strata::rasterizer::YDirection;
 [[nodiscard]] std::array<double, 4> through(const Matrix& m, const std::array<double, 4>& v) {
     std::array<double, 4> out{};
     for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t c = 0; c < 4; ++c) out[r] += m[4 * c + r] * v[c];
+        for (std::size_t c = 0; c < 4; ++c) out[r] += m[c][r] * v[c];
     return out;
 }
 
@@ -93,8 +93,8 @@ TEST_CASE("the light's depth is in the units of vertex depth: codes of the map's
     const auto units_on = [&](const char* device) {
         return shadow_units(some_light(), identity, state, *find_profile(device))[shadow_unit].depth_units;
     };
-    CHECK(units_on("geforce3") == std::array{1.0, 1.0, 16777215.0});
-    CHECK(units_on("geforce8") == std::array{1.0, 1.0, 1.0});
+    CHECK(units_on("geforce3") == strata::Vec3d{1, 1, 16777215});
+    CHECK(units_on("geforce8") == strata::Vec3d{1, 1, 1});
     state.depth_format = DepthFormat::d16;
     CHECK(units_on("geforce3")[2] == 65535.0);
 }

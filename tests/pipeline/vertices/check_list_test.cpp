@@ -152,7 +152,9 @@ TEST_CASE("a list with any of its numbers changed is refused at the door of prep
                 case 8: list.textures.front().texels.resize(4 * size()); break;
                 case 9: list.instances.front().mesh = number(); break;
                 case 10: list.instances.back().material = number(); break;
-                case 11: list.instances.back().model[size() % 16] = std::numeric_limits<double>::infinity(); break;
+                case 11:
+                    list.instances.back().model[size() % 4][size() % 4] = std::numeric_limits<double>::infinity();
+                    break;
                 default: list.meshes.resize(size() % 3); break;
             }
         }

@@ -62,7 +62,7 @@ using strata::rasterizer::Rect;
 TEST_CASE("each run of a soup names its instance, material and sides, and its indices name vertices of its own mesh") {
     DrawList list = squares_of(six_materials());
     list.materials[2].double_sided = false;
-    list.instances[3].model[0] = -1;
+    list.instances[3].model[0][0] = -1;
     list.instances.push_back({.mesh = 1, .material = 2});
     for (const Selection selection : {Selection::all, Selection::opaque, Selection::transparent}) {
         const auto soup = transform(list, {}, {.selection = selection});
@@ -188,8 +188,8 @@ TEST_CASE("r and q stand first among a vertex's extras, the texture units last, 
 }
 
 TEST_CASE("the texture matrix of depth takes clip z to the depth range, from -w or from 0, and keeps w as q") {
-    Matrix projection{};
-    for (std::size_t i = 0; i < 16; ++i) projection[i] = static_cast<double>(i * i % 7) - 2.5;
+    Matrix projection;
+    for (std::size_t i = 0; i < 16; ++i) projection[i / 4][i % 4] = static_cast<double>(i * i % 7) - 2.5;
     int wrong = 0;
     for (const bool symmetric : {true, false})
         for (const auto& [n, f] : {std::pair{0.0f, 1.0f}, std::pair{0.25f, 0.5f}, std::pair{0.75f, 0.125f}}) {
@@ -199,10 +199,10 @@ TEST_CASE("the texture matrix of depth takes clip z to the depth range, from -w 
             state.depth_near = n, state.depth_far = f;
             const Matrix m = depth_texture_matrix(projection, state);
             for (std::size_t c = 0; c < 4; ++c) {
-                const double z = projection[4 * c + 2], w = projection[4 * c + 3];
+                const double z = projection[c][2], w = projection[c][3];
                 const double r =
                     symmetric ? 0.5 * ((double{f} - n) * z + (double{f} + n) * w) : (double{f} - n) * z + n * w;
-                wrong += m[4 * c] != 0 || m[4 * c + 1] != 0 || m[4 * c + 2] != r || m[4 * c + 3] != w ? 1 : 0;
+                wrong += m[c][0] != 0 || m[c][1] != 0 || m[c][2] != r || m[c][3] != w ? 1 : 0;
             }
         }
     CHECK(wrong == 0);
@@ -246,13 +246,13 @@ TEST_CASE("light falls along the view's third row whatever its length, and along
     };
     CHECK(reds(identity) == std::array{1.0f, 0.25f, 0.25f + 0.75f * 0.8f, 0.25f});
     Matrix long_row = identity;
-    long_row[10] = 1000;
+    long_row[2][2] = 1000;
     CHECK(reds(long_row) == reds(identity));
     Matrix sideways = identity;
-    sideways[2] = 5, sideways[10] = 0;
+    sideways[0][2] = 5, sideways[2][2] = 0;
     CHECK(reds(sideways)[1] == 1.0f);
     CHECK(reds(sideways)[0] == 0.25f);
     Matrix none = identity;
-    none[10] = 0;
+    none[2][2] = 0;
     CHECK(reds(none) == reds(identity));
 }

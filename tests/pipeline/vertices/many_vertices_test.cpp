@@ -34,7 +34,7 @@ using namespace strata::pipeline;
                        .alpha_mode = AlphaMode::blend}};
     list.meshes = {long_mesh(random, first), long_mesh(random, second)};
     list.instances = {{.mesh = 0, .material = 0}, {.mesh = 1, .material = 0}, {.mesh = 0, .material = 0}};
-    list.instances[2].model[12] = 0.5;
+    list.instances[2].model[3][0] = 0.5;
     return list;
 }
 

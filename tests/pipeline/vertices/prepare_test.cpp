@@ -169,7 +169,7 @@ TEST_CASE("every instruction set lights and transforms vertices to the same bits
     }
     const View view{random_matrix(random), random_matrix(random)};
     const auto bits = [&](strata::Simd simd) {
-        REQUIRE(strata::choose_simd(simd));
+        const strata::SimdScope kernels{simd};
         std::vector<std::array<std::uint32_t, 14>> all;
         for (const ClipVertex& v : transform(list, view, {}).vertices)
             all.push_back(std::bit_cast<std::array<std::uint32_t, 14>>(v));
@@ -177,7 +177,6 @@ TEST_CASE("every instruction set lights and transforms vertices to the same bits
     };
     const auto scalar = bits(strata::Simd::scalar);
     for (const strata::Simd simd : strata::available_simd()) CHECK(bits(simd) == scalar);
-    REQUIRE(strata::choose_simd(strata::Simd::best));
 }
 
 TEST_CASE("vertex colours multiply the material's") {
@@ -220,7 +219,8 @@ TEST_CASE("parts keep their primitives and lie between their depths, which no fr
         REQUIRE(draw.parts.size() == 2);
         TestFrame test{FragmentScene{64, 64}, profile};
         test.frame.transparent = &draw;
-        Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+        RegionBooks books;
+        Region region{test.frame, {test.frame.rect()}, books};
         std::size_t outside = 0;
         const auto fragments = region.capture(Bookkeeping::counted);
         for (const CapturedFragment& f : fragments)
@@ -263,7 +263,8 @@ TEST_CASE("MASK cuts at the material's own alpha when every alpha is scaled") {
             test.frame.transparent = &draw;
             for (const Format format : {Format::rgba8, Format::rgba32f}) {
                 test.frame.color_format = format;
-                Region region{test.frame, test.frame.rect(), 0, Extent::frame};
+                RegionBooks books;
+                Region region{test.frame, {test.frame.rect()}, books};
                 const auto fragments = region.capture(Bookkeeping::counted);
                 CHECK(fragments.size() == (alpha >= 0.375f ? 1 : 0));
                 for (const CapturedFragment& f : fragments) CHECK(f.color[3] == alpha * scale);

@@ -187,12 +187,12 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
     }
     RasterState state = scene_state(200, 130);
     const auto compare = [&](const RasterRules& rules) {
-        REQUIRE(strata::choose_simd(strata::Simd::scalar));
+        const strata::SimdScope twins{strata::Simd::scalar};
         const Geometry scalar = set_up(soup, state, rules, 1);
         CHECK(scalar.counters.non_finite > 100);
         CHECK(scalar.triangles.size() > 800);
         for (const strata::Simd simd : strata::available_simd()) {
-            REQUIRE(strata::choose_simd(simd));
+            const strata::SimdScope kernels{simd};
             const Geometry other = set_up(soup, state, rules, 1);
             CHECK(other.counters == scalar.counters);
             REQUIRE(other.triangles.size() == scalar.triangles.size());
@@ -209,7 +209,6 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
     state.clip_depth = ClipDepth::zero_to_one;
     state.y_direction = YDirection::down;
     compare({.window_z = WindowZ::buffer_units});
-    REQUIRE(strata::choose_simd(strata::Simd::best));
 }
 
 TEST_CASE("an empty soup is an empty geometry") {

@@ -76,11 +76,11 @@ TEST_CASE("rows of depth leave the codes and the counts of fragments tested one 
             Geometry geometry = random_triangles(517 + static_cast<std::uint64_t>(size), count, size, device);
             add_ties(geometry);
             for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{69, 0, 70, 40}}) {
-                REQUIRE(strata::choose_simd(strata::Simd::scalar));
+                const strata::SimdScope twins{strata::Simd::scalar};
                 CHECK_FALSE(row_walk_suits(geometry, device.depth, region));
                 const Drawn expected = by_fragments(geometry, device.depth, region);
                 for (const strata::Simd simd : strata::available_simd()) {
-                    REQUIRE(strata::choose_simd(simd));
+                    const strata::SimdScope kernels{simd};
                     CHECK(row_walk_suits(geometry, device.depth, region) == (simd >= strata::Simd::avx2));
                     if (simd == strata::Simd::scalar) continue;
                     wrong += by_rows(geometry, device.depth, region) != expected ? 1 : 0;
@@ -88,7 +88,6 @@ TEST_CASE("rows of depth leave the codes and the counts of fragments tested one 
                 }
             }
         }
-    REQUIRE(strata::choose_simd(strata::Simd::best));
     CHECK((compared > 100'000 || strata::available_simd().size() == 1));
     CHECK(wrong == 0);
 }

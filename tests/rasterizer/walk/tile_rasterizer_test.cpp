@@ -90,16 +90,15 @@ TEST_CASE("every instruction set hands out the batches of the scalar twins, to t
             const Geometry geometry = random_triangles(128 + static_cast<std::uint64_t>(size), count, size, device);
             for (const FragmentNeeds& needs : {depth_only, no_exact_code, everything})
                 for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}}) {
-                    REQUIRE(strata::choose_simd(strata::Simd::scalar));
+                    const strata::SimdScope scalar_kernels{strata::Simd::scalar};
                     const Batches twins = batches_of(geometry, device.depth, needs, region);
                     fragments += twins.fragments.size();
                     for (const strata::Simd simd : strata::available_simd()) {
-                        REQUIRE(strata::choose_simd(simd));
+                        const strata::SimdScope kernels{simd};
                         wrong += batches_of(geometry, device.depth, needs, region) != twins ? 1 : 0;
                     }
                 }
         }
-    REQUIRE(strata::choose_simd(strata::Simd::best));
     CHECK(fragments > 100'000);
     CHECK(wrong == 0);
 }

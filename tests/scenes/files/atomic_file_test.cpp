@@ -101,16 +101,34 @@ TEST_CASE("a disk that is full is an error, and leaves neither the file nor its 
     CHECK(files_in(folder.path) == 0);
 }
 
-TEST_CASE("an interrupt removes every unfinished file and ends the process with 130") {
+TEST_CASE("a signal that ends the process removes every unfinished file, and the status is 128 and its number") {
+    const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU);
     const TemporaryFolder folder;
     const int status = status_of_child([&] {
         strata::scenes::remove_unfinished_files_when_interrupted();
         AtomicFile a{folder / "a.txt"}, b{folder / "b.txt"};
         a.write("x", 1);
         if (files_in(folder.path) != 2) ::_exit(1);
-        ::raise(SIGINT);
+        ::raise(signal);
     });
-    CHECK(status == 130);
+    INFO("signal " << signal);
+    CHECK(status == 128 + signal);
+    CHECK(files_in(folder.path) == 0);
+}
+
+TEST_CASE("a write beyond the limit of file sizes is an error, not a signal") {
+    const TemporaryFolder folder;
+    const int status = status_of_child([&] {
+        strata::scenes::remove_unfinished_files_when_interrupted();
+        const rlimit limit{4096, 4096};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        try {
+            strata::scenes::write_file(folder / "a.txt", std::string(5000, 'x'));
+        } catch (const SystemError& error) {
+            ::_exit(std::string{error.what()}.find("File too large") != std::string::npos ? 3 : 4);
+        }
+    });
+    CHECK(status == 3);
     CHECK(files_in(folder.path) == 0);
 }
 

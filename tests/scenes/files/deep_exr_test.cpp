@@ -1,5 +1,8 @@
+#include <xxhash.h>
+
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <random>
 
 #include "rasterizer/base/input_error.h"
@@ -39,6 +42,7 @@ TEST_CASE(
         const DeepFragments written = random_fragments(37, 23, most);
         write_deep(folder / "deep.exr", written, {{"command", "strata layers"}});
         DeepFragments expected = written;
+        expected.premultiplied = true;
         for (auto& color : expected.rgba)
             for (std::size_t c = 0; c < 3; ++c) color[c] *= color[3];
         CHECK(read_deep(folder / "deep.exr") == expected);
@@ -71,4 +75,34 @@ TEST_CASE("a deep file is not a flat one and a flat one not deep; a deep PNG doe
     CHECK_THROWS_AS(read_deep(folder / "flat.exr"), strata::InputError);
     CHECK_THROWS_AS(write_deep(folder / "deep.png", random_fragments(3, 3, 2), {}), strata::InputError);
     CHECK_THROWS_AS(write_deep(folder / "no/deep.exr", random_fragments(3, 3, 2), {}), strata::SystemError);
+}
+
+// The bytes of scenes/README.md, serialised here word by word, through the one-shot XXH3_128bits.
+TEST_CASE("a deep digest is XXH3-128 of name, size, counts and fragments, the same before writing and after reading") {
+    const DeepFragments fragments = random_fragments(5, 3, 4);
+    std::string bytes{"deep"};
+    bytes += '\0';
+    const auto word = [&](std::uint32_t value) {
+        for (int i = 0; i < 4; ++i, value /= 256) bytes += static_cast<char>(value % 256);
+    };
+    word(5);
+    word(3);
+    for (const std::uint32_t count : fragments.count) word(count);
+    for (std::size_t i = 0; i < fragments.z.size(); ++i) {
+        const auto& color = fragments.rgba[i];
+        for (std::size_t c = 0; c < 3; ++c) word(std::bit_cast<std::uint32_t>(color[c] * color[3]));
+        word(std::bit_cast<std::uint32_t>(color[3]));
+        word(std::bit_cast<std::uint32_t>(fragments.z[i]));
+        word(fragments.depth_code[i]);
+        word(fragments.primitive[i]);
+    }
+    const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+    char expected[33];
+    std::snprintf(expected, sizeof expected, "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                  static_cast<unsigned long long>(hash.low64));
+    CHECK(digest(fragments) == expected);
+    const TemporaryFolder folder;
+    write_deep(folder / "deep.exr", fragments, {});
+    CHECK(digest(read_deep(folder / "deep.exr")) == expected);
+    CHECK(digests_of(folder / "deep.exr").front().digest == expected);
 }

@@ -109,6 +109,34 @@ TEST_CASE("an EXR carries command, formats, colour space and digests, and neithe
     CHECK(strata::test::bytes_of(folder / "a.exr").find(folder.path) == std::string::npos);
 }
 
+TEST_CASE("viewers are told whether an EXR's colours are sRGB values or linear light, in every part and deep") {
+    using strata::pipeline::ColorSpace;
+    const TemporaryFolder folder;
+    for (const ColorSpace space : {ColorSpace::encoded, ColorSpace::linear}) {
+        const OutputColor output{.color = wild_image(Format::rgba8, 9, 9, 1), .space = space};
+        write_image(folder / "a.exr", output);
+        write_layers(folder / "b.exr", std::vector<OutputColor>(3, output));
+        write_deep(folder / "c.exr", {.width = 1, .height = 1, .space = space, .count = {0}}, {});
+        for (const char* name : {"a.exr", "b.exr", "c.exr"}) {
+            const auto input = OIIO::ImageInput::open(folder / name);
+            REQUIRE(input);
+            int parts = 0;
+            for (; input->seek_subimage(parts, 0); ++parts) {
+                const OIIO::ImageSpec spec = input->spec();
+                const bool is_encoded = space == ColorSpace::encoded;
+                CHECK(spec.get_string_attribute("oiio:ColorSpace") == (is_encoded ? "sRGB" : "Linear"));
+                CHECK(spec.get_string_attribute("colorInteropID") ==
+                      (is_encoded ? "srgb_rec709_scene" : "lin_rec709_scene"));
+                const auto* primaries = spec.find_attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8));
+                REQUIRE(primaries != nullptr);
+                CHECK(static_cast<const float*>(primaries->data())[0] == 0.64f);
+            }
+            CHECK(parts == (name[0] == 'b' ? 3 : 1));
+            (void)input->geterror();
+        }
+    }
+}
+
 TEST_CASE("the same image written twice, a second later, gives the same EXR bytes, in parts and deep too") {
     const TemporaryFolder folder;
     const OutputColor output{.color = wild_image(Format::rgba16f, 70, 133, 1),

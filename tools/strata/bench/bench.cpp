@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "peeling/registry.h"
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/bench/bench_report.h"
 #include "tools/strata/command.h"
@@ -75,7 +76,7 @@ int exit_status(const std::vector<BenchResult>& results) {
 
 int bench(BenchOptions& options) {
     complete(options.run);
-    check_output("--json", options.json == "-" ? "" : options.json, {".json"});
+    check_outputs({{"--json", options.json == "-" ? "" : options.json, {".json"}}});
     const Baseline baseline = options.baseline.empty() ? Baseline{} : load_baseline(options.baseline);
     const std::vector<BenchScene> scenes = open_scenes(options);
     const auto results = measure(jobs_of(options, scenes), options.repetitions);
@@ -105,8 +106,9 @@ Command add_bench(CLI::App& root) {
     add_profile_option(*app, options->run.profile);
     add_machine_options(*app, options->run.render);
     add_view_options(*app, options->run);
-    add_choices(*app, options->executions, "--execution", executions, values_of(executions),
-                "ways of running (default replay)");
+    accept_tiled(*add_choices(*app, options->executions, "--execution", executions, values_of(executions),
+                              "ways of running (default replay)"),
+                 options->run);
     add_choices(*app, options->simds, "--simd", simds, available_simd(), "instruction sets (default best)");
     add_choices(*app, options->effects, "--effects", effects, values_of(effects),
                 "needed, all, or needed,all (default needed)");
@@ -116,9 +118,10 @@ Command add_bench(CLI::App& root) {
     add_option(*app, options->repetitions.warm_up,
                {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds, from 0"},
                to_seconds);
-    app->add_option("--json", options->json, "the times as JSON; - is standard output instead of the table")
-        ->type_name("FILE|-");
-    app->add_option("--baseline", options->baseline, "what --json wrote before: also print old/new")->type_name("FILE");
+    add_path(*app, options->json,
+             {"--json", "FILE|-", "the times as JSON; - is standard output instead of the table", "a file name or -"});
+    add_path(*app, options->baseline,
+             {"--baseline", "FILE", "what --json wrote before: also print old/new", "a file name"});
     app->footer(
         footer("  strata bench teapot --size 200x150 --algorithm depth,dual --execution all --repeat 3\n"
                "  strata bench volume-beam:slices=4 random:triangles=300 --size 64x64 --repeat 1 --json times.json\n"));

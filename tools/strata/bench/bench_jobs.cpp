@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "peeling/render.h"
 #include "tools/strata/progress.h"
 
 namespace strata::tools {
@@ -52,23 +53,25 @@ void run_job(benchmark::State& state, BenchResult& result) {
 
 std::string algorithm_name(const BenchJob& job) { return job.algorithm == nullptr ? "depth" : job.algorithm->name; }
 
-peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options) {
+peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options,
+                                    const pipeline::Instruments& instruments) {
     const Session& session = job.scene->session;
     peeling::Renderer renderer(session.scene.list, session.view, session.profile, options);
-    return job.algorithm == nullptr ? renderer.depth_pass() : renderer.render(*job.algorithm);
+    return job.algorithm == nullptr ? renderer.depth_pass({}, instruments)
+                                    : renderer.render(*job.algorithm, {}, instruments);
 }
 
 BenchRun run_once(const BenchJob& job) {
     peeling::RenderOptions options = job.scene->options.render;
     options.execution = job.execution;
     options.effects = job.effects;
-    options.once_more = job.once_more;
+    if (job.is_never_replayed) options.fragment_memory = 0;
     options.audit = false;
     options.nearest_depth = false;
-    choose_simd(job.simd);
+    options.simd = job.simd;
 
     const auto start = std::chrono::steady_clock::now();
-    peeling::RenderResult result = run_algorithm(job, options);
+    peeling::RenderResult result = run_algorithm(job, options, {.once_more = job.once_more});
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
 
     BenchRun run;

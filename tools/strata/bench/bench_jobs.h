@@ -6,7 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/formats/image.h"
+#include "pipeline/frame/counters.h"
+#include "pipeline/frame/instruments.h"
 #include "tools/strata/render/run.h"
+
+namespace strata::peeling {
+struct RenderResult;
+}
 
 namespace strata::tools {
 
@@ -23,6 +30,7 @@ struct BenchJob {
     Simd simd = Simd::scalar;
     pipeline::Effects effects = pipeline::Effects::needed;
     pipeline::Effect once_more = pipeline::Effect::none;  // of `strata effects`
+    bool is_never_replayed = false;                       // fragment memory 0, whatever the scene's options say
 };
 
 // One repetition.
@@ -45,7 +53,8 @@ struct BenchResult {
 [[nodiscard]] std::string algorithm_name(const BenchJob& job);
 
 // Set-up and passes with these options: what a job does between the clock's start and its stop.
-[[nodiscard]] peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options);
+[[nodiscard]] peeling::RenderResult run_algorithm(const BenchJob& job, const peeling::RenderOptions& options,
+                                                  const pipeline::Instruments& instruments = {});
 
 [[nodiscard]] BenchRun run_once(const BenchJob& job);
 

@@ -32,15 +32,22 @@ ordered_json words_of(const BenchJob& job) {
             {"simd", name_of(simds, job.simd)},
             {"effects", name_of(effects, job.effects)},
             {"threads", render.threads},
+            {"fragment_memory", render.fragment_memory},
             {"size", fmt::format("{}x{}", render.width, render.height)},
             {"profile", job.scene->session.profile.name}};
 }
 
+// Of older documents: the execution `tiled` is replay without memory; no memory is named where it is the usual.
 std::string name_of_words(const ordered_json& words) {
+    const bool is_tiled = words.at("execution") == "tiled";
+    const std::uint64_t memory =
+        is_tiled ? 0 : words.value("fragment_memory", peeling::RenderOptions{}.fragment_memory);
     std::string name;
     for (const char* key : {"scene", "algorithm", "execution", "simd", "effects", "size", "profile"})
-        name += words.at(key).get<std::string>() + ' ';
-    return name + fmt::format("threads={}", words.at("threads").get<int>());
+        name += (is_tiled && key == std::string_view("execution") ? "replay" : words.at(key).get<std::string>()) + ' ';
+    name += fmt::format("threads={}", words.at("threads").get<int>());
+    return memory == peeling::RenderOptions{}.fragment_memory ? name
+                                                              : name + fmt::format(" fragment_memory={}", memory);
 }
 
 std::string name_of_job(const BenchJob& job) { return name_of_words(words_of(job)); }

@@ -6,6 +6,7 @@
 
 #include "tools/strata/command.h"
 #include "tools/strata/effects/effects_costs.h"
+#include "tools/strata/effects/effects_plan.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/parse.h"
 #include "tools/strata/table.h"

@@ -1,8 +1,10 @@
 #include "tools/strata/effects/effects_costs.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "tools/strata/bench/bench_report.h"
+#include "tools/strata/effects/effects_plan.h"
 
 namespace strata::tools {
 
@@ -29,6 +31,8 @@ std::vector<double> in_turn(const std::vector<std::function<void()>>& runs, int 
     return medians;
 }
 
+double cost(double with, double without) { return std::max(0.0, with - without); }
+
 bool is_value(Effect effect) {
     using enum Effect;
     return effect == color || effect == texcoord || effect == shader_z || effect == code || effect == facing;
@@ -49,6 +53,7 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     std::vector<std::function<void()>> walks;
     const auto add = [&](Effect left_out) {
         walks.push_back([&plan, &options, needs = values_without(plan, left_out)] {
+            const SimdScope kernels{options.simd};
             pipeline::walk(plan.drawn, {}, needs, options.threads);
         });
     };
@@ -58,14 +63,14 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     const std::vector<double> medians = in_turn(walks, repeat);
     std::size_t next = 1;
     for (EffectRow& row : plan.rows)
-        if (is_walked(row)) row.seconds = (medians[0] - medians[next++]) * static_cast<double>(row.passes);
+        if (is_walked(row)) row.seconds = cost(medians[0], medians[next++]) * static_cast<double>(row.passes);
 }
 
 }  // namespace
 
 EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     BenchJob needed = asked;
-    if (asked.execution == pipeline::Execution::replay) needed.execution = pipeline::Execution::tiled;
+    needed.is_never_replayed = true;
     needed.effects = pipeline::Effects::needed;
     BenchJob all = needed;
     all.effects = pipeline::Effects::all;
@@ -80,7 +85,7 @@ EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan
     std::vector<std::function<void()>> runs;
     for (const BenchJob& job : jobs) runs.push_back([&job] { static_cast<void>(run_once(job)); });
     const std::vector<double> medians = in_turn(runs, repeat);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i]->seconds = medians[3 + i] - medians[0];
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i]->seconds = cost(medians[3 + i], medians[0]);
     measure_values(asked, repeat, plan);
     return {medians[0], medians[1], medians[2]};
 }

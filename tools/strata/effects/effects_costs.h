@@ -6,16 +6,17 @@
 //          passes that have it. Replay is a saving of its own and does not join Effects::all: effects are timed without it.
 // Tests    tests/tools/effects_test.cpp
 #pragma once
-#include "tools/strata/effects/effects_plan.h"
-
 namespace strata::tools {
+
+struct BenchJob;
+struct EffectsPlan;
 
 // Median seconds of whole runs.
 struct EffectTimes {
     double needed = 0, all = 0, as_asked = 0;
 };
 
-// Fills EffectRow::seconds where it can be measured; differences of measured times, so that what is next to nothing may be below 0.
+// Fills EffectRow::seconds where it can be measured. Costs are differences of measured times: one below 0 is noise, and 0.
 [[nodiscard]] EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan);
 
 }  // namespace strata::tools

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
+
 namespace strata::tools {
 
 namespace {
@@ -127,8 +130,7 @@ class Planner {
         small.effects = job.effects;
         small.threads = 1;
         small.audit = small.nearest_depth = false;
-        small.pass_log = &log_;
-        static_cast<void>(run_algorithm(job, small));
+        log_ = run_algorithm(job, small, {.log_passes = true}).frame.pass_log;
     }
 
     EffectsPlan plan() {

@@ -14,6 +14,7 @@
 #include "tools/strata/hardware_check/hardware_hypotheses.h"
 #include "tools/strata/hardware_check/hardware_report.h"
 #include "tools/strata/options/names.h"
+#include "tools/strata/options/option.h"
 #include "tools/strata/parallel_items.h"
 #include "tools/strata/table.h"
 
@@ -95,7 +96,7 @@ Command add_hardware_check(CLI::App& root) {
     app->add_option("--profile", options->profile, "a built-in profile or a JSON file")
         ->capture_default_str()
         ->type_name("NAME|FILE");
-    app->add_option("-o,--output", options->report, "folder for difference pictures and one page")->type_name("DIR");
+    add_path(*app, options->report, {"-o,--output", "DIR", "folder for difference pictures and one page", "a folder"});
     app->add_flag("--json", options->json, "one JSON document instead of the tables");
     app->add_flag("--hypotheses", options->hypotheses, "the score of each hypothesis that the profile names");
     app->add_flag("--digests", options->digests, "the rows of tests/tools/hardware_check/hardware_digests.txt");

@@ -68,9 +68,9 @@ int invariance(InvarianceOptions& options) {
 }
 
 void add_sweep_options(CLI::App& app, InvarianceOptions& options) {
-    app.add_option("--plan", options.plan, "a JSON plan of cells (tools/invariance/README.md)")->type_name("FILE");
-    app.add_option("-o,--output", options.run.output, "a folder: results.jsonl, results.csv, timings.jsonl, images/")
-        ->type_name("FOLDER");
+    add_path(app, options.plan, {"--plan", "FILE", "a JSON plan of cells (tools/invariance/README.md)", "a file name"});
+    add_path(app, options.run.output,
+             {"-o,--output", "FOLDER", "a folder: results.jsonl, results.csv, timings.jsonl, images/", "a folder"});
     add_option(app, options.shard,
                {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
     add_option(app, options.merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},

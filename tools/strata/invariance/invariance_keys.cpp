@@ -1,8 +1,10 @@
 // tools/strata/invariance/invariance_keys.cpp - the keys of a plan: what each value means, and what is expected of it.
 #include <fmt/format.h>
 
+#include "peeling/registry.h"
 #include "tools/strata/invariance/invariance_plan.h"
 #include "tools/strata/options/choices.h"
+#include "tools/strata/options/values.h"
 
 namespace strata::tools {
 
@@ -13,39 +15,29 @@ bool set_name(std::string& target, const std::string& text) {
     return !text.empty();
 }
 
-template <class T>
-bool set_choice(T& target, const std::vector<Choice<T>>& choices, const std::string& text) {
-    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.name == text; });
-    if (found == choices.end()) return false;
-    target = found->value;
-    return true;
+// What an option of the same meaning parses.
+template <class Target, class T>
+bool assign(Target& target, const std::optional<T>& value) {
+    if (value) target = *value;
+    return value.has_value();
 }
 
-template <class T>
-bool set_number(T& target, std::string_view text, T low, T high) {
-    const auto value = to_number<T>(text);
-    if (!value || *value < low || *value > high) return false;
-    target = *value;
-    return true;
-}
-
-bool set_whole(int& target, std::string_view text, int low, int high) {
-    const auto value = to_int(text);
-    if (!value || *value < low || *value > high) return false;
-    target = *value;
-    return true;
+bool set_number(auto& target, std::string_view text, double low, double high) {
+    using Number = std::remove_reference_t<decltype(target)>;
+    const auto value = to_number<Number>(text);
+    return value && *value >= low && *value <= high && assign(target, value);
 }
 
 bool set_size(Cell& cell, const std::string& text) {
-    const auto parts = split(text, 'x');
-    constexpr int side = 16384;
-    return parts.size() == 2 && set_whole(cell.width, parts[0], 1, side) && set_whole(cell.height, parts[1], 1, side);
+    const auto size = to_size(text);
+    if (size) cell.width = size->width, cell.height = size->height;
+    return size.has_value();
 }
 
 bool set_orbit(Cell& cell, const std::string& text) {
-    const auto parts = split(text, ',');
-    return parts.size() == 2 && set_number(cell.azimuth, parts[0], -1e6, 1e6) &&
-           set_number(cell.elevation, parts[1], -90.0, 90.0);
+    const auto orbit = to_orbit(text);
+    if (orbit) cell.azimuth = orbit->azimuth, cell.elevation = orbit->elevation;
+    return orbit.has_value();
 }
 
 bool set_algorithm(Cell& cell, const std::string& text) {
@@ -56,13 +48,14 @@ bool set_algorithm(Cell& cell, const std::string& text) {
 
 bool set_pair(Cell& cell, const std::string& text) {
     const auto parts = split(text, ':');
-    return parts.size() == 2 && set_choice(cell.write, depth_paths(), parts[0]) &&
-           set_choice(cell.compare, depth_paths(), parts[1]);
+    return parts.size() == 2 && assign(cell.write, to_choice(depth_paths(), parts[0])) &&
+           assign(cell.compare, to_choice(depth_paths(), parts[1]));
 }
 
 bool set_subpixel_bits(Cell& cell, const std::string& text) {
     if (text == "profile") return cell.subpixel_bits = 0, true;
-    return set_whole(cell.subpixel_bits, text, 4, 12) && cell.subpixel_bits % 4 == 0;
+    const auto bits = to_int(text);
+    return bits && (*bits == 4 || *bits == 8 || *bits == 12) && assign(cell.subpixel_bits, bits);
 }
 
 bool set_range(Cell& cell, const std::string& text) {
@@ -74,21 +67,17 @@ bool set_range(Cell& cell, const std::string& text) {
            set_number(cell.range.far, parts[1], cell.range.near, 1e12) && cell.range.far > cell.range.near;
 }
 
-bool set_epsilon(Remedy& remedy, const std::string& text) {
-    remedy.epsilon_text = text;
-    const std::string_view view = text;
-    if (view.ends_with("ulp")) return set_whole(remedy.epsilon.ulps, view.substr(0, view.size() - 3), 0, 1 << 24);
-    return set_number(remedy.epsilon.absolute, view, 0.0, 1.0);
-}
-
 bool add_remedy(Remedy& remedy, const std::string& part) {
     const std::string value = part.find(':') == std::string::npos ? "" : part.substr(part.find(':') + 1);
     if (part == "none") return true;
     if (part == "unquantized") return remedy.quantize_reference = false, true;
     if (part == "depth_replace") return remedy.depth_replace = true;
-    if (part.starts_with("bias:")) return set_number(remedy.bias_constant, value, -0x1p24f, 0x1p24f);
-    if (part.starts_with("slope:")) return set_number(remedy.bias_slope, value, -1024.0f, 1024.0f);
-    if (part.starts_with("epsilon:")) return set_epsilon(remedy, value);
+    if (part.starts_with("bias:")) return set_number(remedy.bias_constant, value, -0x1p24, 0x1p24);
+    if (part.starts_with("slope:")) return set_number(remedy.bias_slope, value, -1024, 1024);
+    if (part.starts_with("epsilon:")) {
+        remedy.epsilon_text = value;
+        return assign(remedy.epsilon, to_epsilon(value));
+    }
     return false;
 }
 
@@ -101,14 +90,8 @@ bool set_remedy(Cell& cell, const std::string& text) {
 
 // "A", or "A+B": the first pass and further ones.
 bool set_vertex_path(Cell& cell, const std::string& text) {
-    const auto parts = split(text, '+');
-    const auto choices = vertex_paths();
-    pipeline::VertexPath first{}, second{};
-    if (parts.size() > 2 || !set_choice(first, choices, parts[0]) || !set_choice(second, choices, parts.back()))
-        return false;
-    cell.vertex_paths = {first, parts.size() == 2 ? std::optional(second) : std::nullopt};
     cell.vertex_path = text;
-    return true;
+    return assign(cell.vertex_paths, to_vertex_paths(text, '+'));
 }
 
 const std::vector<Choice<Split>> splits{{"none", Split::none},
@@ -127,14 +110,14 @@ std::vector<PlanKey> make_keys() {
         {"orbit", "degrees from which the scene is seen", "azimuth and elevation in degrees such as 30,20", "30,20",
          set_orbit, false},
         {"alpha", "everything is drawn with its own alpha times this", "a number from 0 to 1", "0.5",
-         [](Cell& c, const std::string& t) { return set_number(c.alpha, t, 0.0f, 1.0f); }},
+         [](Cell& c, const std::string& t) { return assign(c.alpha, to_share(t)); }},
         {"algorithm", "peels", "an algorithm that peels in order (strata algorithms)", "shadow_map", set_algorithm},
         {"split",
          "what further passes draw of the surface: the same, vertices rotated, the other diagonal, the viewport moved "
          "by a pixel, "
          "or clamped at the near plane",
          "none, rotated, diagonal, moved or clamped", "none",
-         [](Cell& c, const std::string& t) { return set_choice(c.split, splits, t); }},
+         [](Cell& c, const std::string& t) { return assign(c.split, to_choice(splits, t)); }},
         {"hypothesis", "constants of the device that are not known (--hypotheses lists them)",
          "profile, all, or a constant's name and value", "profile",
          [](Cell& c, const std::string& t) { return set_name(c.hypothesis, t); }},
@@ -143,7 +126,7 @@ std::vector<PlanKey> make_keys() {
         {"pair", "WRITE:COMPARE, the path that writes depth and the one that compares",
          "two depth paths with a colon between, such as window_z:perspective_rq", "window_z:perspective_rq", set_pair},
         {"depth_format", "depth buffers", "d16, d24 or d32f", "d16,d24",
-         [](Cell& c, const std::string& t) { return set_choice(c.format, depth_formats, t); }},
+         [](Cell& c, const std::string& t) { return assign(c.format, to_choice(depth_formats, t)); }},
         {"subpixel_bits", "grids of window positions", "profile, 4, 8 or 12", "profile", set_subpixel_bits},
         {"near_far", "depth ranges: orbit, ratio:FAR/NEAR, or NEAR:FAR",
          "orbit, ratio:R with R from 2.6, or NEAR:FAR with 0 < NEAR < FAR", "orbit", set_range},
@@ -153,7 +136,7 @@ std::vector<PlanKey> make_keys() {
          "between",
          "none", set_remedy},
         {"max_passes", "geometry passes at most; 0: twice what the true layers need", "a whole number from 0", "0",
-         [](Cell& c, const std::string& t) { return set_whole(c.max_passes, t, 0, 1000000); }},
+         [](Cell& c, const std::string& t) { return assign(c.max_passes, to_count(t)); }},
     };
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tools/strata/options/choices.h"
+#include "tools/strata/table.h"
 
 namespace strata::tools {
 
@@ -171,6 +172,28 @@ std::string to_csv(const ordered_json& line) {
         fields.push_back(is_null ? (is_peeled ? "inf" : "") : csv_field(line.at(column)));
     }
     return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+std::string summary(const Lines& lines, const std::string& folder) {
+    constexpr std::size_t most_rows = 50;
+    Table table{{{"cell", Align::right}, {"scene"}, {"write"}, {"compare"}, {"depth"}, {"remedy"}}, {}};
+    for (const char* title : {"passes", "differing", "ulp max", "duplicated", "lost", "pixels"})
+        table.columns.push_back({title, Align::right});
+    table.columns.push_back({"outcome"});
+    for (const ordered_json& line : lines) {
+        if (table.rows.size() == most_rows) break;
+        std::vector<std::string> row;
+        for (const char* key : {"cell", "scene", "write_path", "compare_path", "depth_format", "remedy", "passes",
+                                "differing", "ulp_max", "duplicated", "lost", "pixels_touched", "outcome"})
+            row.push_back(line.at(key).is_string() ? line.at(key).get<std::string>() : line.at(key).dump());
+        table.rows.push_back(std::move(row));
+    }
+    const std::string more = lines.size() > most_rows ? fmt::format("and {} more\n", lines.size() - most_rows) : "";
+    return to_text(table) + more +
+           fmt::format(
+               "All of it: {0}/results.csv and {0}/results.jsonl. A page with plots, {0}/index.html: "
+               "tools/invariance/report.py {0}\n",
+               folder);
 }
 
 }  // namespace strata::tools

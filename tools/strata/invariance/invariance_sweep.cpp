@@ -88,8 +88,13 @@ int run_sweep(const Sweep& sweep, CellRunner& runner) {
             journal.append(found.lines.emplace_back(to_line(mine[i], cell, timed.result)));
         }
     }
-    if (sweep.shard.count > 1) return 0;  // what it found is told when the shards are merged
+    if (sweep.shard.count > 1) {  // what it found is told when the shards are merged
+        print(fmt::format("{}: {} cells; --merge {} puts the shards together\n", results, found.lines.size(),
+                          sweep.shard.count));
+        return 0;
+    }
     scenes::write_file(path_in(sweep.folder, "results.csv"), csv_of(found.lines));
+    print(summary(found.lines, sweep.folder));
     return exit_status(found.lines);
 }
 
@@ -113,6 +118,7 @@ int merge_shards(const Sweep& sweep, CellRunner& runner, std::size_t shards) {
     scenes::write_file(path_in(sweep.folder, "results.jsonl"), text);
     scenes::write_file(path_in(sweep.folder, "results.csv"), csv_of(results));
     scenes::write_file(path_in(sweep.folder, "timings.jsonl"), timings);
+    print(summary(results, sweep.folder));
     return exit_status(results);
 }
 

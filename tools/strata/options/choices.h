@@ -40,7 +40,6 @@ inline const std::vector<Choice<pipeline::ColorSpace>> color_spaces{{"encoded", 
                                                                     {"linear", pipeline::ColorSpace::linear}};
 
 inline const std::vector<Choice<pipeline::Execution>> executions{{"literal", pipeline::Execution::literal},
-                                                                 {"tiled", pipeline::Execution::tiled},
                                                                  {"replay", pipeline::Execution::replay}};
 
 inline const std::vector<Choice<pipeline::Formulation>> formulations{{"resolved", pipeline::Formulation::resolved},

@@ -31,6 +31,17 @@ CLI::Option* add_option(CLI::App& app, T& target, const OptionText& text, Parse 
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
 }
 
+// A name of something outside, which is never empty. A long name is what messages call the option unless it has a short one.
+inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionText& text) {
+    OptionText named = text;
+    named.name = text.name.substr(0, text.name.find(','));
+    const auto fill = [&target, named](const std::string& given) {
+        if (given.empty()) throw CLI::ValidationError(named.name, "expected " + named.expected + ", found ''");
+        target = given;
+    };
+    return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
+}
+
 template <class T>
 struct Choice {
     std::string name;
@@ -52,6 +63,14 @@ template <class T>
     return "";
 }
 
+template <class T>
+[[nodiscard]] std::optional<T> to_choice(const std::vector<Choice<T>>& choices, std::string_view name) {
+    for (const auto& choice : choices) {
+        if (choice.name == name) return choice.value;
+    }
+    return std::nullopt;
+}
+
 // Of the words with commas between, those in `choices`, none twice; `all` stands for `everything` unless it is one of them.
 template <class T>
 [[nodiscard]] std::vector<T> to_choices(const std::string& name, const std::string& text,
@@ -61,9 +80,8 @@ template <class T>
         if (std::find(chosen.begin(), chosen.end(), value) == chosen.end()) chosen.push_back(value);
     };
     for (const std::string& word : split(text, ',')) {
-        const auto choice = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.name == word; });
-        if (choice != choices.end()) {
-            add(choice->value);
+        if (const auto choice = to_choice(choices, word)) {
+            add(*choice);
         } else if (word == "all") {
             std::for_each(everything.begin(), everything.end(), add);
         } else {
@@ -91,14 +109,11 @@ template <class Target, class T>
 CLI::Option* add_choice(CLI::App& app, Target& target, const std::string& name, const std::vector<Choice<T>>& choices,
                         const std::string& help) {
     const auto fill = [&target, name, choices](const std::string& given) {
-        for (const auto& choice : choices) {
-            if (choice.name == given) {
-                target = choice.value;
-                return;
-            }
-        }
+        const auto choice = to_choice(choices, given);
         const auto names = names_of(choices);
-        throw CLI::ValidationError(name, "expected " + one_of(names) + ", found " + found_but_near(given, names));
+        if (!choice)
+            throw CLI::ValidationError(name, "expected " + one_of(names) + ", found " + found_but_near(given, names));
+        target = *choice;
     };
     std::string type;
     for (const auto& choice : choices) type += (type.empty() ? "" : "|") + choice.name;

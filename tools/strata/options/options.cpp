@@ -1,7 +1,9 @@
 #include "tools/strata/options/options.h"
 
 #include <algorithm>
+#include <cstdio>
 
+#include "peeling/registry.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/parse.h"
@@ -9,31 +11,6 @@
 namespace strata::tools {
 
 namespace {
-
-struct Size {
-    int width = 0, height = 0;
-};
-
-std::optional<Size> to_size(std::string_view text) {
-    constexpr int max_side = 16384;
-    const auto parts = split(text, 'x');
-    if (parts.size() != 2) return std::nullopt;
-    const auto width = to_int(parts[0]), height = to_int(parts[1]);
-    if (!width || !height || *width < 1 || *height < 1 || *width > max_side || *height > max_side) return std::nullopt;
-    return Size{*width, *height};
-}
-
-std::optional<Orbit> to_orbit(std::string_view text) {
-    const auto angles = to_numbers<double>(text, 2);
-    if (!angles) return std::nullopt;
-    return Orbit{(*angles)[0], (*angles)[1]};
-}
-
-std::optional<float> to_share(std::string_view text) {
-    const auto value = to_number<float>(text);
-    if (!value || *value < 0.0f || *value > 1.0f) return std::nullopt;
-    return value;
-}
 
 std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
     pipeline::Rgba color{0, 0, 0, 1};
@@ -45,11 +22,6 @@ std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
         color[i] = *value;
     }
     return color;
-}
-
-std::optional<int> to_count(std::string_view text) {
-    const auto value = to_int(text);
-    return value && *value >= 0 ? value : std::nullopt;
 }
 
 std::optional<pipeline::Termination> to_termination(std::string_view text) {
@@ -99,32 +71,6 @@ std::optional<std::uint64_t> to_bytes(std::string_view text) {
     return *count << shift;
 }
 
-// "1e-7" of the depth range, or "2ulp".
-std::optional<pipeline::CompareEpsilon> to_epsilon(std::string_view text) {
-    constexpr std::string_view unit = "ulp";
-    if (text.ends_with(unit)) {
-        const auto ulps = to_count(text.substr(0, text.size() - unit.size()));
-        return ulps && *ulps <= 1 << 24 ? std::optional(pipeline::CompareEpsilon{0, *ulps}) : std::nullopt;
-    }
-    const auto absolute = to_number<double>(text);
-    if (!absolute || *absolute < 0 || *absolute > 1) return std::nullopt;
-    return pipeline::CompareEpsilon{*absolute, 0};
-}
-
-std::optional<peeling::VertexPaths> to_vertex_paths(std::string_view text) {
-    const auto parts = split(text, ',');
-    const auto paths = vertex_paths();
-    const auto find = [&](const std::string& name) -> std::optional<pipeline::VertexPath> {
-        for (const auto& path : paths)
-            if (path.name == name) return path.value;
-        return std::nullopt;
-    };
-    peeling::VertexPaths chosen{find(parts[0]), find(parts.back())};
-    if (parts.size() > 2 || !chosen.first || !chosen.second) return std::nullopt;
-    if (parts.size() == 1) chosen.second.reset();
-    return chosen;
-}
-
 std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text) {
     const auto values = to_numbers<float>(text, 2);
     if (!values) return std::nullopt;
@@ -164,8 +110,9 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
 }  // namespace
 
 void add_profile_option(CLI::App& app, std::string& profile) {
-    app.add_option("--profile", profile, "a built-in profile, or a JSON file with one (default geforce8)")
-        ->type_name("NAME|FILE");
+    add_path(app, profile,
+             {"--profile", "NAME|FILE", "a built-in profile, or a JSON file with one (default geforce8)",
+              "a profile's name or file"});
 }
 
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
@@ -187,7 +134,7 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                 "how positions are computed, in the first pass and in further ones (default separate): " +
                     one_of(names_of(vertex_paths())),
                 "one or two of " + one_of(names_of(vertex_paths()))},
-               to_vertex_paths);
+               [](std::string_view text) { return to_vertex_paths(text, ','); });
     add_option(app, options.raster.polygon_offset,
                {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
                 "two numbers such as 1,1"},
@@ -262,8 +209,8 @@ void add_view_options(CLI::App& app, RunOptions& options) {
         app, options.render.width,
         {"--size", "WIDTHxHEIGHT", "pixels (default 1024x1024)", "WIDTHxHEIGHT such as 640x480, each from 1 to 16384"},
         set_size);
-    app.add_option("--camera", options.camera, "a camera of the scene, or a JSON file with one")
-        ->type_name("NAME|FILE");
+    add_path(app, options.camera,
+             {"--camera", "NAME|FILE", "a camera of the scene, or a JSON file with one", "a camera's name or file"});
     add_option(app, options.orbit,
                {"--orbit", "AZ,EL", "look at the scene's bounds from these degrees (default 30,20)",
                 "azimuth and elevation in degrees such as 30,20"},
@@ -278,18 +225,40 @@ void add_view_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_execution_options(CLI::App& app, RunOptions& options) {
-    add_choice(app, options.render.execution, "--execution", executions,
-               "frame by frame, tile by tile, or with each tile's fragments kept for later passes; same bits (default "
-               "replay)");
+    accept_tiled(
+        *add_choice(app, options.render.execution, "--execution", executions,
+                    "over the whole frame, or tile by tile with a tile's fragments kept for later passes; same "
+                    "bits (default replay)"),
+        options);
     add_choice(app, options.simd, "--simd", simds, "instruction set; same bits (default best: what the processor has)");
     add_choice(app, options.render.effects, "--effects", effects,
                "simulate the stages that are needed, or all; same bits (default needed)");
     add_resource_options(app, options);
 }
 
+void accept_tiled(CLI::Option& execution, RunOptions& options) {
+    execution.transform([&options](const std::string& given) {
+        std::string words;
+        bool has_tiled = false, has_replay = false;
+        for (const std::string& word : split(given, ',')) {
+            has_tiled |= word == "tiled";
+            has_replay |= word == "replay" || word == "all";
+            words += (words.empty() ? "" : ",") + (word == "tiled" ? std::string("replay") : word);
+        }
+        if (has_tiled && has_replay)
+            throw CLI::ValidationError("--execution",
+                                       "expected replay once, found it beside 'tiled', which is replay "
+                                       "with --fragment-memory 0");
+        if (has_tiled) std::fputs("strata: warning: --execution tiled is replay with --fragment-memory 0\n", stderr);
+        options.keeps_no_fragments = has_tiled;
+        return words;
+    });
+}
+
 void add_resource_options(CLI::App& app, RunOptions& options) {
     add_option(app, options.render.fragment_memory,
-               {"--fragment-memory", "SIZE", "what replay may keep of fragments, in bytes; same bits (default 256M)",
+               {"--fragment-memory", "SIZE",
+                "what replay may keep of fragments, and the audit, in bytes; same bits (default 256M)",
                 "bytes such as 65536, 64M or 1G"},
                to_bytes);
     add_choice(app, options.render.tile_size, "--tile", tile_sizes,
@@ -310,15 +279,17 @@ void check_simd(Simd simd) {
 }
 
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help) {
-    app.add_option("-o,--output", options.output, output_help)->type_name("FILE");
-    app.add_option("--stats", options.stats, "statistics as JSON, one object an algorithm; - is standard output")
-        ->type_name("FILE|-");
+    add_path(app, options.output, {"-o,--output", "FILE", output_help, "a file name"});
+    add_path(
+        app, options.stats,
+        {"--stats", "FILE|-", "statistics as JSON, one object an algorithm; - is standard output", "a file name or -"});
     app.add_flag_callback(
         "--no-audit", [&options] { options.render.audit = false; },
         "do not compare with the exact A-buffer: faster, and those statistics are null");
 }
 
 void complete(RunOptions& options) {
+    if (options.keeps_no_fragments) options.render.fragment_memory = 0;
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
     if (options.orbit && !options.camera.empty()) {
         throw CLI::ValidationError("--orbit", "expected either --orbit or --camera, found both");

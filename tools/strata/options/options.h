@@ -5,15 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "peeling/render.h"
+#include "peeling/algorithms/algorithm.h"
+#include "peeling/render_options.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/scene.h"
+#include "tools/strata/options/values.h"
 
 namespace strata::tools {
-
-struct Orbit {
-    double azimuth = 30, elevation = 20;  // degrees
-};
 
 struct RunOptions {
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
@@ -25,6 +23,7 @@ struct RunOptions {
     std::string camera;                                 // --camera; empty: the orbit
     std::optional<Orbit> orbit;
     peeling::RenderOptions render;
+    bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     Simd simd = Simd::best;
     std::string stats;   // --stats; empty: none, "-": standard output
     std::string output;  // -o; empty: none
@@ -46,6 +45,9 @@ void add_order_options(CLI::App& app, peeling::RenderOptions& options);    // --
 void add_profile_option(CLI::App& app, std::string& profile);
 void add_view_options(CLI::App& app, RunOptions& options);      // --size ... --background
 void add_resource_options(CLI::App& app, RunOptions& options);  // --fragment-memory, --tile, --threads
+
+// Lets an --execution option take the word `tiled`, with a warning: replay that keeps no fragments.
+void accept_tiled(CLI::Option& execution, RunOptions& options);
 
 // Throws CLI::ValidationError where this processor lacks the set.
 void check_simd(Simd simd);

@@ -1,9 +1,11 @@
 // tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the frame.
-#include <algorithm>
 #include <memory>
+#include <numeric>
 
+#include "peeling/render.h"
 #include "scenes/files/image_io.h"
 #include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 
 namespace strata::tools {
@@ -15,17 +17,24 @@ struct LayersOptions {
     std::string deep;
 };
 
-scenes::DeepFragments as_deep(std::vector<pipeline::CapturedFragment> fragments, const RunOptions& options) {
-    const auto in_front = [](const auto& a, const auto& b) { return a.pixel < b.pixel; };
-    std::stable_sort(fragments.begin(), fragments.end(), in_front);  // submission order stays within a pixel
-    scenes::DeepFragments deep{.width = options.render.width, .height = options.render.height};
+// Pixel by pixel, in submission order within each.
+scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fragments, const RunOptions& options) {
+    scenes::DeepFragments deep{
+        .width = options.render.width, .height = options.render.height, .space = options.scene_options.color_space};
     deep.count.assign(static_cast<std::size_t>(deep.width) * static_cast<std::size_t>(deep.height), 0);
+    for (const auto& fragment : fragments) ++deep.count[fragment.pixel];
+    std::vector<std::size_t> next(deep.count.size());
+    std::exclusive_scan(deep.count.begin(), deep.count.end(), next.begin(), std::size_t{0});
+    deep.depth_code.resize(fragments.size());
+    deep.z.resize(fragments.size());
+    deep.rgba.resize(fragments.size());
+    deep.primitive.resize(fragments.size());
     for (const auto& fragment : fragments) {
-        ++deep.count[fragment.pixel];
-        deep.depth_code.push_back(fragment.code);
-        deep.z.push_back(fragment.shader_z);
-        deep.rgba.push_back(fragment.color);
-        deep.primitive.push_back(fragment.primitive);
+        const std::size_t place = next[fragment.pixel]++;
+        deep.depth_code[place] = fragment.code;
+        deep.z[place] = fragment.shader_z;
+        deep.rgba[place] = fragment.color;
+        deep.primitive[place] = fragment.primitive;
     }
     return deep;
 }
@@ -44,6 +53,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
         if (layers.empty()) {  // nothing to peel: one layer without a fragment
             layers.push_back(
                 {.color = {finished.result.frame.color.format, options.run.render.width, options.run.render.height},
+                 .space = options.run.scene_options.color_space,
                  .attributes = attributes});
         }
         scenes::write_layers(path_for(options.run.output, options.run, finished.algorithm), layers);
@@ -55,8 +65,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
 }
 
 int layers(LayersOptions& options) {
-    check_output("-o", options.run.output, {".exr"});
-    check_output("--deep", options.deep, {".exr"});
+    check_outputs({{"-o", options.run.output, {".exr"}}, {"--deep", options.deep, {".exr"}}});
     if (options.run.output.empty() && options.deep.empty()) {
         throw CLI::ValidationError("-o",
                                    "expected a file for the layers, or --deep one for the fragments, found neither");
@@ -74,7 +83,8 @@ Command add_layers(CLI::App& root) {
     add_picture_options(*app, options->run);
     add_execution_options(*app, options->run);
     add_output_options(*app, options->run, "the layers, .exr: part layer.000 is the nearest");
-    app->add_option("--deep", options->deep, "every fragment as a deep EXR, in submission order")->type_name("FILE");
+    add_path(*app, options->deep,
+             {"--deep", "FILE", "every fragment as a deep EXR, in submission order", "a file name"});
     app->footer(
         footer("  strata layers teapot --size 200x150 -o layers.exr\n"
                "  strata layers volume-beam:slices=4 --algorithm depth_units --size 64x64 -o beam.exr --deep "

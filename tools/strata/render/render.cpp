@@ -1,4 +1,6 @@
 // tools/strata/render/render.cpp - strata render: the picture of one or more algorithms.
+#include "peeling/render.h"
+
 #include <memory>
 
 #include "scenes/files/image_io.h"
@@ -20,7 +22,7 @@ void write_picture(const RunOptions& options, const Finished& finished) {
 }
 
 int render(RunOptions& options) {
-    check_output("-o", options.output, {".exr", ".png"});
+    check_outputs({{"-o", options.output, {".exr", ".png"}}});
     return run_algorithms(options, [&](const Finished& finished) { write_picture(options, finished); });
 }
 

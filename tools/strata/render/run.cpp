@@ -2,9 +2,12 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
+#include "peeling/render.h"
 #include "scenes/camera.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/load_image_module.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/strata/options/names.h"
@@ -49,16 +52,30 @@ void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
                                            found_but_near(name, names));
 }
 
+// An algorithm that peels nothing is no news; a scene in which it never can is.
+void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
+    if (options.render.alpha) return;
+    const auto is_transparent = [&](const pipeline::Instance& instance) {
+        return scene.list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
+    };
+    if (std::any_of(scene.list.instances.begin(), scene.list.instances.end(), is_transparent)) return;
+    std::fprintf(stderr,
+                 "strata: warning: %s: nothing is transparent, so there is nothing to peel; "
+                 "--alpha 0.5 draws everything as half transparent\n",
+                 options.scene.c_str());
+}
+
 }  // namespace
 
 Session open_session(RunOptions& options) {
     check_simd(options.simd);
-    choose_simd(options.simd);
+    options.render.simd = options.simd;
     Session session;
     session.profile = scenes::load_profile(options.profile);
     session.scene = scenes::load_scene(options.scene, options.scene_options);
     for (const std::string& warning : session.scene.warnings)
         std::fprintf(stderr, "strata: warning: %s\n", warning.c_str());
+    warn_of_opaque(options, session.scene);
     session.view = find_view(options, session.scene);
     check_sorted(options, session.scene);
     options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
@@ -76,7 +93,6 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
     result.frame.color = {};
     result.frame.depth = {};
     result.frame.layers.clear();
-    result.frame.traces.clear();
     summary.result = std::move(result);
     return summary;
 }
@@ -121,7 +137,7 @@ int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfi
 
 int run_algorithms(RunOptions& options, const Writer& write) {
     complete(options);
-    check_output("--stats", options.stats == "-" ? "" : options.stats, {".json"});
+    check_outputs({{"--stats", options.stats == "-" ? "" : options.stats, {".json"}}});
     const Session session = open_session(options);
     peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
     std::vector<RunSummary> runs;
@@ -133,7 +149,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
 
 std::string path_for(const std::string& path, const RunOptions& options, const peeling::Algorithm& algorithm) {
     if (options.algorithms.size() == 1) return path;
-    const std::size_t dot = path.rfind('.');  // check_output has seen an ending
+    const std::size_t dot = path.rfind('.');  // check_outputs has seen an ending
     return path.substr(0, dot) + "." + algorithm.name + path.substr(dot);
 }
 
@@ -144,17 +160,45 @@ scenes::Attributes attributes_of(const std::string& verb, const RunOptions& opti
             {"camera", one_line(scenes::to_json(finished.session.view))}};
 }
 
-void check_output(const std::string& option, const std::string& path, const std::vector<std::string>& endings) {
-    if (path.empty()) return;
-    const auto fits = [&](const std::string& ending) { return path.ends_with(ending); };
-    if (std::none_of(endings.begin(), endings.end(), fits)) {
-        throw CLI::ValidationError(option,
-                                   "expected a file that ends in " + one_of(endings) + ", found '" + path + "'");
+namespace {
+
+void check_output(const Output& output) {
+    const auto fits = [&](const std::string& ending) { return output.path.ends_with(ending); };
+    if (std::none_of(output.endings.begin(), output.endings.end(), fits)) {
+        throw CLI::ValidationError(
+            output.option, "expected a file that ends in " + one_of(output.endings) + ", found '" + output.path + "'");
     }
-    const auto folder = std::filesystem::path(path).parent_path();
+    const auto folder = std::filesystem::path(output.path).parent_path();
     if (!folder.empty() && !std::filesystem::is_directory(folder)) {
-        throw CLI::ValidationError(option, "expected a file in a folder that exists, found '" + path + "'");
+        throw CLI::ValidationError(output.option,
+                                   "expected a file in a folder that exists, found '" + output.path + "'");
     }
+}
+
+// One spelling for each file that a path can name: the folder with its links followed. The last name's own link is not,
+// for a finished file takes the link's place.
+std::filesystem::path place_of(const std::string& path) {
+    const auto absolute = std::filesystem::absolute(path);
+    return std::filesystem::canonical(absolute.parent_path()) / absolute.filename();
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<Output>& outputs) {
+    std::map<std::filesystem::path, const Output*> places;
+    for (const Output& output : outputs) {
+        if (output.path.empty()) continue;
+        check_output(output);
+        const auto [found, is_new] = places.emplace(place_of(output.path), &output);
+        if (!is_new) {
+            throw CLI::ValidationError(output.option, "expected another file than that of " + found->second->option +
+                                                          ", found '" + output.path + "'");
+        }
+    }
+    const bool has_image = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
+        return output.path.ends_with(".exr") || output.path.ends_with(".png");
+    });
+    if (has_image) static_cast<void>(scenes::image_module());  // else it would be missed after the last pixel
 }
 
 }  // namespace strata::tools

@@ -7,6 +7,11 @@
 #include "scenes/files/image_io.h"
 #include "tools/strata/options/options.h"
 
+namespace strata::peeling {
+class Renderer;
+struct RenderResult;
+}  // namespace strata::peeling
+
 namespace strata::tools {
 
 // Everything that the algorithms of one command share.
@@ -16,7 +21,7 @@ struct Session {
     pipeline::View view;
 };
 
-// Loads profile and scene, warns on standard error, finds the view, and makes --simd and --background the run's.
+// Loads profile and scene, warns on standard error (of a scene in which nothing is transparent, too), finds the view, and makes --simd and --background the run's.
 [[nodiscard]] Session open_session(RunOptions& options);
 
 // One algorithm that ran.
@@ -40,7 +45,14 @@ using Writer = std::function<void(const Finished&)>;  // writes one algorithm's 
 [[nodiscard]] scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options,
                                                const Finished& finished);
 
-// Throws CLI::ValidationError unless `path` is empty or names a file with one of the endings in a folder that exists.
-void check_output(const std::string& option, const std::string& path, const std::vector<std::string>& endings);
+// A file that a command is to write; an empty path is none.
+struct Output {
+    std::string option, path;
+    std::vector<std::string> endings;
+};
+
+// Throws CLI::ValidationError unless each names a file with one of its endings in a folder that exists, and no two name
+// the same file.
+void check_outputs(const std::vector<Output>& outputs);
 
 }  // namespace strata::tools

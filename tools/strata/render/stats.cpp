@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "peeling/render.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/table.h"
 
@@ -65,7 +66,7 @@ std::string describe(const std::string& algorithm, const pipeline::Diagnostic& d
 
 std::vector<std::string> cells(const RunSummary& run, const RunContext& context) {
     const auto& [algorithm, result, color, depth] = run;
-    if (!is_done(run)) return {algorithm->name, "refused", "-", "-", "-", "-", "-", "-", "-"};
+    if (!is_done(run)) return {algorithm->name, "refused", "-", "-", "-", "-", "-", "-", "-", "-"};
     const peeling::AuditResult& audit = result.audit;
     const auto audited = [&](const std::string& text) { return context.audited ? text : "-"; };
     return {algorithm->name,
@@ -76,7 +77,8 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
             audited(fmt::format("{}", audit.lost_by_ties)),
             audited(fmt::format("{:.3f}", audit.max_difference)),
             color.substr(0, 12),
-            fmt::format("{:.3f}", result.seconds.geometry + result.seconds.passes)};
+            fmt::format("{:.3f}", result.seconds.geometry + result.seconds.passes),
+            audited(fmt::format("{:.3f}", result.seconds.audit))};
 }
 
 }  // namespace
@@ -110,8 +112,10 @@ ordered_json to_row(const RunSummary& run, const RunContext& context) {
     row["lost_by_ties"] = audited(audit.lost_by_ties);
     row["max_difference_from_a_buffer"] = audited(audit.max_difference);
     row["max_difference_without_ties"] = audited(audit.max_difference_without_ties);
-    row["seconds"] = {
-        {"geometry", result.seconds.geometry}, {"passes", result.seconds.passes}, {"total", context.total_seconds}};
+    row["seconds"] = {{"geometry", result.seconds.geometry},
+                      {"passes", result.seconds.passes},
+                      {"audit", counted ? ordered_json(result.seconds.audit) : ordered_json(nullptr)},
+                      {"total", context.total_seconds}};
     return row;
 }
 
@@ -125,7 +129,7 @@ std::string to_table(const std::vector<RunSummary>& runs, const RunContext& cont
     Table table;
     table.columns = {{"algorithm"}, {"outcome"}};
     for (const char* title :
-         {"passes", "layers", "order errors", "lost by ties", "max diff /255", "digest", "seconds"}) {
+         {"passes", "layers", "order errors", "lost by ties", "max diff /255", "digest", "seconds", "audit s"}) {
         table.columns.push_back({title, Align::right});
     }
     std::string notes;

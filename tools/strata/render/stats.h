@@ -13,7 +13,7 @@ namespace strata::tools {
 // One algorithm's run without its pixels.
 struct RunSummary {
     const peeling::Algorithm* algorithm = nullptr;
-    peeling::RenderResult result;  // frame.color, depth, layers and traces may be gone
+    peeling::RenderResult result;  // frame.color, depth and layers may be gone
     std::string color_digest, depth_digest;
 };
 

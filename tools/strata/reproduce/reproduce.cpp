@@ -52,9 +52,9 @@ Command add_reproduce(CLI::App& root) {
     app->add_option("MODEL", options->models,
                     "glTF files to run beside the built-in scenes (dragon.glb, sponza.glb, a car ...)")
         ->type_name("");
-    app->add_option("-o,--output", options->folder, "the folder that takes the page; made if it is not there")
-        ->required()
-        ->type_name("DIR");
+    add_path(*app, options->folder,
+             {"-o,--output", "DIR", "the folder that takes the page; made if it is not there", "a folder"})
+        ->required();
     add_option(*app, options->size,
                {"--size", "N", "pixels a side of the pictures (default 256)", "a whole number from 1 to 4096"},
                [](std::string_view text) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "scenes/camera.h"
 #include "tools/strata/reproduce/reproduce_page.h"
 

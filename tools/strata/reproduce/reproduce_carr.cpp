@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "scenes/camera.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/reproduce/reproduce_chart.h"

@@ -1,6 +1,8 @@
 // tools/strata/reproduce/reproduce_everitt.cpp - Everitt 2001: Figure 3 (the teapot's layers) and Figure 5 (composites of the first n).
 #include <fmt/format.h>
 
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "scenes/camera.h"
 #include "tools/strata/reproduce/reproduce_page.h"
 

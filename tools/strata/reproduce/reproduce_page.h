@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "peeling/render.h"
+#include "peeling/render_options.h"
+#include "pipeline/formats/image.h"
 #include "scenes/scene.h"
 
 namespace strata::tools {

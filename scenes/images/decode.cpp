@@ -1,26 +1,25 @@
-// scenes/files/image_decode.cpp - see image_decode.h.
-#include "scenes/files/image_decode.h"
+// scenes/images/decode.cpp - a PNG or JPEG in memory to 8-bit RGBA; files/image_decode.h states the rule.
+#include <memory>
+#include <stdexcept>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include "scenes/images/openimageio.h"
 
-namespace strata::scenes {
+namespace strata::scenes::images {
 namespace {
 
 using Codes = std::vector<std::uint8_t>;
 
-std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const ImageHeader& header,
+std::unique_ptr<OIIO::ImageInput> open(OIIO::Filesystem::IOProxy& memory, const EncodedPicture& picture,
                                        const Place& place) {
-    const char* const name = header.kind == ImageKind::png ? "png" : "jpeg";
-    std::unique_ptr<OIIO::ImageInput> reader = OIIO::ImageInput::create(name);
-    if (!reader) throw std::runtime_error(std::string("OpenImageIO has no reader named ") + name);
+    std::unique_ptr<OIIO::ImageInput> reader = OIIO::ImageInput::create(picture.reader);
+    if (!reader) throw std::runtime_error(std::string("OpenImageIO has no reader named ") + picture.reader);
     OIIO::ImageSpec spec, how;
     how.attribute("oiio:UnassociatedAlpha", 1);
     reader->set_ioproxy(&memory);
-    if (!reader->open(std::string("image.") + name, spec, how))
+    if (!reader->open(std::string("image.") + picture.reader, spec, how))
         place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
-    if (spec.width != static_cast<int>(header.width) || spec.height != static_cast<int>(header.height) ||
-        spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 4)
+    if (spec.width != picture.width || spec.height != picture.height || spec.depth != 1 || spec.nchannels < 1 ||
+        spec.nchannels > 4)
         place.fail("IMAGE_DATA_INVALID", "an image of the size that its header says", "another");
     return reader;
 }
@@ -55,13 +54,13 @@ Codes to_rgba(const Codes& codes, std::size_t channels) {
 
 }  // namespace
 
-Codes decode_image(Bytes bytes, const ImageHeader& header, const Place& place) {
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const auto reader = open(memory, header, place);
+Codes decode(const EncodedPicture& picture, const Place& place) {
+    OIIO::Filesystem::IOMemReader memory(picture.bytes.data(), picture.bytes.size());
+    const auto reader = open(memory, picture, place);
     Codes codes = read(*reader, place);
     const auto channels = static_cast<std::size_t>(reader->spec().nchannels);
     reader->close();
     return channels == 4 ? codes : to_rgba(codes, channels);
 }
 
-}  // namespace strata::scenes
+}  // namespace strata::scenes::images

@@ -1,0 +1,128 @@
+#include "peeling/audit/pixel_audit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "peeling/programs/composite.h"
+#include "pipeline/stages/alpha_test.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect)
+    : trace_{trace}, rect_{rect}, head_(rect.area(), none) {
+    for (std::size_t i = trace.size(); i-- > 0;)  // from the end, so that links run forward
+        trace[i].pixel = std::exchange(head_[trace[i].pixel], static_cast<std::uint32_t>(i));
+}
+
+void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence, std::vector<TraceEntry>& backs) const {
+    const std::size_t pixel = static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
+                              static_cast<std::size_t>(x - rect_.x0);
+    sequence.clear();
+    backs.clear();
+    for (std::uint32_t i = head_[pixel]; i != none; i = trace_[i].pixel) {
+        if (trace_[i].side == Side::front) sequence.push_back(trace_[i]);
+        if (trace_[i].side == Side::back) backs.push_back(trace_[i]);
+    }
+    sequence.insert(sequence.end(), backs.rbegin(), backs.rend());
+}
+
+namespace {
+
+void add(PixelCount& count, int x, int y) {
+    if (count.pixels++ == 0 || std::tie(y, x) < std::tie(count.first_y, count.first_x))
+        count.first_x = x, count.first_y = y;
+}
+
+void add(PixelCount& count, const PixelCount& other) {
+    if (other.pixels == 0) return;
+    const std::uint64_t pixels = count.pixels + other.pixels;
+    add(count, other.first_x, other.first_y);
+    count.pixels = pixels;
+}
+
+std::size_t distinct_keys(const FragmentOrder& by_key) {
+    std::size_t keys = 0;
+    for (std::size_t i = 0; i < by_key.size(); ++i)
+        keys += i == 0 || depth_of(by_key[i]) != depth_of(by_key[i - 1]) ? 1 : 0;
+    return keys;
+}
+
+// Whether two orders name equal fragments at every place.
+bool are_alike(std::span<const KeyedFragment> fragments, const FragmentOrder& a, const FragmentOrder& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](std::uint64_t x, std::uint64_t y) {
+        return x == y || fragments[place_of(x)] == fragments[place_of(y)];
+    });
+}
+
+}  // namespace
+
+PixelAudit::PixelAudit(const Frame& frame, const Algorithm& algorithm)
+    : algorithm_{algorithm},
+      tests_codes_{is_eight_bit_alpha(frame.profile->alpha_test, info(frame.color_format).type)} {
+    if (has_order()) found_.order_errors = 0;
+}
+
+void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTraces* traces, const AuditedPixel& pixel) {
+    const auto fragments = algorithm_.kills_alpha_zero ? with_alpha(visible) : visible;
+    sort_by(&KeyedFragment::key, fragments, by_key_);
+    const std::size_t keys = distinct_keys(by_key_);
+    found_.layers_max = std::max(found_.layers_max, static_cast<int>(keys));
+    found_.fragments_max = std::max(found_.fragments_max, static_cast<int>(fragments.size()));
+    if (keys < fragments.size()) add(found_.ties, pixel.x, pixel.y);
+    if (!has_order()) return compare(fragments, pixel, true);
+    kept_ = by_key_;
+    apply(algorithm_.ties, kept_);
+    found_.lost_by_ties += fragments.size() - kept_.size();
+    traces->near_to_far(pixel.x, pixel.y, sequence_, backs_);
+    const std::uint64_t errors = places_that_differ(fragments);
+    *found_.order_errors += errors;
+    if (errors > 0) add(found_.misordered, pixel.x, pixel.y);
+    compare(fragments, pixel, are_alike(fragments, kept_, by_key_));
+}
+
+// What an alpha test GREATER 0 leaves.
+std::span<const KeyedFragment> PixelAudit::with_alpha(std::span<const KeyedFragment> fragments) {
+    with_alpha_.clear();
+    for (const KeyedFragment& f : fragments)
+        if (tests_codes_ ? to_unorm8(f.color[3]) > 0 : f.color[3] > 0.0f) with_alpha_.push_back(f);
+    return with_alpha_;
+}
+
+std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> fragments) const {
+    const std::size_t shared = std::min(kept_.size(), sequence_.size());
+    std::uint64_t errors = std::max(kept_.size(), sequence_.size()) - shared;
+    for (std::size_t i = 0; i < shared; ++i) {
+        const KeyedFragment& expected = fragments[place_of(kept_[i])];
+        const TraceEntry& found = sequence_[i];
+        const bool is_same_fragment = !found.is_fragment || found.primitive == expected.primitive;
+        if (found.key != expected.key || !is_same_fragment) ++errors;
+    }
+    return errors;
+}
+
+void PixelAudit::compare(std::span<const KeyedFragment> fragments, const AuditedPixel& pixel,
+                         bool ties_change_nothing) {
+    sort_almost(&KeyedFragment::exact_code, fragments, by_key_, by_exact_depth_);
+    const auto truth = composite(fragments, by_exact_depth_, pixel.background);
+    double worst = 0;
+    for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::fabs(pixel.shown[c] - truth[c]) * 255.0);
+    found_.max_difference = std::max(found_.max_difference, worst);
+    if (ties_change_nothing) found_.max_difference_without_ties = std::max(found_.max_difference_without_ties, worst);
+}
+
+void merge(AuditResult& all, const AuditResult& part) {
+    all.layers_max = std::max(all.layers_max, part.layers_max);
+    all.fragments_max = std::max(all.fragments_max, part.fragments_max);
+    if (part.order_errors) all.order_errors = all.order_errors.value_or(0) + *part.order_errors;
+    all.lost_by_ties += part.lost_by_ties;
+    add(all.ties, part.ties);
+    add(all.misordered, part.misordered);
+    all.max_difference = std::max(all.max_difference, part.max_difference);
+    all.max_difference_without_ties = std::max(all.max_difference_without_ties, part.max_difference_without_ties);
+}
+
+}  // namespace strata::peeling

@@ -1,0 +1,60 @@
+#include "peeling/programs/tie_order.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace strata::peeling {
+
+namespace {
+
+// Calls body(begin, end, group number) for every run of equal keys.
+template <class Body>
+std::size_t for_each_group(FragmentOrder& sorted, Body&& body) {
+    std::size_t group = 0;
+    for (auto begin = sorted.begin(); begin != sorted.end(); ++group) {
+        const std::uint32_t key = depth_of(*begin);
+        const auto end = std::find_if(begin, sorted.end(), [key](std::uint64_t e) { return depth_of(e) != key; });
+        body(begin, end, group);
+        begin = end;
+    }
+    return group;
+}
+
+}  // namespace
+
+void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
+                 const FragmentOrder& near_order, FragmentOrder& order) {
+    order.clear();
+    std::size_t steps = 8 * near_order.size();
+    for (const std::uint64_t near : near_order) {
+        const std::uint64_t entry = std::uint64_t{fragments[place_of(near)].*code} << 32 | place_of(near);
+        order.push_back(entry);
+        for (std::size_t i = order.size() - 1; i > 0 && order[i - 1] > entry; --i) {
+            if (steps-- == 0) return sort_by(code, fragments, order);
+            order[i] = std::exchange(order[i - 1], entry);
+        }
+    }
+}
+
+void apply(TiePolicy policy, FragmentOrder& by_key) {
+    const auto same_key = [](std::uint64_t a, std::uint64_t b) { return depth_of(a) == depth_of(b); };
+    switch (policy) {
+        case TiePolicy::none:
+        case TiePolicy::first: break;
+        case TiePolicy::last:
+            for_each_group(by_key, [](auto begin, auto end, std::size_t) { std::reverse(begin, end); });
+            break;
+        case TiePolicy::unique:
+        case TiePolicy::merged: by_key.erase(std::unique(by_key.begin(), by_key.end(), same_key), by_key.end()); break;
+        case TiePolicy::first_then_last: {
+            // Every peel takes one key from each end; a single key in the middle counts as near.
+            const std::size_t groups = for_each_group(by_key, [](auto, auto, std::size_t) {});
+            for_each_group(by_key, [&](auto begin, auto end, std::size_t group) {
+                if (group >= (groups + 1) / 2) std::reverse(begin, end);
+            });
+            break;
+        }
+    }
+}
+
+}  // namespace strata::peeling

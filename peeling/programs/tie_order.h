@@ -1,0 +1,40 @@
+// peeling/programs/tie_order.h - a pixel's fragments in the order in which a tie policy composites them. keys-and-counts.md 2.2.
+// Tests: tests/peeling/audit/audit_test.cpp
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "peeling/programs/fragment_lists.h"
+#include "peeling/programs/tie_policy.h"
+
+namespace strata::peeling {
+
+// A pixel's fragments in an order: each as its depth, above, and its place in submission order, below. Ascending numbers are
+// nearest first, and the first arrival first.
+using FragmentOrder = std::vector<std::uint64_t>;
+[[nodiscard]] constexpr std::uint32_t place_of(std::uint64_t entry) noexcept {
+    return static_cast<std::uint32_t>(entry);
+}
+[[nodiscard]] constexpr std::uint32_t depth_of(std::uint64_t entry) noexcept {
+    return static_cast<std::uint32_t>(entry >> 32);
+}
+
+// Fills `order` with all of a pixel's fragments, given in submission order, by the depth that `code` names.
+inline void sort_by(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
+                    FragmentOrder& order) {
+    order.clear();
+    for (std::size_t i = 0; i < fragments.size(); ++i)
+        order.push_back(std::uint64_t{fragments[i].*code} << 32 | static_cast<std::uint32_t>(i));
+    std::sort(order.begin(), order.end());
+}
+
+// The same for a depth by which `near_order` is almost in order already: a few steps a fragment, or a sort from scratch.
+void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
+                 const FragmentOrder& near_order, FragmentOrder& order);
+
+// Turns the order by key into that in which `policy` composites, nearest first; `unique` and `merged` keep one fragment a key.
+void apply(TiePolicy policy, FragmentOrder& by_key);
+
+}  // namespace strata::peeling

@@ -1,0 +1,30 @@
+// pipeline/frame/frame_result.h - what a run leaves: the picture, what was counted, and what the audit and the instruments asked for.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/frame/region_books.h"
+
+namespace strata::pipeline {
+
+struct Work {                     // what was really done; may differ by execution
+    std::uint64_t fragments = 0;  // rasterized
+    std::uint64_t regions = 0, reruns = 0;
+    int tile_size = 0;
+};
+
+struct FrameResult {
+    Image color;
+    Image depth;  // nearest visible key, when asked for
+    std::vector<KeptLayer> layers;
+    int iterations = 0;
+    PassCount passes;
+    Counters counters;
+    Work work;
+    std::vector<Diagnostic> diagnostics;
+    std::vector<bool> answers;  // to the frame's queries: a script for whoever runs a part of it again
+    double watched = 0;         // the watch's share of the time that was spent in regions
+    PassLog pass_log;  // where Instruments ask for it
+};
+
+}  // namespace strata::pipeline

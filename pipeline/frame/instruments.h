@@ -1,0 +1,30 @@
+// pipeline/frame/instruments.h - what a caller may add to a run in order to measure or to check it. No result bit, counter or pass
+// count depends on it; a run without instruments is the usual one.
+#pragma once
+#include <cstdint>
+
+namespace strata::pipeline {
+
+// What a pass may simulate though nobody calls for it: values of its fragments, and stages with a state that changes nothing.
+enum class Effect : std::uint8_t {
+    none,
+    color,
+    texcoord,
+    shader_z,
+    code,
+    facing,
+    loads,
+    alpha_test,
+    stencil_test,
+    depth_test,
+    blending
+};
+
+struct Instruments {
+    Effect once_more =
+        Effect::none;         // simulated once more than the state asks for, and never replayed: its cost can be timed
+    bool log_passes = false;  // fill FrameResult::pass_log
+    bool trust_idle = true;   // false: as if every algorithm promised Idle::no; finds promises that are not kept
+};
+
+}  // namespace strata::pipeline

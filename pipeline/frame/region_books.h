@@ -1,0 +1,61 @@
+// pipeline/frame/region_books.h - what a region writes down while its body runs: all that the executor needs to put the frame together.
+//
+// Rule     Counters and passes are kept by iteration, because a region that stops early counts its idle iteration again for every
+//          further one of the frame (executor.cpp). `script` comes from the executor, everything else from the region.
+// Tests    tests/pipeline/region/executor_test.cpp
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/formats/image.h"
+#include "pipeline/frame/counters.h"
+#include "pipeline/frame/diagnostics.h"
+#include "pipeline/frame/pass_log.h"
+
+namespace strata::pipeline {
+
+// What one iteration (or what stands before the first and after the last) did in one region.
+struct IterationRecord {
+    Counters counters;
+    PassCount passes;
+};
+
+struct Decision {
+    std::uint64_t own = 0;
+    Idle idle = Idle::no;
+    bool answer = false;
+};
+
+struct KeptLayer {
+    Image color, depth;  // of the region's rectangle
+};
+
+struct RegionBooks {
+    std::vector<bool>
+        script;  // the frame's answers that are known already; further ones are guessed from the region's own counts
+    std::vector<Decision> decisions;
+    std::vector<IterationRecord> records =
+        std::vector<IterationRecord>(1);  // [0] before the first iteration, then one each, at last what follows
+    int iterations = 0;
+    int idle_from = -1;   // index of the record whose counters every further iteration repeats; -1: never idle
+    bool probed = false;  // the last iteration was an idle probe
+    Target published;     // what the body leaves: its final colour
+    std::vector<KeptLayer> layers;
+    std::size_t idle_layers = 0;  // the last ones, kept while idle: empty
+    std::vector<Diagnostic> diagnostics;
+    PassLog pass_log;
+    std::uint64_t fragments_drawn = 0;
+    int geometry_passes = 0;
+    bool counts = true;         // false during the emulator's own work (opaque priming, capture)
+    IterationRecord uncounted;  // where that work is counted instead
+    std::size_t counted_record = 0;
+
+    [[nodiscard]] IterationRecord& record() noexcept { return counts ? records[counted_record] : uncounted; }
+    void begin_iteration();
+    void end_iterations();  // what is counted from now on follows the last iteration
+
+  private:
+    void join_tail();
+};
+
+}  // namespace strata::pipeline

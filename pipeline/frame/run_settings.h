@@ -1,0 +1,30 @@
+// pipeline/frame/run_settings.h - the choices that a run takes: how it is executed, when it ends, what it orders by, what it simulates.
+#pragma once
+#include <cstdint>
+
+namespace strata::pipeline {
+
+// Over the frame, or tile by tile; replay without fragment memory rasterizes every pass (pipeline/region/executor.h).
+enum class Execution : std::uint8_t { literal, replay };
+
+// How occlusion queries end a peel (keys-and-counts.md 3.1).
+enum class TerminationRule : std::uint8_t { exact, paper, any, ratio, fixed };
+struct Termination {
+    TerminationRule rule = TerminationRule::exact;
+    double ratio = 0;  // ratio: stop when the count is below ratio * width * height
+    int passes = 0;    // fixed: that many geometry passes, no query
+    friend bool operator==(const Termination&, const Termination&) = default;
+};
+
+// What an algorithm orders fragments by (keys-and-counts.md 1.1).
+enum class DepthKey : std::uint8_t { shader_z, stored_code };
+
+// Of a listing with errata: repaired as little as it takes, or as it was printed.
+enum class Formulation : std::uint8_t { resolved, published };
+
+enum class Effects : std::uint8_t {
+    needed,
+    all
+};  // all: simulate every stage even where nothing calls for it; same bits
+
+}  // namespace strata::pipeline

@@ -1,0 +1,119 @@
+#include "pipeline/region/region_shortcuts.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "pipeline/formats/image_words.h"
+#include "pipeline/frame/pass_counters.h"
+#include "pipeline/region/region_scratch.h"
+
+namespace strata::pipeline {
+
+using rasterizer::FragmentNeeds;
+
+void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
+    constexpr FragmentNeeds nothing{false, false, false, false, false, false};
+    auto add = [&](FragmentBatch& batch) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++coverage[batch.pixel[i]];
+    };
+    const Frame& frame = region_.frame_;
+    const rasterizer::Geometry& geometry = frame.transparent->geometry;
+    region_.rasterizer_->draw(geometry, region_.triangles_of(*frame.transparent), frame.key_request(), nothing,
+                              rasterizer::BatchSink{add});
+}
+
+// Twice as many triangles each time: a program that has had enough soon is asked soon, and few batches end early for it.
+void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
+                                     const bool& goes_on) {
+    const PreparedDraw& list = *region_.frame_.transparent;
+    const MaterialNeeds& materials = region_.needs_of_tile(list);
+    needs.color |= materials.color;  // MASK decides which fragments there are
+    needs.texcoord |= materials.texcoord && needs.color;
+    region_.samples_textures_ = needs.texcoord;
+    region_.takes_shadow_ = needs.color && list.needs.shadow != 0;
+    if (region_.takes_shadow_) needs.units |= list.needs.shadow;
+    rasterizer::TileRasterizer rows{band};
+    auto triangles = region_.triangles_of(list);
+    for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
+        part = std::min(part, triangles.size());
+        rows.draw(list.geometry, triangles.first(part), region_.frame_.key_request(), needs, sink);
+        triangles = triangles.subspan(part);
+    }
+}
+
+std::optional<RowSource> RegionShortcuts::row_source() const {
+    const PreparedDraw& list = *region_.frame_.transparent;
+    if (!region_.may_walk_rows(list) || region_.profile().raster.color != rasterizer::ColorInterpolation::exact_plane ||
+        region_.needs_of_tile(list) != MaterialNeeds{})
+        return {};
+    return RowSource{list.geometry, list.geometry.bin(region_.tile_), region_.frame_.key_request()};
+}
+
+std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& state, std::span<const Format> reads,
+                                                              Format color) {
+    const auto is = [&](Target t, Format format) {
+        return region_.is_one_sample(t) && region_.storage(t).format() == format;
+    };
+    const auto first_read = state.reads.begin();
+    if (region_.extent_ != Extent::tile || region_.frame_.effects != Effects::needed || !is(state.color[0], color) ||
+        !std::equal(reads.begin(), reads.end(), first_read, [&](Format format, Target t) { return is(t, format); }))
+        return {};
+    region_.begin_pass(state, Region::PassKind::full_screen);
+    ScreenWords words{{}, region_.at(state.color[0]).texels(0), region_.rect_.area()};
+    for (std::size_t r = 0; r < reads.size(); ++r) {
+        words.reads[r] = region_.at(state.reads[r]).texels(0);
+        region_.record().counters += of_loads(static_cast<std::uint64_t>(info(reads[r]).bytes_per_pixel), words.pixels);
+    }
+    return words;
+}
+
+Target RegionShortcuts::nearest_depth() {
+    region_.books_.counts = false;
+    const Target nearest = region_.make_depth();
+    region_.copy(region_.opaque_depth_, nearest);
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+    state.depth_target = nearest;
+    state.needs = {
+        .shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
+    static_cast<void>(region_.draw_depth(state));
+    region_.books_.counts = true;
+    return nearest;
+}
+
+void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba& color) {
+    TargetStorage& to = region_.at(target);
+    const auto codes = color_codes(to.format(), region_.profile().half_rounding, color);
+    RegionScratch& s = *region_.scratch_;
+    Lanes<std::uint32_t>& index = s.depth_stored;  // one lane of it
+    index[0] = pixel;
+    s.alive[0] = ~0u;
+    for (std::size_t c = 0; c < 4; ++c) s.codes[c][0] = codes[c];
+    to.scatter(index, s.alive, 1, 0, 0xfu, s.codes);
+}
+
+Arena& RegionShortcuts::arena() noexcept { return region_.scratch_->arena; }
+
+void RegionShortcuts::count(const Counters& counters, const PassCount& passes) {
+    region_.record().counters += counters;
+    region_.record().passes += passes;
+    region_.books_.geometry_passes += passes.geometry;
+}
+
+void RegionShortcuts::store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes) {
+    RegionScratch& s = *region_.scratch_;
+    std::iota(s.screen.pixel.begin(), s.screen.pixel.begin() + pixels, first);
+    std::fill_n(s.alive.begin(), pixels, ~0u);
+    region_.at(target).scatter(s.screen.pixel, s.alive, pixels, 0, 0xfu, codes);
+}
+
+void RegionShortcuts::write_image(Target target, Image& frame) const {
+    const rasterizer::Rect& whole = region_.frame_.rect();
+    const rasterizer::Rect& own = region_.rect_;
+    for (int y = 0; y < own.height(); ++y)
+        region_.read_row(region_.storage(target), y,
+                         &frame.codes[frame.index(own.x0 - whole.x0, own.y0 - whole.y0 + y)]);
+    finish_words();
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,93 @@
+// pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the machine's, in the
+// machine's own books. Closed forms (peeling/closed/closed_form.h), the kernels of rows and whole pixels, and the emulator's own looks.
+//
+// Rule     Nothing here is a pass, and nothing is counted unless `count` says so: the caller books what the passes that it replaces
+//          would have counted. An algorithm that is written as its paper says needs none of it.
+// Tests    tests/peeling/execution_test.cpp: every fast way against literal execution
+#pragma once
+#include <optional>
+#include <span>
+
+#include "pipeline/region/region.h"
+#include "rasterizer/walk/tile_rasterizer.h"
+
+namespace strata::pipeline {
+
+class Arena;
+
+// The targets of a full-screen pass as they are stored: for kernels that leave by themselves what the pass would leave.
+struct ScreenWords {
+    std::array<Texels, max_reads> reads;  // as PassState::reads; sample 0
+    Texels color;                         // target 0
+    std::size_t pixels = 0;
+};
+
+// What a walk over a region's fragments row by row needs (rasterizer/walk/row_walk-inl.h).
+struct RowSource {
+    const rasterizer::Geometry& geometry;
+    std::span<const std::uint32_t> triangles;
+    rasterizer::DepthRequest depth;
+};
+
+class RegionShortcuts {
+  public:
+    explicit RegionShortcuts(Region& region) noexcept : region_{region} {}
+
+    // `coverage[i]` += how many fragments pixel i of the region gets, before MASK.
+    void count_coverage(std::span<std::uint32_t> coverage);
+    // program(batch, outputs) for the list's fragments in `band`, a part of this region, after MASK; `pixel` counts row by row from
+    // the band's first. Once the program answers false it sees no more, and so does the caller.
+    template <class P>
+    [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
+    // The same fragments without batches, where rows have their depths and colours; whoever walks them says how many they were.
+    [[nodiscard]] std::optional<RowSource> row_source() const;
+    void looked_at(std::uint64_t fragments) noexcept { region_.books_.fragments_drawn += fragments; }
+    [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept {
+        return Region::alive_count(out, count);
+    }
+    // 1 everywhere, as before the first opaque triangle.
+    [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return region_.opaque_depth_is_cleared_; }
+
+    [[nodiscard]] Arena& arena() noexcept;                          // free again when the region is gone
+    void count(const Counters& counters, const PassCount& passes);  // what a pass would have counted
+    [[nodiscard]] static Count counted(std::uint64_t own) noexcept { return Count{own}; }
+    [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }
+
+    // A full-screen pass without a program, for targets of these formats: counts a pass that reads and writes every pixel and hands
+    // out its words. Nothing, and nothing counted, where a kernel must not stand in for the pass.
+    [[nodiscard]] std::optional<ScreenWords> full_screen_words(const PassState& state, std::span<const Format> reads,
+                                                               Format color);
+    // An rgba8 target's codes: a word a pixel, red lowest, and spare_words behind the last.
+    [[nodiscard]] Word* words(Target target) { return region_.at(target).depth_plane(0).words; }
+    // Consecutive pixels, all channels, sample 0.
+    void store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes);
+    // A pixel's colour, converted like a write without blending.
+    void store_pixel(Target target, std::uint32_t pixel, const Rgba& color);
+
+    // Depth of the nearest visible key: the frame's Z. Never counted.
+    [[nodiscard]] Target nearest_depth();
+    void write_image(Target target, Image& frame) const;  // into this region's place in an image of the frame
+
+  private:
+    void rasterize_band(rasterizer::FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
+                        const bool& goes_on);
+
+    Region& region_;
+};
+
+template <class P>
+bool RegionShortcuts::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
+    region_.books_.counts = false;
+    bool goes_on = true;
+    auto sink = [&](FragmentBatch& batch) {
+        if (!goes_on) return;
+        Outputs& out = region_.start_batch(batch);
+        region_.shade(*region_.frame_.transparent, batch, out);
+        goes_on = program(static_cast<const FragmentBatch&>(batch), static_cast<const Outputs&>(out));
+    };
+    rasterize_band(needs, band, rasterizer::BatchSink{sink}, goes_on);
+    region_.books_.counts = true;
+    return goes_on;
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,38 @@
+// rasterizer/base/simd_dispatch.h - the entry of Highway's table of a kernel that this thread's instruction set stands for. For
+// *_simd.cpp alone.
+//
+// Rule     HWY_EXPORT(f) makes the table; HWY_DYNAMIC_DISPATCH would read the place in it from a variable of the whole process,
+//          which the host program shares. `kernel_of(HWY_DISPATCH_TABLE(f))` finds the place by the same formula from
+//          chosen_simd(). A build for one set alone has a table of one entry.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "hwy/highway.h"
+#include "rasterizer/base/simd.h"
+
+namespace strata {
+
+[[nodiscard]] constexpr std::int64_t target_of(Simd simd) noexcept {
+    switch (simd) {
+        case Simd::sse4: return HWY_SSE4;
+        case Simd::avx2: return HWY_AVX2;
+        case Simd::avx512: return HWY_AVX3;
+        case Simd::scalar:
+        case Simd::best: break;
+    }
+    return 0;
+}
+
+template <class Kernel, std::size_t count>
+[[nodiscard]] Kernel kernel_of(Kernel const (&table)[count]) noexcept {
+    if constexpr (count == 1) {
+        return table[0];
+    } else {
+        const std::int64_t mask = (HWY_CHOSEN_TARGET_SHIFT(target_of(chosen_simd())) | HWY_CHOSEN_TARGET_MASK_SCALAR) &
+                                  HWY_CHOSEN_TARGET_MASK_TARGETS;
+        return table[hwy::Num0BitsBelowLS1Bit_Nonzero64(static_cast<std::uint64_t>(mask & ~std::int64_t{1}))];
+    }
+}
+
+}  // namespace strata

@@ -1,0 +1,57 @@
+#include "scenes/files/load_image_module.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+#include "scenes/files/system_error.h"
+
+namespace strata::scenes {
+namespace {
+
+constexpr const char* file_name = STRATA_IMAGE_MODULE;         // strata_images.so
+constexpr const char* installed_folder = STRATA_IMAGE_FOLDER;  // from the program's folder, when installed
+
+std::string last_reason() {
+    const char* reason = ::dlerror();
+    return reason != nullptr ? reason : "no reason given";
+}
+
+ImageModuleEntry entry_in(void* library) {
+    // POSIX lets an object pointer of dlsym() be a function's.
+    return reinterpret_cast<ImageModuleEntry>(::dlsym(library, image_module_symbol));
+}
+
+ImageModuleEntry find_entry() {
+    if (const ImageModuleEntry linked = entry_in(RTLD_DEFAULT)) return linked;
+    std::error_code ignored;
+    const auto folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+    for (const auto& path : {folder / file_name, folder / installed_folder / file_name}) {
+        if (!std::filesystem::exists(path, ignored)) continue;
+        void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // for as long as the process lives
+        const ImageModuleEntry entry = library != nullptr ? entry_in(library) : nullptr;
+        if (entry == nullptr) throw SystemError(path.string(), "load the image module", last_reason());
+        return entry;
+    }
+    throw SystemError(file_name, "load the image module",
+                      "expected in " + folder.string() + " or " +
+                          (folder / installed_folder).lexically_normal().string() +
+                          ", found in neither; image files need it");
+}
+
+const ImageModule& load() {
+    const ImageModule& module = *find_entry()();
+    if (module.version != std::string{STRATA_VERSION})
+        throw SystemError(file_name, "load the image module",
+                          "expected version " STRATA_VERSION ", found " + std::string{module.version});
+    return module;
+}
+
+}  // namespace
+
+const ImageModule& image_module() {
+    static const ImageModule& module = load();
+    return module;
+}
+
+}  // namespace strata::scenes

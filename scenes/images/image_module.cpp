@@ -1,0 +1,15 @@
+// scenes/images/image_module.cpp - the one symbol that the module exports.
+#include "scenes/images/image_module.h"
+
+#include "scenes/images/openimageio.h"
+
+extern "C" __attribute__((visibility("default"))) const strata::scenes::ImageModule* strata_image_module() {
+    using namespace strata::scenes;
+    static const ImageModule module{.version = STRATA_VERSION,
+                                    .write_png = images::write_png,
+                                    .write_exr = images::write_exr,
+                                    .write_exr_parts = images::write_exr_parts,
+                                    .read_exr = images::read_exr,
+                                    .decode = images::decode};
+    return &module;
+}

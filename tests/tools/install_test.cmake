@@ -1,0 +1,17 @@
+# Installs BUILD into PREFIX and runs the program from there: it must find its image module.
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${PREFIX} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${ARGN} ended with ${status}: ${out}${err}")
+  endif()
+  set(out ${out} PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${PREFIX})
+file(MAKE_DIRECTORY ${PREFIX})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX})
+run(${PREFIX}/${BIN}/strata render teapot --size 16x16 --no-audit -o out.exr)
+run(${PREFIX}/${BIN}/strata digest out.exr)
+if(NOT out MATCHES "color.*rgba8.*16x16")
+  message(FATAL_ERROR "expected the picture's digest, found ${out}")
+endif()

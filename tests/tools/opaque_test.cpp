@@ -1,0 +1,33 @@
+// Model: glTF files of one triangle whose material is opaque, cut out or transparent.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+namespace {
+
+void write_triangle(const std::string& path, const std::string& alpha_mode) {
+    std::ofstream(path) << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],"materials":[{"alphaMode":")"
+                        << alpha_mode << R"(","doubleSided":true}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[-1,-1,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
+}  // namespace
+
+TEST_CASE("a scene in which nothing is transparent is told, with what to type") {
+    const auto mode = GENERATE(as<std::string>{}, "OPAQUE", "MASK", "BLEND");
+    const Folder folder;
+    write_triangle(folder / "a.gltf", mode);
+    const Ended plain = run_strata(folder, {"render", "a.gltf", "--size", "16x16"});
+    CHECK(plain.status == 0);
+    CHECK(plain.err == (mode == "BLEND"
+                            ? ""
+                            : "strata: warning: a.gltf: nothing is transparent, so there is nothing to peel; "
+                              "--alpha 0.5 draws everything as half transparent\n"));
+    CHECK(run_strata(folder, {"render", "a.gltf", "--size", "16x16", "--alpha", "0.5"}).err.empty());
+}

@@ -1,0 +1,24 @@
+// Model: what the dynamic loader lists, and the peak that the system counts, of runs that touch no image file.
+#include <catch2/catch.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+TEST_CASE("a run without an image file takes less than 30 MB") {
+    const auto words = GENERATE(values<std::vector<std::string>>(
+        {{"algorithms"}, {"scenes"}, {"profiles", "--json", "ideal"}, {"render", "teapot", "--size", "64x64"}}));
+    const Folder folder;
+    const std::uint64_t peak = peak_of_strata(folder, words);
+    INFO(words[0] << ": " << peak << " bytes");
+    CHECK(peak > 0);
+    CHECK(peak < 30'000'000);
+}
+
+TEST_CASE("the program itself is linked with no image library") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {}, {.environment = {{"LD_TRACE_LOADED_OBJECTS", "1"}}});
+    CHECK(ended.out.find("libstdc++") != std::string::npos);
+    CHECK(ended.out.find("OpenImageIO") == std::string::npos);
+    CHECK(lines_of(ended.out).size() < 25);
+}

@@ -1,0 +1,54 @@
+#include "tools/strata/options/values.h"
+
+#include "peeling/render.h"
+#include "tools/strata/options/choices.h"
+#include "tools/strata/options/parse.h"
+
+namespace strata::tools {
+
+std::optional<int> to_count(std::string_view text) {
+    const auto value = to_int(text);
+    return value && *value >= 0 ? value : std::nullopt;
+}
+
+std::optional<float> to_share(std::string_view text) {
+    const auto value = to_number<float>(text);
+    if (!value || *value < 0.0f || *value > 1.0f) return std::nullopt;
+    return value;
+}
+
+std::optional<Size> to_size(std::string_view text) {
+    constexpr int max_side = 16384;
+    const auto parts = split(text, 'x');
+    if (parts.size() != 2) return std::nullopt;
+    const auto width = to_int(parts[0]), height = to_int(parts[1]);
+    if (!width || !height || *width < 1 || *height < 1 || *width > max_side || *height > max_side) return std::nullopt;
+    return Size{*width, *height};
+}
+
+std::optional<Orbit> to_orbit(std::string_view text) {
+    const auto angles = to_numbers<double>(text, 2);
+    if (!angles) return std::nullopt;
+    return Orbit{(*angles)[0], (*angles)[1]};
+}
+
+std::optional<pipeline::CompareEpsilon> to_epsilon(std::string_view text) {
+    constexpr std::string_view unit = "ulp";
+    if (text.ends_with(unit)) {
+        const auto ulps = to_count(text.substr(0, text.size() - unit.size()));
+        return ulps && *ulps <= 1 << 24 ? std::optional(pipeline::CompareEpsilon{0, *ulps}) : std::nullopt;
+    }
+    const auto absolute = to_number<double>(text);
+    if (!absolute || *absolute < 0 || *absolute > 1) return std::nullopt;
+    return pipeline::CompareEpsilon{*absolute, 0};
+}
+
+std::optional<peeling::VertexPaths> to_vertex_paths(std::string_view text, char separator) {
+    const auto parts = split(text, separator);
+    const auto choices = vertex_paths();
+    const auto first = to_choice(choices, parts.front()), further = to_choice(choices, parts.back());
+    if (parts.size() > 2 || !first || !further) return std::nullopt;
+    return peeling::VertexPaths{*first, parts.size() == 2 ? std::optional(*further) : std::nullopt};
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,34 @@
+// tools/strata/options/values.h - what the values of options mean, wherever they are given: on the command line, or in a plan of
+// `strata invariance`. Each function answers nothing for a text that it cannot use.
+#pragma once
+#include <optional>
+#include <string_view>
+
+#include "pipeline/stages/depth_compare.h"
+
+namespace strata::peeling {
+struct VertexPaths;
+}
+
+namespace strata::tools {
+
+struct Size {
+    int width = 0, height = 0;
+};
+
+struct Orbit {
+    double azimuth = 30, elevation = 20;  // degrees
+};
+
+[[nodiscard]] std::optional<int> to_count(std::string_view text);    // from 0
+[[nodiscard]] std::optional<float> to_share(std::string_view text);  // from 0 to 1
+[[nodiscard]] std::optional<Size> to_size(std::string_view text);    // WIDTHxHEIGHT, each from 1 to 16384
+[[nodiscard]] std::optional<Orbit> to_orbit(std::string_view text);  // AZ,EL
+
+// "1e-7", a part of the depth range, or "2ulp", at most 2^24.
+[[nodiscard]] std::optional<pipeline::CompareEpsilon> to_epsilon(std::string_view text);
+
+// The first pass's path, and with `separator` between another for further passes.
+[[nodiscard]] std::optional<peeling::VertexPaths> to_vertex_paths(std::string_view text, char separator);
+
+}  // namespace strata::tools
