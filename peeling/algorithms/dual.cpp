@@ -38,10 +38,10 @@ Drawn peel(Region& region, const DualTargets& t) {
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
     return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        PeelLanes place;
-        classify(compare, in, own.color(0), own.depth(2), place);
-        write_min_max(in, place.is_between, out.color[0]);
-        write_layers(in, own.color(1), place, out.color[1], out.color[2]);
+        PeelLanes side;
+        classify(compare, in, own.color(0), own.depth(2), side);
+        write_min_max(in, side.is_between, out.color[0]);
+        write_layers(in, own.color(1), side, out.color[1], out.color[2]);
     });
 }
 

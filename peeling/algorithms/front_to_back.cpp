@@ -20,7 +20,7 @@ using namespace pipeline;
 
 namespace {
 
-// What is nearest behind `peeled`. The first pass peels nothing: a flag, because below-zero depths do not exist in D24 (E23).
+// Draws the nearest fragment behind `peeled`. The first pass peels nothing: a flag, because below-zero depths do not exist in D24 (E23).
 Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool first) {
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};

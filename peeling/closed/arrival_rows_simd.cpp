@@ -51,7 +51,7 @@ struct AppendOf {
               filter_{raster::filter_of(depth_, triangle)},
               places_{to_.places} {}
 
-        // Of a large triangle, covered from the first lane on.
+        // Takes neighbours of a large triangle: they are covered from the first lane on.
         HWY_INLINE void operator()(const raster::Row& row, const raster::Weights& b) {
             const WordMask covered = hn::RebindMask(U32{}, row.covered);
             const WordVec count = hn::IfThenElseZero(covered, hn::LoadU(U32{}, to_.count + row.pixel));
@@ -62,7 +62,7 @@ struct AppendOf {
             if (HWY_UNLIKELY(!hn::AllFalse(U32{}, is_hidden))) hide(row.pixel, keys.key, is_hidden);
             put(row, words_of(keys.key, place_of(row, b)), is_visible, count);
         }
-        // Of a small one.
+        // Takes pixels of a small triangle, wherever they lie.
         HWY_INLINE void operator()(const raster::Pixels& pixels, const raster::Weights& b) {
             if (HWY_UNLIKELY(!has_places())) return;
             const Keys<U32> keys = keys_at(pixels, b);

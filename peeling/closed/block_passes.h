@@ -1,7 +1,7 @@
 // peeling/closed/block_passes.h - the passes of a peel over a block of columns without equal depths, on UNORM8 targets: the scalar twins
 // of block_passes_simd.cpp.
 //
-// Rule     Pass i takes row i from the front of a column, dual peeling also row i from its back, until they meet. Columns do not
+// Rule     Pass i takes level i of a column from the front, dual peeling also level i from its back, until they meet. Columns do not
 //          meet: the twins go from column to column, the vectors through many side by side; what is beyond a column's end
 //          changes nothing.
 //          Dual front: the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back: the
@@ -128,7 +128,7 @@ void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& bac
 void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding);
 // Sixteen words of an rgba8 target, red lowest.
 [[nodiscard]] BlockCodes codes_of(const std::uint32_t* words);
-// What the last quad of a peel stores there: the front over what is behind, alpha 1.
+// Stores there what the last quad of a peel stores: the front over the colour behind it, alpha 1.
 void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words);
 
 }  // namespace strata::peeling

@@ -47,7 +47,7 @@ class Columns {
     HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane) : block_{block}, lane_{lane} {
         visible_ = hn::LoadU(Words{}, &block.visible[lane]);
         alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
-        is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.depth)));
+        is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.height)));
     }
     HWY_INLINE void load(const BlockCodes& codes, WordVec (&to)[4]) const {
         for (std::size_t c = 0; c < 4; ++c) to[c] = hn::LoadU(Words{}, &codes[c][lane_]);
@@ -60,12 +60,12 @@ class Columns {
         WordVec front[4], back[4];
         load(front_codes, front);
         load(back_codes, back);
-        for (std::uint32_t pass = 0; 2 * pass < block_.depth; ++pass) {
+        for (std::uint32_t pass = 0; 2 * pass < block_.height; ++pass) {
             const WordMask has_near = hn::Lt(hn::Set(Words{}, 2 * pass), visible_);
-            blend_near(take(row(pass), has_near), has_near, front);
-            if (2 * pass + 1 == block_.depth) break;  // no column has a far one any more
+            blend_near(take(level(pass), has_near), has_near, front);
+            if (2 * pass + 1 == block_.height) break;  // no column has a far one any more
             const WordMask has_far = hn::Lt(hn::Set(Words{}, 2 * pass + 1), visible_);
-            const WordVec place = is_full_ ? row(block_.depth - 1 - pass) : far_places(pass, has_far);
+            const WordVec place = is_full_ ? level(block_.height - 1 - pass) : far_places(pass, has_far);
             blend_far(take(place, has_far), back);
         }
         store(front, front_codes);
@@ -75,8 +75,8 @@ class Columns {
     HWY_INLINE void front_alone(BlockCodes& front_codes) const {
         WordVec front[4];
         load(front_codes, front);
-        for (std::uint32_t pass = 0; pass < block_.depth; ++pass)
-            blend_front(take(row(pass), hn::Lt(hn::Set(Words{}, pass), visible_)), front);
+        for (std::uint32_t pass = 0; pass < block_.height; ++pass)
+            blend_front(take(level(pass), hn::Lt(hn::Set(Words{}, pass), visible_)), front);
         store(front, front_codes);
     }
 
@@ -85,18 +85,18 @@ class Columns {
         FloatVec channel[4];
     };
 
-    HWY_INLINE WordVec row(std::size_t k) const {
+    HWY_INLINE WordVec level(std::size_t k) const {
         WordVec place, key;
-        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.rows + k * block_lanes + lane_),
+        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.levels + k * block_lanes + lane_),
                              place, key);
         return place;
     }
     HWY_INLINE WordVec far_places(std::uint32_t pass, WordMask has) const {
         const Words d;
-        const WordVec row = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
+        const WordVec level = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
         const WordVec column = hn::Add(hn::Set(d, static_cast<std::uint32_t>(lane_)), hn::Iota(d, 0));
-        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(row), column));
-        return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.rows), hn::BitCast(Signed{}, word));
+        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(level), column));
+        return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.levels), hn::BitCast(Signed{}, word));
     }
 
     // With gathers, or where the places are one or follow each other, without.

@@ -33,17 +33,17 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
 }
 
 [[gnu::flatten]] void classify_lanes(const FloatLanes& z, const ColorLanes& min_max, const MaskLanes& opaque,
-                                     PeelLanes& place, std::size_t count) {
-    scalar::classify(z, min_max, opaque, place, padded(count));
+                                     PeelLanes& side, std::size_t count) {
+    scalar::classify(z, min_max, opaque, side, padded(count));
 }
 
 [[gnu::flatten]] void min_max_lanes(const FloatLanes& z, const MaskLanes& chosen, ColorLanes& out, std::size_t count) {
     scalar::write_min_max(z, chosen, out, padded(count));
 }
 
-[[gnu::flatten]] void layer_lanes(const ColorLanes& color, const ColorLanes& front, const PeelLanes& place,
+[[gnu::flatten]] void layer_lanes(const ColorLanes& color, const ColorLanes& front, const PeelLanes& side,
                                   ColorLanes& next_front, ColorLanes& back, std::size_t count) {
-    scalar::write_layers(color, front, place, next_front, back, padded(count));
+    scalar::write_layers(color, front, side, next_front, back, padded(count));
 }
 
 // Written out: the loop over the bits of n does not become vectors by itself.
@@ -101,9 +101,9 @@ void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std
 }
 
 void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
-              const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept {
-    if (simd_is_scalar()) return scalar::classify(in.shader_z, min_max, opaque, place, lanes(in));
-    kernel_of(HWY_DISPATCH_TABLE(classify_lanes))(in.shader_z, min_max, opaque, place, lanes(in));
+              const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& side) noexcept {
+    if (simd_is_scalar()) return scalar::classify(in.shader_z, min_max, opaque, side, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(classify_lanes))(in.shader_z, min_max, opaque, side, lanes(in));
 }
 
 void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
@@ -112,10 +112,10 @@ void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std:
     kernel_of(HWY_DISPATCH_TABLE(min_max_lanes))(in.shader_z, mask, out, lanes(in));
 }
 
-void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& place,
+void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& side,
                   pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept {
-    if (simd_is_scalar()) return scalar::write_layers(in.color, front, place, next_front, back, lanes(in));
-    kernel_of(HWY_DISPATCH_TABLE(layer_lanes))(in.color, front, place, next_front, back, lanes(in));
+    if (simd_is_scalar()) return scalar::write_layers(in.color, front, side, next_front, back, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(layer_lanes))(in.color, front, side, next_front, back, lanes(in));
 }
 
 void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,

@@ -6,7 +6,7 @@
 namespace strata::peeling {
 inline namespace strict {
 
-// What a one-layer peel may promise about a region whose count is 0. Such a pass leaves the opaque depth as what is peeled, and
+// The promise that a one-layer peel may give about a region whose count is 0. Such a pass leaves the opaque depth as what is peeled, and
 // a fragment that is stored before that but compared as behind it would have been found. Only a first pass that draws other
 // vertices and compares nothing may find nothing where the second finds such a fragment.
 [[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {

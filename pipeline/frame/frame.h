@@ -12,7 +12,7 @@
 
 namespace strata::pipeline {
 
-// What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
+// The arrays and the memory that replay may take for a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
 struct Replay {
     std::uint64_t bytes = 0;          // a region; 0: every pass rasterizes
     rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
@@ -46,8 +46,8 @@ struct Frame {
     bool trace = false;
     std::uint64_t trace_bytes = ~std::uint64_t{0};  // what a region's trace may take (pipeline/frame/trace.h)
     std::uint64_t list_bytes =
-        ~std::uint64_t{0};       // what an algorithm without a machine may keep of a region's fragments
-    bool nearest_depth = false;  // also make the frame's Z
+        ~std::uint64_t{0};                // what an algorithm without a machine may keep of a region's fragments
+    bool nearest_depth = false;           // also make the frame's Z
     Format average_count = Format::r16f;  // weighted_average's fragment count: r16f as in the paper, or r32f
 
     [[nodiscard]] rasterizer::Rect rect() const noexcept;  // of its viewport

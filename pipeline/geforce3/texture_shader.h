@@ -88,7 +88,7 @@ using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
 // The coordinates that the operations look at, as FragmentNeeds::units.
 [[nodiscard]] rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept;
 
-// What every fragment of a pass has in common.
+// The state that all fragments of a pass share.
 struct ShaderMachine {
     const DeviceProfile* profile = nullptr;
     rasterizer::DepthRequest depth;             // the buffer that a replaced depth is for
@@ -97,7 +97,7 @@ struct ShaderMachine {
     std::array<DepthTexels, rasterizer::texture_units> texels;  // of the stages with depth textures
 };
 
-// What one stage hands on.
+// The results that one stage hands to the next.
 struct StageResult {
     ColorLanes rgba;                              // the texture's colour, for the combiners
     std::array<rasterizer::Lanes<float>, 3> xyz;  // what a dot product multiplies with

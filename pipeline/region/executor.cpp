@@ -15,7 +15,7 @@ namespace strata::pipeline {
 
 namespace {
 
-// What stays of a region when its storage is gone.
+// The part of a region that is kept when its storage is given back.
 struct RegionRun {
     RegionBooks books;
     std::uint64_t fragments = 0;  // of all its runs

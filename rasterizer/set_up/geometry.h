@@ -76,7 +76,7 @@ struct SetupTriangle {
     bool front_facing = true;
 };
 
-// What was dropped on the way, exact counts; `first_non_finite` is a source triangle.
+// Exact counts of the triangles that were dropped, by reason; `first_non_finite` is a source triangle.
 struct SetupCounters {
     std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, non_finite = 0;
     std::uint32_t first_non_finite = 0;

@@ -48,7 +48,7 @@ HWY_INLINE VF map(const PlainVertexRules& r, std::size_t axis, VF c, VF w, VF in
     return hn::Add(hn::Mul(hn::Set(F{}, r.scale[axis]), divided), hn::Set(F{}, r.offset[axis]));
 }
 
-// What is snapped is a binary32 times a power of two: exact, as in window.h.
+// Snapping multiplies a binary32 by a power of two, which is exact (window.h).
 HWY_INLINE hn::Vec<I> snapped(const PlainVertexRules& r, VF c) {
     const VF scaled = hn::Mul(c, hn::Set(F{}, r.subpixels));
     return r.rounds ? hn::NearestInt(scaled) : hn::ConvertTo(I{}, scaled);

@@ -71,8 +71,8 @@ struct PixelWeights {
                 static_cast<double>(edge.at(pixel_centre(0, 0, subpixel_bits)))};
     }
     [[nodiscard]] static EdgePlane plane(const TriangleGroup& g, std::size_t k, std::size_t i) noexcept {
-        const auto number = [k](const TriangleGroup::Row& row) {
-            return std::int64_t{static_cast<std::int32_t>(row[k])};
+        const auto number = [k](const TriangleGroup::PerTriangle& all) {
+            return std::int64_t{static_cast<std::int32_t>(all[k])};
         };
         const std::int64_t right = number(g.step[i]), down = number(g.down[i]);
         const std::int64_t first = number(g.value[i]) + number(g.tie[i]);

@@ -59,7 +59,7 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
     return bytes[0];
 }
 
-// The rare ways below get copies: what a function elsewhere has seen the address of, the compiler keeps in memory.
+// The slow paths below take copies of the plane. If they took it by reference, the compiler would keep it in memory in the fast path, too.
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
     if (HWY_UNLIKELY(plane.is_constant()))
         return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
@@ -81,13 +81,13 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
     return hn::Load(F32{}, values);
 }
 
-// As the test LESS compares codes: those of binary32 as what they are.
+// The depth test LESS. Fixed-point codes are compared as integers; D32F codes are the bits of a binary32 and are compared as floats.
 HWY_INLINE RowMask nearer(hn::Vec<U32> code, hn::Vec<U32> stored, bool is_fixed) {
     return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored))
                     : hn::Lt(hn::BitCast(F32{}, code), hn::BitCast(F32{}, stored));
 }
 
-// What weights have in common by column, or by row.
+// The terms of the weights that depend on the column alone, or on the row alone.
 template <int count>
 class TermTable {
   public:
@@ -113,9 +113,9 @@ class RowWalk {
     HWY_INLINE RowWalk(State& state, const Geometry& geometry, const Rect& region)
         : state_{state}, geometry_{geometry}, region_{region}, rules_{group_rules(geometry, region)} {}
 
-    void draw(std::span<const std::uint32_t> list) {
-        const auto visit = [this](std::span<const std::uint32_t> triangles) HWY_ATTR { draw_group(triangles); };
-        for_each_group(geometry_, rules_, list, group_, visit);
+    void draw(std::span<const std::uint32_t> triangles) {
+        const auto visit = [this](std::span<const std::uint32_t> group) HWY_ATTR { draw_group(group); };
+        for_each_group(geometry_, rules_, triangles, group_, visit);
     }
 
   private:
@@ -161,7 +161,7 @@ class RowWalk {
         const U32 d;
         const I32 di;
         alignas(64) std::uint32_t numbers[(within_8 ? 64 : 256) + block_part];
-        coverage.list(numbers);
+        coverage.write_numbers(numbers);
         const int x0 = static_cast<int>(group_.x0[k]), y0 = static_cast<int>(group_.y0[k]);
         const auto first = hn::Set(d, static_cast<std::uint32_t>(pixel(x0, y0)));
         const auto width = hn::Set(d, static_cast<std::uint32_t>(region_.width()));
@@ -194,7 +194,7 @@ class RowWalk {
             columns[part] = at.column_terms(numbers_from(x0 + static_cast<int>(part * row_lanes)));
             row_terms.set(part * row_lanes, at.row_terms(numbers_from(y0 + static_cast<int>(part * row_lanes))));
         }
-        // What is written to the targets may be anything, for all that the compiler knows: nothing is read anew in the loop.
+        // Locals, because a store to a target might change a member, for all that the compiler knows: it would be read anew each time.
         const auto width = static_cast<std::size_t>(region_.width());
         const std::uint32_t first_row = coverage.first_row(), end_row = coverage.end_row(group_.height[k]);
         std::size_t first = pixel(x0, y0) + first_row * width;
