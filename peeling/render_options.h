@@ -52,7 +52,7 @@ struct RenderOptions {
     pipeline::Execution execution = pipeline::Execution::replay;
     // Bytes that replay may hold in captured fragments; and the audit as many, but no fewer than least_audit_memory.
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
-    std::optional<int> tile_size;                              // pixels; default: tile_size_of
+    std::optional<int> tile_size;  // pixels; default: tile_size_of
     int threads = 0;
     Simd simd = Simd::best;  // of all kernels of this renderer
     pipeline::Effects effects = pipeline::Effects::needed;

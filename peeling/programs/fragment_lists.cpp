@@ -3,8 +3,8 @@
 #include <bit>
 
 #include "peeling/programs/programs.h"
-#include "pipeline/region/region_shortcuts.h"
 #include "pipeline/region/region.h"
+#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 

@@ -24,7 +24,7 @@ struct FrameResult {
     std::vector<Diagnostic> diagnostics;
     std::vector<bool> answers;  // to the frame's queries: a script for whoever runs a part of it again
     double watched = 0;         // the watch's share of the time that was spent in regions
-    PassLog pass_log;  // where Instruments ask for it
+    PassLog pass_log;           // where Instruments ask for it
 };
 
 }  // namespace strata::pipeline

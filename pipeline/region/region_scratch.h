@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "pipeline/frame/pass.h"
+#include "pipeline/frame/trace.h"
 #include "pipeline/region/arena.h"
 #include "pipeline/region/fragment_store.h"
-#include "pipeline/frame/trace.h"
 
 namespace strata::pipeline {
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "peeling/registry.h"
 #include "peeling/render.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/camera.h"

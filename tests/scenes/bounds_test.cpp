@@ -10,7 +10,7 @@ using namespace strata::scenes;
 using strata::pipeline::DrawList;
 using strata::pipeline::Matrix;
 using strata::pipeline::Vec3;
-using Corner3 = std::array<double, 3>;
+using Corner3 = strata::Vec3d;
 
 // One mesh of these positions, all of them drawn, with an instance for each matrix.
 DrawList list_of(const std::vector<Vec3>& positions, const std::vector<Matrix>& models) {
@@ -27,7 +27,7 @@ constexpr Matrix identity = strata::pipeline::identity;
 
 TEST_CASE("the box of a list holds every drawn vertex of every instance, and touches them") {
     Matrix moved = identity, turned{0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 10, 20, 30, 1};  // x to 2y, y to -3x, z to 4z
-    moved[12] = -7;
+    moved[3][0] = -7;
     const Bounds one = bounds_of(list_of({{1, 2, 3}, {-4, 5, -6}, {0, 0, 0}}, {identity}));
     CHECK(one.lo == Corner3{-4, 0, -6});
     CHECK(one.hi == Corner3{1, 5, 3});
@@ -58,7 +58,7 @@ TEST_CASE("a vertex with a coordinate that is no number or infinite does not cou
     for (const float bad : {nan, infinity, -infinity})
         for (std::size_t i = 0; i < 3; ++i) {
             Vec3 broken{7, 7, 7};
-            broken[i] = bad;
+            broken[static_cast<int>(i)] = bad;
             for (const bool comes_first : {false, true}) {
                 const std::vector<Vec3> corners =
                     comes_first ? std::vector<Vec3>{broken, {1, 2, 3}} : std::vector<Vec3>{{1, 2, 3}, broken};
@@ -71,9 +71,9 @@ TEST_CASE("a vertex with a coordinate that is no number or infinite does not cou
 }
 
 TEST_CASE("a vertex that its instance moves beyond binary64 does not count, along whichever axis") {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
         Matrix huge = identity;
-        huge[5 * axis] = 1e308;
+        huge[axis][axis] = 1e308;
         const Bounds bounds = bounds_of(list_of({{3, 3, 3}, {0, 0, 0}}, {huge}));
         CHECK(bounds.lo == Corner3{0, 0, 0});
         CHECK(bounds.hi == Corner3{0, 0, 0});
@@ -83,16 +83,16 @@ TEST_CASE("a vertex that its instance moves beyond binary64 does not count, alon
 TEST_CASE("a vertex is transformed in binary64, from the first column to the translation") {
     // ((2^53 + 1) - 2^53) + 1/2 is 1/2, for the first sum is rounded; 2^53 + (1 - 2^53) would be 1, and the others' sum 0.
     Matrix m = identity;
-    for (std::size_t r = 0; r < 3; ++r) {
-        m[r] = 0x1p53;
-        m[4 + r] = 1;
-        m[8 + r] = -0x1p53;
-        m[12 + r] = 0.5;
+    for (int r = 0; r < 3; ++r) {
+        m[0][r] = 0x1p53;
+        m[1][r] = 1;
+        m[2][r] = -0x1p53;
+        m[3][r] = 0.5;
     }
     const Bounds bounds = bounds_of(list_of({{1, 1, 1}}, {m}));
     CHECK(bounds.lo == Corner3{0.5, 0.5, 0.5});
     CHECK(bounds.hi == Corner3{0.5, 0.5, 0.5});
     Matrix small = identity;
-    small[12] = 1e-300;
+    small[3][0] = 1e-300;
     CHECK(bounds_of(list_of({{0, 0, 0}}, {small})).hi[0] == 1e-300);  // binary32 has no such number
 }

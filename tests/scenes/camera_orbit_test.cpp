@@ -115,12 +115,12 @@ TEST_CASE("a scene's camera keeps its own shape of picture, and takes the image'
         for (const double image : {0.75, 1.0, 3.0}) {
             const SceneCamera camera{.yfov = 1, .aspect = own, .znear = 1, .zfar = 9};
             const auto m = camera_view(camera, image).projection;
-            CHECK(m[5] / m[0] == Approx(own > 0 ? own : image));
+            CHECK(m[1][1] / m[0][0] == Approx(own > 0 ? own : image));
         }
     SceneCamera flat{.perspective = false, .aspect = 7, .xmag = -2, .ymag = 5, .znear = 0, .zfar = 4};
-    flat.view[12] = 42;
+    flat.view[3][0] = 42;
     const View view = camera_view(flat, 3);
     CHECK(view.view == flat.view);
-    CHECK((view.projection[0] == -0.5 && view.projection[5] == 0.2 && view.projection[15] == 1));
-    CHECK((view.projection[10] == -0.5 && view.projection[14] == -1 && view.projection[11] == 0));
+    CHECK((view.projection[0][0] == -0.5 && view.projection[1][1] == 0.2 && view.projection[3][3] == 1));
+    CHECK((view.projection[2][2] == -0.5 && view.projection[3][2] == -1 && view.projection[2][3] == 0));
 }

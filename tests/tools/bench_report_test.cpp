@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
 #include "tests/tools/program.h"
 

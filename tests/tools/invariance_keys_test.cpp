@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
 #include "tools/strata/invariance/invariance_plan.h"
 

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "peeling/registry.h"
+
 namespace {
 
 using namespace strata::tools;

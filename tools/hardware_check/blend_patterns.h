@@ -1,8 +1,8 @@
 // tools/hardware_check/blend_patterns.h - what suite Blend_surface blends into its surfaces, in seven texel formats.
 //
-// Rule     A word's fields become 8 bits by repeating their upper bits; a missing alpha is 255. The wide pattern has four equal
-//          quarters of ramps, the 16-bit one ramps over the whole; alpha falls with the squared distance from the centre.
-//          Binary32 arithmetic, cut, as the test fills its memory.
+// Rule     A word's fields become 8 bits by repeating their upper bits; a missing alpha is 255. The wide pattern has
+//          four equal quarters of ramps, the 16-bit one ramps over the whole; alpha falls with the squared distance
+//          from the centre. Binary32 arithmetic, cut, as the test fills its memory.
 // Source   the test's parameters (abaire/nxdk_pgraph_tests, MIT); chip-fragment.md 5.
 // Tests    tests/tools/hardware_check/hardware_digests.txt
 #pragma once

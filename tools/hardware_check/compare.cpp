@@ -20,6 +20,7 @@ void for_each_pixel(F&& f) {
         for (int x = 0; x < picture_width; ++x) f(x, y);
 }
 
+// Label pixels are marked by a colour: a picture of depth words has none.
 bool reads_color(Reading reading) { return reading == Reading::color || reading == Reading::drawn; }
 bool contains(const rasterizer::Rect& r, int x, int y) { return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1; }
 
@@ -31,6 +32,7 @@ Pixel pixel_of(const Image& image, int x, int y) {
 std::uint32_t packed(const Pixel& p) { return p[0] | p[1] << 8 | p[2] << 16 | p[3] << 24; }
 std::uint32_t packed(const std::array<std::uint8_t, 4>& p) { return packed(Pixel{p[0], p[1], p[2], p[3]}); }
 
+// The word that stands for a pixel of the drawn picture; their_word() is the same for the capture.
 std::uint32_t our_word(const Picture& drawn, int x, int y) {
     switch (drawn.reading) {
         case Reading::color: return packed(pixel_of(drawn.image, x, y));
@@ -44,6 +46,8 @@ std::uint32_t our_word(const Picture& drawn, int x, int y) {
     return 0;  // unreachable: the enum is closed
 }
 
+// A capture is always rgba8. Depth is unpacked as compare.h says; without a stencil in the drawn
+// picture the capture's stencil byte counts as 0.
 std::uint32_t their_word(const Picture& drawn, const Image& capture, int x, int y) {
     const Pixel p = pixel_of(capture, x, y);
     switch (drawn.reading) {
@@ -64,6 +68,7 @@ bool is_label(const Picture& drawn, const Image& capture, int x, int y) {
     return reads_color(drawn.reading) && packed(pixel_of(capture, x, y)) == label;
 }
 
+// False for labels, which hold text, and for rectangles that the suite hides.
 bool is_compared(const Picture& drawn, const Image& capture, int x, int y) {
     return !is_label(drawn, capture, x, y) && !is_hidden(drawn, x, y);
 }

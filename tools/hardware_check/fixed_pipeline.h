@@ -1,11 +1,12 @@
 // tools/hardware_check/fixed_pipeline.h - the test suite's default camera through the fixed pipeline, to the window.
 //
-// Rule     Eye (0, 0, -7) looking along +z, field of view 45 degrees, 4:3, near 1, far 200. Window x = 320 + 320 * 1.81066 X / w,
-//          y = 240 - 240 * 2.41421 Y / w, w = z + 7, z = M (200 / 199) (1 - 1 / w); the viewport adds 0.53125 to x and y. In
-//          binary64, rounded once. The chip's own z: the matrix holds S = M (200 / 199) and 6 S, each rounded to binary32, and
-//          the vertex engine computes (z S + 6 S) (1 / (z + 7)) by its cuts and its reciprocal (nv20_arithmetic.h).
-// Source   chip-geometry.md 1.3, 5.4 and 6. The chip's z: [M] suite Depth_buffer_fixed_function at 24 bits, every word of
-//          327 quads but 24 of one strip, whose slope is steep (chip-depth.md 4).
+// Rule     Eye (0, 0, -7) looking along +z, field of view 45 degrees, 4:3, near 1, far 200; w = z + 7. Window
+//          x = 320 + 320 * 1.81066 X / w, y = 240 - 240 * 2.41421 Y / w, z = M (200 / 199) (1 - 1 / w); the viewport
+//          adds 0.53125 to x and y. In binary64, rounded once. The chip's own z: the matrix holds S = M (200 / 199)
+//          and 6 S, each rounded to binary32, and the vertex engine computes (z S + 6 S) (1 / (z + 7)) by its cuts
+//          and its reciprocal (nv20_arithmetic.h).
+// Source   chip-geometry.md 1.3, 5.4 and 6. The chip's z: [M] suite Depth_buffer_fixed_function at 24 bits, every
+//          word of 327 quads but 24 of one strip, whose slope is steep (chip-depth.md 4).
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include "rasterizer/base/nv20_arithmetic.h"

@@ -11,15 +11,18 @@ using pipeline::BlendEquation;
 using pipeline::BlendFactor;
 using pipeline::CompareFunc;
 
+// A word of a file name and its meaning.
 template <class T>
 using Word = std::pair<std::string_view, T>;
 
+// The word's meaning; nothing for a word that is not in the list.
 template <class T, std::size_t n>
 std::optional<T> look_up(const std::array<Word<T>, n>& words, std::string_view word) {
     const auto found = std::find_if(words.begin(), words.end(), [&](const Word<T>& w) { return w.first == word; });
     return found == words.end() ? std::nullopt : std::optional{found->second};
 }
 
+// Suites spell a function out or abbreviate it.
 constexpr std::array<Word<CompareFunc>, 17> compare_words{{{"Never", CompareFunc::never},
                                                            {"LessThan", CompareFunc::less},
                                                            {"Less", CompareFunc::less},
@@ -38,6 +41,7 @@ constexpr std::array<Word<CompareFunc>, 17> compare_words{{{"Never", CompareFunc
                                                            {"NE", CompareFunc::notequal},
                                                            {"GE", CompareFunc::gequal}}};
 
+// The words of Blend_tests; c is the constant colour.
 constexpr std::array<Word<BlendFactor>, 15> factor_words{{{"0", BlendFactor::zero},
                                                           {"1", BlendFactor::one},
                                                           {"srcRGB", BlendFactor::src_color},
@@ -62,6 +66,7 @@ constexpr std::array<Word<BlendEquation>, 7> equation_words{{{"ADD", BlendEquati
                                                              {"SADD", BlendEquation::signed_add},
                                                              {"SREVSUB", BlendEquation::signed_reverse_subtract}}};
 
+// The whole text must be a number: names end where a number ends.
 template <class T, class... Format>
 std::optional<T> parse_whole(std::string_view text, Format... format) {
     T value{};

@@ -15,6 +15,7 @@ inline bool take(std::string_view& name, std::string_view prefix) {
     name.remove_prefix(prefix.size());
     return true;
 }
+// The same at the other end of the name.
 inline bool take_last(std::string_view& name, std::string_view suffix) {
     if (!name.ends_with(suffix)) return false;
     name.remove_suffix(suffix.size());
@@ -28,9 +29,13 @@ inline std::string_view take_until(std::string_view& name, std::string_view sepa
     return word;
 }
 
-[[nodiscard]] std::optional<float> to_number(std::string_view text);               // decimal
-[[nodiscard]] std::optional<std::uint32_t> to_hexadecimal(std::string_view text);  // without 0x
+// A decimal number; the whole text counts. It may be infinite or NaN: callers check the range that
+// they draw.
+[[nodiscard]] std::optional<float> to_number(std::string_view text);
+// Hexadecimal digits without 0x, at most 32 bits.
+[[nodiscard]] std::optional<std::uint32_t> to_hexadecimal(std::string_view text);
 
+// The meanings of words in names; nothing for a word that upstream does not use.
 [[nodiscard]] std::optional<pipeline::CompareFunc> compare_func(
     std::string_view word);  // Never, LessThan ...; N, LT ...
 [[nodiscard]] std::optional<pipeline::BlendFactor> blend_factor(std::string_view word);  // 0, 1, srcRGB, 1-srcRGB ...

@@ -1,8 +1,8 @@
-// tools/hardware_check/picture.h - pictures that a public test suite drew on a GeForce3-class chip, drawn again from their
-// names: abaire/nxdk_pgraph_tests_golden_results, CC0 1.0.
+// tools/hardware_check/picture.h - pictures that a public test suite drew on a GeForce3-class chip, drawn again from
+// their names: abaire/nxdk_pgraph_tests_golden_results, CC0 1.0.
 //
-// Rule     A suite's file turns a name into draws; no picture is looked at. What the reference does not describe is not
-//          modelled, and says so. Pixels of a label (text that the test wrote over its picture) are not compared.
+// Rule     A suite's file turns a name into draws; no picture is looked at. What the reference does not describe is
+//          not modelled, and says so. Pixels of a label (text that the test wrote over its picture) are not compared.
 // Source   chip-fragment.md, chip-geometry.md, chip-depth.md: scene by scene.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
@@ -22,7 +22,8 @@ namespace strata::hardware_check {
 
 inline constexpr int picture_width = 640, picture_height = 480;
 
-// How a capture's bytes are read and compared.
+// How a capture's bytes are read and compared. Its channels also hold depth words, because the test
+// can save nothing but colours.
 enum class Reading : std::uint8_t {
     color,    // r g b a
     drawn,    // which pixels differ from `background`, nothing else
@@ -30,23 +31,34 @@ enum class Reading : std::uint8_t {
     depth24   // a 24-bit word in A R G, the stencil in B
 };
 
-// What may differ; 0 and 0: nothing. A pixel that differs by more than `units` (1/255 or depth units) is always too much.
+// What may differ; 0 and 0: nothing. A pixel that differs by more than `units` (1/255 or depth units) is always too
+// much.
 struct Bound {
     std::uint64_t pixels = 0;
     std::uint32_t units = 0;
     friend bool operator==(const Bound&, const Bound&) = default;
 };
 
+// What a suite drew for one name, and how it is to be compared.
 struct Picture {
     Reading reading = Reading::color;
-    pipeline::Image image{};    // rgba8, d16, d24 or d16f
-    pipeline::Image stencil{};  // beside depth24 where the test has one, else empty
+    // rgba8 for colours; else the depth buffer in its own format.
+    pipeline::Image image{};
+    // Beside depth24 where the test has a stencil, else empty.
+    pipeline::Image stencil{};
+    // The clear colour, r g b a; for Reading::drawn alone.
     std::array<std::uint8_t, 4> background{};
-    std::vector<rasterizer::Rect> hidden{};  // not compared, beside label pixels: (255, 255, 255, 0) in color pictures
+    // Half-open rectangles that are not compared. Label pixels need none: (255, 255, 255, 0) in a
+    // colour capture.
+    std::vector<rasterizer::Rect> hidden{};
     Bound bound{};
-    std::vector<std::uint64_t> reports{};  // what occlusion queries answered, in order
+    // Counts that the chip's occlusion queries would answer, in order. No capture holds them: they
+    // are told, not compared.
+    std::vector<std::uint64_t> reports{};
 };
 
+// The reason of a name that its suite does not have, which sets it apart from a picture that is not
+// modelled.
 inline constexpr std::string_view unknown_name_reason = "no picture of this name is known";
 
 // A picture, or nothing and the reason why it is not modelled.
@@ -57,10 +69,12 @@ struct Drawing {
 
 using Subjects = std::uint8_t;  // a set: bit s for rasterizer::Subject s
 
+// One of upstream's suites. Its function parses a name and draws that picture under a profile.
 struct Suite {
     std::string_view name;  // the folder's
     Drawing (*draw)(std::string_view picture, const pipeline::DeviceProfile& profile);
-    Subjects tells = 0;  // whether a hypothesis on a subject is right
+    // The subjects of open rules that its pictures can decide; 0: none.
+    Subjects tells = 0;
     // Of a suite whose test loaded images: with `textures`, the folder that holds them. `draw` does without.
     Drawing (*draw_with)(std::string_view picture, const pipeline::DeviceProfile& profile,
                          const std::string& textures) = nullptr;

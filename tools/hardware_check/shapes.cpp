@@ -4,6 +4,7 @@
 
 namespace strata::hardware_check {
 
+// AARRGGBB to r g b a.
 pipeline::PixelCode unpack(Argb c) {
     const auto byte = [c](int shift) { return static_cast<std::uint8_t>(c >> shift & 0xff); };
     return {byte(16), byte(8), byte(0), byte(24)};
@@ -57,6 +58,8 @@ pipeline::Texture as_texture(const pipeline::Image& image) {
 void place(pipeline::Surface& surface, const pipeline::Texture& image, float x, float y, pipeline::DrawState state) {
     const float width = static_cast<float>(image.width), height = static_cast<float>(image.height);
     TriangleSoup soup = box({x, y, x + width, y + height}, 0xffffffff);
+    // Texel (0, 0) lies at the rectangle's upper left corner, so every pixel centre meets a texel's
+    // centre where x and y are whole.
     for (ClipVertex& v : soup.vertices) v.texcoord = {v.x - x, v.y - y};
     state.texture = &image;
     static_cast<void>(surface.draw(state, std::move(soup)));

@@ -1,7 +1,7 @@
 // tools/hardware_check/shapes.h - window-space shapes in the vertex order that the chip gave them.
 //
-// Rule     QUADS are the triangles (0,1,2) and (0,2,3); rectangles start at their upper left corner, clockwise as seen. A
-//          packed colour is AARRGGBB.
+// Rule     QUADS are the triangles (0,1,2) and (0,2,3); rectangles start at their upper left corner, clockwise as
+//          seen. A packed colour is AARRGGBB.
 // Source   chip-geometry.md 2.1; chip-fragment.md 1.1.
 #pragma once
 #include <array>
@@ -16,15 +16,18 @@ using rasterizer::ClipVertex;
 using rasterizer::TriangleSoup;
 
 [[nodiscard]] pipeline::PixelCode unpack(Argb color);
+// r g b a, each code / 255 rounded to binary32.
 [[nodiscard]] std::array<float, 4> to_float(Argb color);
 
 // A vertex at window x, y, z.
 [[nodiscard]] ClipVertex at(float x, float y, float z, const std::array<float, 4>& color, float w = 1.0f);
 [[nodiscard]] inline ClipVertex at(float x, float y, Argb color) { return at(x, y, 0.0f, to_float(color)); }
 
+// Both append to the soup in submission order. No vertex is shared between triangles.
 void add_triangle(TriangleSoup& soup, const ClipVertex& a, const ClipVertex& b, const ClipVertex& c);
 void add_quad(TriangleSoup& soup, const std::array<ClipVertex, 4>& corner);
 
+// A rectangle in window pixels, y down.
 struct Box {
     float left, top, right, bottom;
 };

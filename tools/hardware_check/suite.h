@@ -4,8 +4,11 @@
 
 namespace strata::hardware_check {
 
+// The answer to a name that the suite does not have.
 inline const Drawing unknown_name{std::nullopt, std::string{unknown_name_reason}};
 
+// Each takes the name of a capture without its folder and ending. Names are untrusted: they come
+// from files. Each throws Refused where the profile lacks what the picture needs.
 Drawing draw_alpha_func(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_blend_tests(std::string_view name, const pipeline::DeviceProfile& profile);

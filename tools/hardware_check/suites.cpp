@@ -10,9 +10,12 @@ namespace {
 
 using rasterizer::Subject;
 
+// The set of two subjects, which may be the same one.
 constexpr Subjects set_of(Subject a, Subject b) {
     return static_cast<Subjects>(1u << static_cast<unsigned>(a) | 1u << static_cast<unsigned>(b));
 }
+// The sets of subjects that occur. A suite has one if its pictures can decide between values of an
+// open constant on that subject.
 constexpr Subjects colors = set_of(Subject::color, Subject::color);
 constexpr Subjects coordinates = set_of(Subject::coordinates, Subject::coordinates);
 constexpr Subjects quotients_and_coordinates = set_of(Subject::texture_depth, Subject::coordinates);
@@ -20,6 +23,7 @@ constexpr Subjects words_and_colors = set_of(Subject::window_depth, Subject::col
 
 }  // namespace
 
+// In ASCII order of the names.
 std::span<const Suite> suites() {
     static constexpr std::array all{
         Suite{"Alpha_func", draw_alpha_func, colors},

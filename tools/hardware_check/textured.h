@@ -1,6 +1,8 @@
-// tools/hardware_check/textured.h - quads whose corners bring coordinates of texture units, and combiners that show a register.
+// tools/hardware_check/textured.h - quads whose corners bring coordinates of texture units, and combiners that show a
+// register.
 //
-// Rule     Corners are listed as in shapes.h. The tests give all corners of a quad one w, so none is needed here: w is 1.
+// Rule     Corners are listed as in shapes.h. The tests give all corners of a quad one w, so none is needed here: w
+//          is 1.
 // Source   chip-depth.md 6 and 7, chip-geometry.md 4.
 #pragma once
 #include "pipeline/region/fragment_path.h"

@@ -6,11 +6,14 @@
 
 namespace strata::tools {
 
+// A subcommand as main() sees it. `app` belongs to the root.
 struct Command {
     CLI::App* app = nullptr;
-    std::function<int()> run;  // the exit status
+    // Runs with the parsed options and answers the exit status. A failure is an exception.
+    std::function<int()> run;
 };
 
+// Each adds its subcommand to the root. The options live as long as the Command.
 [[nodiscard]] Command add_render(CLI::App& root);
 [[nodiscard]] Command add_layers(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);

@@ -15,6 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// The command line.
 struct DigestOptions {
     std::vector<std::string> files;
     bool json = false;

@@ -15,11 +15,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// The command line of a list; `name` is given to `profiles` alone.
 struct ListOptions {
     bool json = false;
     std::string name;  // profiles alone
 };
 
+// Built-in profiles that do not refuse the algorithm.
 std::vector<std::string> profiles_that_run(const peeling::Algorithm& algorithm) {
     std::vector<std::string> names;
     for (const auto& profile : pipeline::builtin_profiles()) {
@@ -39,6 +41,7 @@ std::vector<std::string> needs_of(const peeling::Algorithm& algorithm) {
     return words;
 }
 
+// The depth that the algorithm compares, by its name in --json.
 std::string_view key_name(pipeline::DepthKey key) {
     return key == pipeline::DepthKey::shader_z ? "shader_z" : "stored_code";
 }
@@ -60,6 +63,7 @@ int list_algorithms(const ListOptions& options) {
                             {"exact", a.exact},
                             {"makes_layers", a.makes_layers},
                             {"profiles", profiles}});
+        // "all" instead of every name keeps the table narrow.
         const bool runs_everywhere = profiles.size() == pipeline::builtin_profiles().size();
         std::string where = runs_everywhere ? "all" : "";
         for (std::size_t i = 0; !runs_everywhere && i < profiles.size(); ++i) where += (i > 0 ? "," : "") + profiles[i];
@@ -112,6 +116,7 @@ int show_profile(const ListOptions& options) {
     return 0;
 }
 
+// A listing subcommand: its words, and what runs.
 struct List {
     std::string name, help, json_help, examples;
     int (*run)(const ListOptions&);

@@ -20,6 +20,7 @@ namespace {
 
 enum Exit : int { bad_input = 2, system_failed = 3 };
 
+// Prints the one line of a failure and answers its status.
 int fail(const std::string& sentence, Exit status) {
     std::fprintf(stderr, "strata: %s\n", sentence.c_str());
     return status;
@@ -40,6 +41,7 @@ std::vector<std::string> options_of(const CLI::App& app) {
     return names;
 }
 
+// The subcommand that was named, or the root if none was.
 const CLI::App& parsed_app(const CLI::App& root) {
     const auto subcommands = root.get_subcommands();
     return subcommands.empty() ? root : *subcommands.front();
@@ -76,6 +78,7 @@ std::string short_help(const std::vector<Command>& commands) {
            "More about a command: strata COMMAND --help\n";
 }
 
+// The first word is checked here: CLI11 would call a misspelt command an extra argument.
 int parse_and_run(CLI::App& root, const std::vector<Command>& commands, int count, char** words) {
     const auto names = names_of(commands);
     if (count < 2) {

@@ -1,7 +1,7 @@
 // tools/strata/parallel_items.h - a list worked off by all cores, with a bar.
 //
-// Rule     body(i) writes to places of item i alone. Of several items that fail, the first one's exception is thrown, whatever
-//          finished first.
+// Rule     body(i) writes to places of item i alone. Of several items that fail, the first one's exception is thrown,
+//          whatever finished first.
 // Tests    tests/tools/hardware_check_test.cpp
 #pragma once
 #include <atomic>
@@ -14,6 +14,8 @@
 
 namespace strata::tools {
 
+// Runs body(0) to body(count - 1) on all cores under a bar with this label, and returns when all
+// have ended. Every item runs, also after another one failed.
 void for_every(const std::string& label, std::size_t count, const auto& body) {
     Progress progress(label);
     std::atomic<std::size_t> done = 0;

@@ -8,9 +8,11 @@
 
 namespace strata::tools {
 
-enum class Remaining : std::uint8_t { hidden, shown };  // how much longer, if the rest goes like the part done
+// Whether the line tells how much longer it takes, if the rest goes like the part that is done.
+enum class Remaining : std::uint8_t { hidden, shown };
 
-// Shows nothing unless standard error is a terminal and a second has passed; wipes its line when it goes.
+// A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard
+// error is a terminal and a second has passed, and wipes its line when it ends.
 class Progress {
   public:
     explicit Progress(std::string label, Remaining remaining = Remaining::hidden);
@@ -18,7 +20,8 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
     ~Progress();
 
-    void show(double share);  // 0 to 1, from any thread
+    // `share` is the part that is done, 0 to 1; it may be called from any thread.
+    void show(double share);
 
   private:
     std::string label_;
@@ -26,7 +29,8 @@ class Progress {
     bool is_terminal_;
     std::chrono::steady_clock::time_point start_;
     std::mutex mutex_;
-    std::size_t shown_ = 0;  // characters on the line
+    // Characters on the line: what must be wiped.
+    std::size_t shown_ = 0;
     int percent_ = -1;
 };
 

@@ -20,6 +20,7 @@ struct InspectOptions {
     bool json = false;
 };
 
+// The words of glTF.
 constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
     switch (mode) {
         case pipeline::AlphaMode::opaque: return "OPAQUE";
@@ -34,6 +35,7 @@ struct Drawn {
     std::uint64_t instances = 0, triangles = 0;
 };
 
+// Counts the instances whose material has this mode; without a mode, all of them.
 Drawn drawn(const pipeline::DrawList& list, std::optional<pipeline::AlphaMode> mode) {
     Drawn sum;
     for (const auto& instance : list.instances) {
@@ -44,6 +46,7 @@ Drawn drawn(const pipeline::DrawList& list, std::optional<pipeline::AlphaMode> m
     return sum;
 }
 
+// In the order of the enum.
 constexpr std::array alpha_modes{pipeline::AlphaMode::opaque, pipeline::AlphaMode::mask, pipeline::AlphaMode::blend};
 
 ordered_json to_json(const scenes::Scene& scene) {
@@ -56,6 +59,7 @@ ordered_json to_json(const scenes::Scene& scene) {
         textures.push_back({{"name", texture.name}, {"width", texture.width}, {"height", texture.height}});
     }
     for (const auto& camera : scene.cameras) cameras.push_back(camera.name);
+    // JSON has no empty box: null.
     ordered_json bounds = nullptr;
     if (!scene.bounds.is_empty()) bounds = {{"lo", components(scene.bounds.lo)}, {"hi", components(scene.bounds.hi)}};
     const Drawn all = drawn(scene.list, std::nullopt);
@@ -78,12 +82,14 @@ std::string joined(const std::vector<std::string>& parts) {
     return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// Six digits: for people. The JSON has all of them.
 std::string bounds_text(const scenes::Bounds& bounds) {
     if (bounds.is_empty()) return "empty";
     return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", bounds.lo[0], bounds.lo[1], bounds.lo[2],
                        bounds.hi[0], bounds.hi[1], bounds.hi[2]);
 }
 
+// The same for people, a fact a row.
 std::string describe(const scenes::Scene& scene) {
     const Drawn all = drawn(scene.list, std::nullopt);
     std::vector<std::string> textures, cameras;

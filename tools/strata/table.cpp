@@ -11,11 +11,13 @@ namespace strata::tools {
 
 namespace {
 
+// UTF-8: bytes 10xxxxxx continue a character, every other byte starts one.
 std::size_t width_of(const std::string& text) {
     const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
 }
 
+// A row whose cells are padded to the columns' widths.
 std::string to_line(const std::vector<std::string>& cells, const std::vector<Column>& columns,
                     const std::vector<std::size_t>& widths) {
     std::string line;
@@ -24,6 +26,7 @@ std::string to_line(const std::vector<std::string>& cells, const std::vector<Col
         if (i > 0) line += "  ";
         line += columns[i].align == Align::right ? space + cells[i] : cells[i] + space;
     }
+    // A left column at the end would leave spaces there.
     line.erase(line.find_last_not_of(' ') + 1);
     return line + '\n';
 }
@@ -46,6 +49,7 @@ std::string to_text(const Table& table) {
 }
 
 void print(std::string_view text) {
+    // The flush is what finds a full disk: fwrite() fills a buffer first.
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!written) throw SystemError("standard output", "write", std::generic_category().message(errno));
 }

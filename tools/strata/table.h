@@ -14,6 +14,7 @@ struct Column {
     Align align = Align::left;
 };
 
+// Every row has a cell for every column.
 struct Table {
     std::vector<Column> columns;
     std::vector<std::vector<std::string>> rows;  // one cell a column

@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "pipeline/region/region_shortcuts.h"
 #include "tests/peeling/rendering.h"
 #include "tests/pipeline/frames.h"
 #include "tests/support/random_numbers.h"
-#include "pipeline/region/region_shortcuts.h"
 
 namespace {
 

@@ -1,8 +1,9 @@
 // Model: layers and traces typed by hand, one pixel a line.
 #include "peeling/audit/peel_errors.h"
-#include "peeling/audit/region_trace.h"
 
 #include <catch2/catch.hpp>
+
+#include "peeling/audit/region_trace.h"
 
 using namespace strata::peeling;
 using strata::pipeline::TraceEntry;

@@ -122,7 +122,7 @@ TEST_CASE("spare0 starts with texture 0's alpha, and sources that are not there 
 
 TEST_CASE("every stage has its own two constants, and the final stage those of its own") {
     const auto constants = [](float first, float second) {
-        return std::array{std::array{first, first, first, first}, std::array{second, second, second, second}};
+        return std::array{strata::Rgba(first), strata::Rgba(second)};
     };
     CombinerStage add;  // texture1 = primary + constant0, texture2 = constant1 * 1
     add.rgb.a = {In::primary_color}, add.rgb.b = one_input, add.rgb.c = {In::constant_color0}, add.rgb.d = one_input;

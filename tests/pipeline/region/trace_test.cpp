@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/random_numbers.h"
 #include "pipeline/region/region_shortcuts.h"
+#include "tests/support/random_numbers.h"
 
 namespace {
 

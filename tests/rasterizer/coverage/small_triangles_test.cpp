@@ -106,7 +106,7 @@ TEST_CASE(
     "sixteen triangles side by side have the boxes, areas and covered centres of each alone, under every tie rule") {
     const auto group = std::make_unique<TriangleGroup>();
     for (const strata::Simd simd : strata::available_simd()) {
-        REQUIRE(strata::choose_simd(simd));
+        const strata::SimdScope scope{simd};
         Random random{691};
         GroupErrors wrong;
         for (const int bits : {4, 8, 12})
@@ -145,7 +145,6 @@ TEST_CASE(
         CHECK(wrong.small_triangles > 500);
         CHECK(wrong.pixels > 10000);
     }
-    REQUIRE(strata::choose_simd(strata::Simd::best));
 }
 
 TEST_CASE("a group that is not full repeats its last triangle") {

@@ -55,11 +55,10 @@ TEST_CASE(
 TEST_CASE("two lanes of binary64 draw no rows: scalar and SSE4 take batches") {
     const Geometry g = random_triangles(672, 4, 8, {{}, {}});
     for (const strata::Simd simd : strata::available_simd()) {
-        REQUIRE(strata::choose_simd(simd));
+        const strata::SimdScope scope{simd};
         const bool expected = simd == strata::Simd::avx2 || simd == strata::Simd::avx512;
         CHECK(row_walk_suits(g, {}, {0, 0, 64, 40}) == expected);
     }
-    REQUIRE(strata::choose_simd(strata::Simd::best));
 }
 
 TEST_CASE(

@@ -24,7 +24,7 @@ Json rotation_of_length(double length) { return {0.6 * length, 0, 0, 0.8 * lengt
 
 double along(const Matrix& m, std::size_t a, std::size_t b) {  // of two rows of a view
     double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += m[4 * c + a] * m[4 * c + b];
+    for (std::size_t c = 0; c < 3; ++c) sum += m[c][a] * m[c][b];
     return sum;
 }
 
@@ -85,13 +85,13 @@ TEST_CASE("a camera's frame is square and rigid, however its node is sheared, st
         const double z_length = std::hypot(m[8], m[9], m[10]);
         double x_right = 0, x_up = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            right = right && std::fabs(view[4 * c + 2] - m[8 + c] / z_length) < 1e-12;  // its z is the node's
-            x_right += view[4 * c] * m[c];
-            x_up += view[4 * c + 1] * m[c];
+            right = right && std::fabs(view[c][2] - m[8 + c] / z_length) < 1e-12;  // its z is the node's
+            x_right += view[c][0] * m[c];
+            x_up += view[c][1] * m[c];
         }
         right = right && x_right > 0 && std::fabs(x_up) < 1e-9;  // its x lies in the plane of the node's x and z
         for (std::size_t r = 0; r < 3; ++r) {
-            const double eye = view[r] * m[12] + view[4 + r] * m[13] + view[8 + r] * m[14] + view[12 + r];
+            const double eye = view[0][r] * m[12] + view[1][r] * m[13] + view[2][r] * m[14] + view[3][r];
             right = right && std::fabs(eye) < 1e-9;
         }
         if (!right && wrong.empty()) wrong = matrix.dump();

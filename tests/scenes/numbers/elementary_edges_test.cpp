@@ -8,7 +8,6 @@
 
 #include "scenes/numbers/double_double.h"
 #include "scenes/numbers/elementary.h"
-#include "scenes/numbers/vector.h"
 
 namespace {
 
@@ -183,19 +182,4 @@ TEST_CASE("sums, products and quotients of double-doubles lose no more than some
     CHECK(product_off < some_bits);
     CHECK(quotient_off < some_bits);
     CHECK(is_nearest);
-}
-
-TEST_CASE("the products of a dot product are added from x to z, and a cross product follows the right hand") {
-    using strata::scenes::cross;
-    using strata::scenes::dot;
-    using strata::scenes::Vector;
-    CHECK(dot(Vector{1e16, 1, 1}, Vector{1, 1, -1e16}) == 0);  // (1e16 + 1) rounds
-    CHECK(dot(Vector{1e16, -1e16, 1}, Vector{1, 1, 1}) == 1);
-    CHECK(dot(Vector{2, 3, 5}, Vector{7, 11, 13}) == 112);
-    const Vector x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
-    CHECK(cross(x, y) == z);
-    CHECK(cross(y, z) == x);
-    CHECK(cross(z, x) == y);
-    CHECK(cross(y, x) == -z);
-    CHECK(cross(Vector{2, 3, 5}, Vector{7, 11, 13}) == Vector{-16, 9, 1});
 }

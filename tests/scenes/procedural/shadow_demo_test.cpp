@@ -17,7 +17,7 @@ using Homogeneous = std::array<double, 4>;
 Homogeneous times(const Matrix& m, const Homogeneous& p) {
     Homogeneous q{};
     for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t c = 0; c < 4; ++c) q[r] += m[4 * c + r] * p[c];
+        for (std::size_t c = 0; c < 4; ++c) q[r] += m[c][r] * p[c];
     return q;
 }
 
@@ -102,10 +102,10 @@ TEST_CASE("the light stands where the rule says, looks at the pot, and its map h
     CHECK(target[1] == Approx(0).margin(1e-12));
     CHECK(target[2] == Approx(-std::hypot(5.7, 5.7, 3.0)));
     const double cotangent = 1 / std::tan(75.0 / 2 * std::acos(-1.0) / 180);
-    CHECK(light.projection[0] == Approx(cotangent));
-    CHECK(light.projection[5] == Approx(cotangent));
-    CHECK(light.projection[10] == Approx(-20.0 / 16));  // near 2, far 18
-    CHECK(light.projection[14] == Approx(-72.0 / 16));
+    CHECK(light.projection[0][0] == Approx(cotangent));
+    CHECK(light.projection[1][1] == Approx(cotangent));
+    CHECK(light.projection[2][2] == Approx(-20.0 / 16));  // near 2, far 18
+    CHECK(light.projection[3][2] == Approx(-72.0 / 16));
     CHECK(light.size_px == 1024);
     CHECK(light.ambient == 0.4f);
     CHECK(light.offset_factor == 1.5f);

@@ -31,12 +31,15 @@ HeadlessContext::HeadlessContext(int threads) {
     require(display_ != EGL_NO_DISPLAY, "eglGetPlatformDisplay (surfaceless)");
     require(eglInitialize(display_, nullptr, nullptr) == EGL_TRUE, "eglInitialize");
     require(eglBindAPI(EGL_OPENGL_API) == EGL_TRUE, "eglBindAPI");
+    // 4.5 is the first version with direct state access and glClipControl, which this program is
+    // written in.
     constexpr std::array version{
         EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version.data());
     require(context_ != EGL_NO_CONTEXT, "eglCreateContext (4.5 core)");
     require(eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE, "eglMakeCurrent");
+    // Without this check a machine with a GPU driver would be timed as llvmpipe.
     require(renderer().starts_with("llvmpipe"), "the choice of the driver (found " + renderer() + ")");
 }
 

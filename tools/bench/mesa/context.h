@@ -4,18 +4,24 @@
 
 namespace strata::mesa {
 
-// Current on this thread until it ends. `threads` rasterize (LP_NUM_THREADS); std::runtime_error if there is no such
-// context.
+// The context is current on the thread that made it until the object ends. All OpenGL calls of the
+// program come from that thread.
 class HeadlessContext {
   public:
+    // llvmpipe rasterizes on `threads` threads (LP_NUM_THREADS). Throws std::runtime_error where
+    // EGL gives no such context or another driver than llvmpipe.
     explicit HeadlessContext(int threads);
     ~HeadlessContext();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;
 
-    [[nodiscard]] std::string renderer() const;  // "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6"
+    // Driver and version as a run reports them: "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core
+    // Profile) Mesa 22.3.6".
+    [[nodiscard]] std::string renderer() const;
 
   private:
+    // An EGLDisplay and an EGLContext, which are pointers, so that no other file needs EGL's
+    // headers.
     void* display_;
     void* context_ = nullptr;
 };

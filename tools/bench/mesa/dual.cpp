@@ -10,8 +10,11 @@ namespace strata::mesa {
 
 namespace {
 
+// Clear values. Min-max depths are stored as (-near, far), so that one MAX serves both; (-1, -1) is
+// below any depth and means empty.
 constexpr std::array<float, 4> zero{}, empty_min_max{-1, -1, 0, 0};
 
+// The first pass: each fragment's depth as both ends.
 constexpr auto min_max_text = R"(
 layout(location = 0) out vec2 min_max;
 void main() { min_max = vec2(-gl_FragCoord.z, gl_FragCoord.z); }
@@ -48,6 +51,8 @@ void main() {
 }
 )";
 
+// Blends the far layer of a pass into the back colours. A pixel without one has alpha 0 and is left
+// out.
 constexpr auto blend_back_text = R"(
 layout(binding = 0) uniform sampler2D back;
 layout(location = 0) out vec4 color;
@@ -57,6 +62,8 @@ void main() {
 }
 )";
 
+// Passes one sample for each pixel that has fragments between its ends; its colour is masked.
+// Counted by the query.
 constexpr auto what_is_left_text = R"(
 layout(binding = 0) uniform sampler2D min_max;
 layout(location = 0) out vec4 color;
@@ -66,6 +73,7 @@ void main() {
 }
 )";
 
+// The last pass: the front sum over the back colours, opaque.
 constexpr auto front_over_back_text = R"(
 layout(binding = 0) uniform sampler2D front;
 layout(binding = 1) uniform sampler2D back;
@@ -77,6 +85,8 @@ void main() {
 }
 )";
 
+// Everything that a run draws with. Pairs of targets take turns: a pass reads one of each and
+// writes the other.
 struct DualTargets {
     std::array<Handle, 2> min_max, front, initialize, peel;
     Handle back_dump, back, result, blend, finish, query;
@@ -103,12 +113,15 @@ struct DualTargets {
     }
 };
 
+// MAX applies to all three targets of a peel, min-max depths and colours alike; no depth test takes
+// part.
 void use_max() {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendEquation(GL_MAX);
 }
 
+// Pass 0: the nearest and the farthest depth of every pixel, and empty sums.
 void initialize(const GpuScene& scene, const DualTargets& t) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.peel[0].name());
     glClearBufferfv(GL_COLOR, 1, zero.data());
@@ -121,6 +134,8 @@ void initialize(const GpuScene& scene, const DualTargets& t) {
     scene.draw();
 }
 
+// One geometry pass: fragments at the ends of `last` become colours, those between them the next
+// ends.
 void peel_both_ends(const GpuScene& scene, const DualTargets& t, std::size_t last) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.peel[1 - last].name());
     glClearBufferfv(GL_COLOR, 0, empty_min_max.data());
@@ -133,13 +148,15 @@ void peel_both_ends(const GpuScene& scene, const DualTargets& t, std::size_t las
     scene.draw();
 }
 
-// OVER of the far layers; then the number of pixels that `min_max` leaves something to peel.
+// Blends the far layers with OVER. Answers for how many pixels min_max[`min_max`] still holds
+// depths: 0 ends the peel.
 std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.blend.name());
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     glBindTextureUnit(0, t.back_dump.name());
     draw_full_screen(t.blend_program);
+    // The query shall count and write nothing.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glBindTextureUnit(0, t.min_max[min_max].name());
     glBeginQuery(GL_SAMPLES_PASSED, t.query.name());
@@ -149,10 +166,13 @@ std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
     return samples_passed(t.query);
 }
 
+// Peels to the last layer, or to `max_passes` geometry passes. Answers the geometry passes.
 int dual(const GpuScene& scene, const DualTargets& t, int max_passes) {
     initialize(scene, t);
     int passes = 1;
     std::size_t last = 0;
+    // The exit asks for depths that are left, not for colours: it saves the empty pass that the
+    // paper's own query needs for even N (E11).
     for (bool left = true; left && passes < max_passes; ++passes) {
         peel_both_ends(scene, t, last);
         last = 1 - last;

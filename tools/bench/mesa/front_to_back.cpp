@@ -9,8 +9,11 @@ namespace strata::mesa {
 
 namespace {
 
+// Clear values: no colour; and no colour with all light still transmitted, which alpha holds in the
+// accumulated target.
 constexpr std::array<float, 4> zero{}, transparent{0, 0, 0, 1};
 
+// Layers are premultiplied, as UNDER needs them.
 constexpr auto peel_first_text = R"(
 layout(location = 0) out vec4 layer;
 void main() {
@@ -19,6 +22,8 @@ void main() {
 }
 )";
 
+// As the first pass, but without what is not behind the depth peeled before. Equal depths are one
+// layer.
 constexpr auto peel_next_text = R"(
 layout(binding = 0) uniform sampler2D peeled;
 layout(location = 0) out vec4 layer;
@@ -41,6 +46,8 @@ layout(location = 0) out vec4 copied;
 void main() { copied = vec4(texelFetch(source, ivec2(gl_FragCoord.xy), 0).rgb, 1.0); }
 )";
 
+// Everything that a run draws with. The two depth buffers take turns: a pass tests against one and
+// reads the other.
 struct PeelTargets {
     std::array<Handle, 2> depth, peel;
     Handle layer, accumulated, result, under, finish, query;
@@ -79,6 +86,8 @@ std::uint64_t peel_layer(const GpuScene& scene, const PeelTargets& t, int pass) 
     return samples_passed(t.query);
 }
 
+// UNDER: the layer is multiplied with the transmittance in destination alpha, which then shrinks by
+// 1 - alpha.
 void blend_under(const PeelTargets& t) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
     glEnable(GL_BLEND);
@@ -88,6 +97,8 @@ void blend_under(const PeelTargets& t) {
     draw_full_screen(t.under_program);
 }
 
+// Peels to the last layer, or to `max_passes` geometry passes. Answers the geometry passes, the
+// empty last one included.
 int front_to_back(const GpuScene& scene, const PeelTargets& t, int max_passes) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.under.name());
     glClearBufferfv(GL_COLOR, 0, transparent.data());

@@ -10,6 +10,8 @@ using rasterizer::ClipVertex;
 
 namespace {
 
+// Positions are in clip space already: the shader passes them on, so that no matrix product can
+// differ from Strata's.
 constexpr auto vertex_text = R"(
 layout(location = 0) in vec4 clip;
 layout(location = 1) in vec4 front;
@@ -27,6 +29,8 @@ void main() {
 }
 )";
 
+// OpenGL picks the side by the winding in the window, as Strata does; a one-sided soup saves the
+// second colour.
 constexpr auto shade_text = R"(
 layout(location = 0) in vec4 front_color;
 #ifdef TWO_SIDED
@@ -37,6 +41,7 @@ vec4 shade() { return front_color; }
 #endif
 )";
 
+// An immutable buffer with this content.
 template <class T>
 Handle make_buffer(std::span<const T> data) {
     GLuint name = 0;
@@ -57,6 +62,8 @@ std::vector<float> packed(std::span<const ClipVertex> vertices, bool two_sided) 
     return data;
 }
 
+// A vertex array for tightly packed attributes of four floats each, 16 bytes, at locations 0, 1,
+// ...
 Handle make_layout(const Handle& vertices, const Handle& indices, GLuint attributes) {
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
@@ -84,6 +91,8 @@ GpuScene::GpuScene(const rasterizer::TriangleSoup& soup)
 void GpuScene::add_runs(const rasterizer::TriangleSoup& soup) {
     for (const rasterizer::TriangleRun& run : soup.runs) {
         const auto count = static_cast<GLsizei>(run.index_count);
+        // Neighbouring runs are listed without a gap, so equal state is enough to draw them by one
+        // call.
         const bool joins =
             !runs_.empty() && runs_.back().double_sided == run.double_sided && runs_.back().mirrored == run.mirrored;
         if (joins)
@@ -95,6 +104,8 @@ void GpuScene::add_runs(const rasterizer::TriangleSoup& soup) {
 
 void GpuScene::draw() const {
     for (const Run& run : runs_) {
+        // A mirroring transform turns the winding around; Strata's own set-up takes it from the
+        // same flag.
         (run.double_sided ? glDisable : glEnable)(GL_CULL_FACE);
         glFrontFace(run.mirrored ? GL_CW : GL_CCW);
         glDrawElements(GL_TRIANGLES, run.count, GL_UNSIGNED_INT, reinterpret_cast<const void*>(run.first_byte));

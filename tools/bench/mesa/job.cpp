@@ -7,6 +7,7 @@ namespace strata::mesa {
 
 namespace {
 
+// A name and the function that makes its job.
 struct Maker {
     std::string name;
     Job (*make)(const GpuScene&, Size);

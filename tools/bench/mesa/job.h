@@ -9,19 +9,25 @@
 
 namespace strata::mesa {
 
+// One algorithm that is ready to run: only `draw` is timed.
 struct Job {
     std::string name;
-    pipeline::Format format{};  // of the pixels: one word a pixel, rows from the top
+    // Of the pixels. Each pixel is one word, and rows go from the top; rgba8 has r in the lowest
+    // byte.
+    pipeline::Format format{};
     // From the first clear to finished pixels in client memory; returns the geometry passes, at most `max_passes`.
     std::function<int(std::vector<std::uint32_t>& pixels, int max_passes)> draw;
 };
 
-[[nodiscard]] const std::vector<std::string>& job_names();  // depth, front_to_back, dual, weighted_average
+// depth, front_to_back, dual, weighted_average.
+[[nodiscard]] const std::vector<std::string>& job_names();
 
-// `scene` must outlive the job.
+// Makes all targets and programs of the algorithm, which keeps a reference to `scene`. Throws
+// std::invalid_argument for a name that is not in job_names().
 [[nodiscard]] Job make_job(const std::string& name, const GpuScene& scene, Size size);
 
-// single_pass.cpp; the last one counts the fragments of every pixel, without depth test
+// The jobs by themselves, for job.cpp. Those of single_pass.cpp come first; count_fragments()
+// answers the fragments of every pixel, without depth test.
 [[nodiscard]] Job depth_job(const GpuScene& scene, Size size);
 [[nodiscard]] Job weighted_average_job(const GpuScene& scene, Size size);
 [[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size);

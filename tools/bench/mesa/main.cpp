@@ -1,5 +1,5 @@
-// tools/bench/mesa/main.cpp - strata_mesa: a scene by OpenGL on llvmpipe, one line of JSON a job; fragments and pictures
-// compared with Strata's on request.
+// tools/bench/mesa/main.cpp - strata_mesa: a scene by OpenGL on llvmpipe, one line of JSON a job; fragments and
+// pictures compared with Strata's on request.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +22,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// The command line. Empty texts: not given. `budget` and `warm_up` are seconds.
 struct Options {
     std::string scene, camera, size = "1024x1024", profile = "llvmpipe", coverage, image;
     std::optional<float> alpha;
@@ -31,6 +32,7 @@ struct Options {
     bool check = false, compare = false;
 };
 
+// Throws InputError unless the text is WIDTHxHEIGHT and nothing else, both from 1.
 Size parse_size(const std::string& text) {
     Size size;
     char rest = 0;
@@ -40,6 +42,8 @@ Size parse_size(const std::string& text) {
     return size;
 }
 
+// Loads the scene and looks at it as `strata render` does: from a camera file, or from the orbit
+// 30,20.
 Subject load(const Options& options) {
     Subject subject;
     subject.size = parse_size(options.size);
@@ -52,6 +56,8 @@ Subject load(const Options& options) {
     return subject;
 }
 
+// The words that a job left as an image of its format: codes as they are for depth, four bytes a
+// word for colours.
 pipeline::Image as_image(const Job& job, Size size, const std::vector<std::uint32_t>& words) {
     pipeline::Image image(job.format, size.width, size.height);
     const auto channels = static_cast<std::size_t>(image.channels());
@@ -61,7 +67,8 @@ pipeline::Image as_image(const Job& job, Size size, const std::vector<std::uint3
     return image;
 }
 
-// Codes: 1/255 of a colour, units in the last place of a float depth.
+// The largest difference of two codes at the same place: 1/255 for colours. Codes of float depths
+// are their bits, which for depths from 0 to 1 differ by units in the last place.
 std::uint32_t largest_difference(const pipeline::Image& a, const pipeline::Image& b) {
     std::uint32_t largest = 0;
     for (std::size_t i = 0; i < a.codes.size(); ++i)
@@ -69,15 +76,18 @@ std::uint32_t largest_difference(const pipeline::Image& a, const pipeline::Image
     return largest;
 }
 
+// Wall-clock seconds of one run. Reading the pixels back ends it, so nothing is left in llvmpipe's
+// queues.
 double seconds_of(const Job& job, std::vector<std::uint32_t>& pixels, int most_passes, int& passes) {
     const auto start = std::chrono::steady_clock::now();
     passes = job.draw(pixels, most_passes);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Two passes compile every program and touch every target; the job goes on for `warm_up`. Then one time after another until
-// `budget` is spent.
+// Two passes compile every program and touch every target; the job goes on for `warm_up`. Then one time after another
+// until `budget` is spent.
 ordered_json measure(const Job& job, const Options& options, std::vector<std::uint32_t>& pixels) {
+    // More passes than any scene has layers.
     constexpr int all = 1000000;
     ordered_json seconds = ordered_json::array();
     int passes = 0;
@@ -91,6 +101,7 @@ ordered_json measure(const Job& job, const Options& options, std::vector<std::ui
     return {{"algorithm", job.name}, {"geometry_passes", passes}, {"seconds", seconds}};
 }
 
+// Measures a job and prints its line of JSON, at once: the caller pairs runs of two programs.
 void run(const Job& job, const Options& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
     std::vector<std::uint32_t> pixels;
     ordered_json line = measure(job, options, pixels);
@@ -142,6 +153,8 @@ int run_all(const Options& options) {
     const GpuScene scene(soup);
     for (const std::string& name : options.algorithms)
         run(make_job(name, scene, subject.size), options, subject, profile);
+    // --coverage alone writes the counts; a difference fails the run only where --check asks for
+    // it.
     const bool counts = options.check || !options.coverage.empty();
     return counts && check(scene, soup, options, subject.size, profile) > 0 && options.check ? 1 : 0;
 }

@@ -6,6 +6,7 @@ namespace strata::mesa {
 
 namespace {
 
+// A shader of this kind. Throws std::runtime_error with the compiler's log and the text.
 Handle compile(GLenum kind, const std::string& text) {
     const GLuint shader = glCreateShader(kind);
     Handle handle{shader, [](GLuint name) { glDeleteShader(name); }};

@@ -17,13 +17,15 @@ struct Size {
     }
 };
 
-// A name that `destroy` gives back.
+// An OpenGL name that `destroy` gives back. The context must still be current when the handle ends.
+// A default one owns nothing.
 class Handle {
   public:
     Handle() = default;
     Handle(GLuint name, void (*destroy)(GLuint)) : name_{name}, destroy_{destroy} {}
     Handle(Handle&& other) noexcept
         : name_{std::exchange(other.name_, 0)}, destroy_{std::exchange(other.destroy_, nullptr)} {}
+    // A swap: what this handle owned ends with `other`.
     Handle& operator=(Handle&& other) noexcept {
         std::swap(name_, other.name_);
         std::swap(destroy_, other.destroy_);
@@ -39,10 +41,14 @@ class Handle {
     void (*destroy_)(GLuint) = nullptr;
 };
 
+// A two-dimensional texture without mipmaps, nearest lookups, contents undefined. `format` is a
+// sized one such as GL_RGBA8.
 [[nodiscard]] Handle make_texture(GLenum format, Size size);
-[[nodiscard]] Handle make_query();  // GL_SAMPLES_PASSED
+// A query of GL_SAMPLES_PASSED.
+[[nodiscard]] Handle make_query();
 
-// Draw buffer k is color[k]; `depth` may be 0.
+// A framebuffer whose draw buffer k is color[k]; without colours it has none. `depth` may be 0.
+// Throws std::runtime_error if OpenGL calls it incomplete.
 [[nodiscard]] Handle make_framebuffer(std::initializer_list<GLuint> color, GLuint depth = 0);
 
 // `defines` stands before the vertex and the fragment text; std::runtime_error with the compiler's words.
@@ -54,7 +60,7 @@ void draw_full_screen(const Handle& program);
 // A program that runs once a pixel.
 [[nodiscard]] Handle make_full_screen_program(const std::string& fragment);
 
-// Waits for the answer.
+// The query's answer. The call waits until every draw inside the query is finished.
 [[nodiscard]] std::uint64_t samples_passed(const Handle& query);
 
 // Colour attachment 0, rows as they lie in memory: RGBA8 words, r in the lowest byte.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "peeling/registry.h"
 #include "peeling/render.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
@@ -12,6 +13,7 @@ namespace strata::mesa {
 
 namespace {
 
+// The OpenGL program has neither textures nor an alpha test, and no pass for opaque materials.
 void check_materials(const Subject& subject) {
     for (const pipeline::Material& m : subject.scene.list.materials) {
         if (m.texture >= 0) throw InputError(subject.scene.name, m.name, "a material without texture", "one with");
@@ -33,6 +35,7 @@ rasterizer::TriangleSoup clip_vertices(const Subject& subject) {
 std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
                                            Size size) {
     rasterizer::RasterState state;
+    // Row 0 is the top on both sides: strata_mesa sets GL_UPPER_LEFT.
     state.viewport = {0, 0, size.width, size.height};
     const rasterizer::Geometry geometry = rasterizer::set_up(soup, state, profile.raster, 0);
     std::vector<std::uint32_t> triangles(geometry.triangles.size()), counts(size.area());
@@ -40,6 +43,7 @@ std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup,
     auto count = [&counts](const rasterizer::FragmentBatch& batch) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++counts[batch.pixel[i]];
     };
+    // The whole frame as one tile. No values are needed: counting looks at coverage alone.
     rasterizer::TileRasterizer(state.viewport)
         .draw(geometry, triangles, {}, {.shader_z = false, .code = false, .color = false},
               rasterizer::BatchSink{count});
@@ -53,9 +57,11 @@ Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, 
     options.height = subject.size.height;
     options.alpha = subject.alpha;
     options.threads = subject.threads;
+    // The audit compares nothing here, and the nearest depth is wanted for `depth` alone.
     options.audit = false;
     options.nearest_depth = depth;
     peeling::Renderer renderer(subject.scene.list, subject.view, profile, options);
+    // Any algorithm finds the nearest depths; weighted_average takes one pass.
     auto result = renderer.render(*peeling::find_algorithm(depth ? "weighted_average" : job));
     return {depth ? std::move(result.frame.depth) : std::move(result.frame.color), result.frame.passes.geometry};
 }

@@ -13,6 +13,8 @@
 
 namespace strata::mesa {
 
+// What both programs draw: scene, camera, pixels. `threads` are those of either side; 0: all that
+// there are.
 struct Subject {
     scenes::Scene scene;
     pipeline::View view;
@@ -21,17 +23,22 @@ struct Subject {
     int threads = 0;
 };
 
-// InputError for what the OpenGL program does not draw: textures, MASK, and opaque materials without --alpha.
+// The vertices of the scene in clip space with their lit colours, by Strata's own transform: both
+// sides start from the same bits. Throws InputError for what the OpenGL program does not draw:
+// textures, MASK, and opaque materials without --alpha.
 [[nodiscard]] rasterizer::TriangleSoup clip_vertices(const Subject& subject);
 
-// Fragments of every pixel, rows from the top.
+// How many fragments of `soup` each pixel has under the profile's coverage rules, rows from the
+// top. No test drops any.
 [[nodiscard]] std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup,
                                                          const pipeline::DeviceProfile& profile, Size size);
 
+// Strata's picture of a job.
 struct Rendered {
     pipeline::Image image;  // depth: the nearest depth of every pixel; else the colours
     int geometry_passes = 0;
 };
+// `job` is a name of job_names(). No audit runs.
 [[nodiscard]] Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job);
 
 }  // namespace strata::mesa

@@ -1,5 +1,5 @@
-// tools/bench/mesa/single_pass.cpp - one walk over the triangles: a depth pass, weighted averages, a count of fragments.
-// weighted_average: Bavoil and Myers 2008; algorithms.md 7. Half-float sums and count, as Strata's.
+// tools/bench/mesa/single_pass.cpp - one walk over the triangles: a depth pass, weighted averages, a count of
+// fragments. weighted_average: Bavoil and Myers 2008; algorithms.md 7. Half-float sums and count, as Strata's.
 #include <array>
 #include <bit>
 #include <memory>
@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::array<float, 4> zero{};
 
+// The targets of job `depth`: depth alone, no colour is written.
 struct DepthTargets {
     Handle depth, framebuffer, program;
 
@@ -21,6 +22,8 @@ struct DepthTargets {
           program{scene.make_program("void main() {}")} {}
 };
 
+// The targets of job `weighted_average`: half-float sums of premultiplied colours and alphas, and
+// the number of fragments.
 struct AverageTargets {
     Handle sums, count, result, accumulate, finish, accumulate_program, finish_program;
 
@@ -54,6 +57,7 @@ void main() {
 )")} {}
 };
 
+// The geometry pass: everything is added up, in any order, without depth test.
 void accumulate(const GpuScene& scene, const AverageTargets& t) {
     glBindFramebuffer(GL_FRAMEBUFFER, t.accumulate.name());
     glClearBufferfv(GL_COLOR, 0, zero.data());
@@ -68,6 +72,7 @@ void accumulate(const GpuScene& scene, const AverageTargets& t) {
 
 }  // namespace
 
+// The binary32 depths are read back as they are; a word is their bits.
 Job depth_job(const GpuScene& scene, Size size) {
     const auto t = std::make_shared<DepthTargets>(scene, size);
     return {"depth", pipeline::Format::d32f, [&scene, size, t](std::vector<std::uint32_t>& pixels, int) {
@@ -99,6 +104,7 @@ Job weighted_average_job(const GpuScene& scene, Size size) {
 }
 
 std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size) {
+    // A binary32 count is exact up to 2^24 fragments a pixel.
     const Handle count = make_texture(GL_R32F, size), framebuffer = make_framebuffer({count.name()});
     const Handle program = scene.make_program("layout(location = 0) out float count;\nvoid main() { count = 1.0; }");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());

@@ -14,10 +14,14 @@ using pipeline::BlendEquation;
 using pipeline::BlendFactor;
 using pipeline::Format;
 
+// A surface of the name, and what stands in those bits of a pixel that hold neither colour nor
+// alpha.
 struct Layout {
     std::string_view name;
     Format format;
-    bool ones = false;  // bits that hold nothing are written as 1, and the texture unit reads them as alpha
+    // True: bits that hold nothing are written as 1, and the texture unit reads them as alpha.
+    // False: they are 0.
+    bool ones = false;
 };
 constexpr Layout layouts[] = {{"ARGB8", Format::rgba8},
                               {"R5G6B5", Format::r5g6b5},
@@ -28,17 +32,23 @@ constexpr Layout layouts[] = {{"ARGB8", Format::rgba8},
                               {"X_Z1RGB5", Format::x1r5g5b5, false},
                               {"X_O1RGB5", Format::x1r5g5b5, true}};
 
+// Pixels a side of an off-screen target (chip-fragment.md 5).
 constexpr int side = 128;
 
 // A filled target on which 22FFFFFF is blended by its destination alpha. The texture unit shows what is stored.
 pipeline::Image blended(const pipeline::DeviceProfile& profile, Format format, BlendFactor factor, Argb fill) {
     pipeline::Surface target{profile, {.color = format, .width = side, .height = side}};
     target.clear_color(unpack(fill));
+    // The destination's factor is zero, so the pixel becomes the source times its destination
+    // alpha: the picture shows that alpha as a grey.
     const pipeline::BlendTerm term{BlendEquation::add, factor, BlendFactor::zero};
     target.draw({.blend = {true, term, term}}, box({0, 0, side, side}, 0x22ffffff));
     return target.color();
 }
 
+// The alpha that a lookup finds for a stored alpha `code`. Seven stored bits read as (a >> 1), with
+// the unused bit above them; formats without alpha read the unused byte or bit, and R5G6B5, which
+// has none, reads 255.
 std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
     switch (layout.format) {
         case Format::x1a7r8g8b8: return static_cast<std::uint8_t>((layout.ones ? 0x80 : 0) | code >> 1);
@@ -49,7 +59,9 @@ std::uint8_t texel_alpha(const Layout& layout, std::uint8_t code) {
     }
 }
 
-// Colour bits that are not stored read as the upper ones again.
+// The surface as a texture. A 16-bit surface keeps the upper 5 or 6 bits of a colour and zeros
+// below; the texture unit fills those with the upper bits again, whereas blending reads the zeros
+// (chip-fragment.md 5).
 pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) {
     pipeline::Texture texture = as_texture(image);
     const auto widened = [](std::uint8_t v, int bits) { return static_cast<std::uint8_t>(v | v >> bits); };
@@ -64,10 +76,12 @@ pipeline::Texture as_texels(const pipeline::Image& image, const Layout& layout) 
     return texture;
 }
 
-// The upper half with the texture's own alpha, the lower one opaque.
+// Shows a target as the test does: its upper 64 rows blended by the alpha that the texture unit
+// reads, its lower 64 rows opaque.
 void show(pipeline::Surface& window, const pipeline::Texture& texture, float x, float y) {
     pipeline::Texture half = texture;
     half.height = side / 2;
+    // Half of the rows, four bytes a texel.
     const std::size_t bytes = static_cast<std::size_t>(side) * side / 2 * 4;
     half.texels.assign(texture.texels.begin(), texture.texels.begin() + static_cast<std::ptrdiff_t>(bytes));
     place(window, half, x, y, {.blend = pipeline::blend_mode::over});
@@ -76,13 +90,16 @@ void show(pipeline::Surface& window, const pipeline::Texture& texture, float x, 
     place(window, half, x, y + side / 2, {.blend = pipeline::blend_mode::over});
 }
 
-// Four copies of the pattern down the diagonal; in the corners grey, and a colour of alpha 0, once on the left, four times on
-// the right.
+// A target over which the pattern is blended four times, 12 pixels further right and down each
+// time, so that up to four copies overlap. In the right corners squares of 8 x 8 are blended four
+// times, in the left ones once: grey above, a colour of alpha 0 below. Errors of one rounding add
+// up where the same square is blended again.
 pipeline::Image patterned(const pipeline::DeviceProfile& profile, Format format, const pipeline::Blend& blend,
                           const TexelFormat& texels) {
     constexpr int swatch = 64, step = 12, corner = 8, copies = 4;
     constexpr float far = side - corner;
     pipeline::Surface target{profile, {.color = format, .width = side, .height = side}};
+    // r g b a of the test's background.
     target.clear_color({25, 25, 25, 178});
     const pipeline::Texture pattern = radial_pattern(texels, swatch);
     for (int k = 1; k <= copies; ++k) {
@@ -91,6 +108,7 @@ pipeline::Image patterned(const pipeline::DeviceProfile& profile, Format format,
     }
     const pipeline::Texture grey = flat_pattern(texels, corner, 0x44444444);
     const pipeline::Texture clear = flat_pattern(texels, corner, texels.is_wide ? 0x00ffff55 : 0x0ff5);
+    // k = 0 draws the left corners, the others the right ones.
     for (int k = 0; k < copies + 1; ++k) {
         const float x = k == 0 ? 0 : far;
         place(target, grey, x, 0, {.blend = blend});
@@ -99,19 +117,22 @@ pipeline::Image patterned(const pipeline::DeviceProfile& profile, Format format,
     return target.color();
 }
 
+// The destination's factor in names with _Add_; the source's is always SrcA.
 std::optional<BlendFactor> added_factor(std::string_view name) {
     if (name == "1-SrcA") return BlendFactor::one_minus_src_alpha;
     if (name == "DstA") return BlendFactor::dst_alpha;
     return std::nullopt;
 }
 
+// Null for a name that no surface has.
 const Layout* find_layout(std::string_view name) {
     const auto* const found =
         std::find_if(std::begin(layouts), std::end(layouts), [&](const Layout& l) { return l.name == name; });
     return found == std::end(layouts) ? nullptr : found;
 }
 
-// Seven tiles, shown opaque.
+// One tile a texel format, four a row, each an own target of `layout_name`. Tiles are shown with
+// alpha 255: the picture is about colours.
 Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layout_name, std::string_view factor_name) {
     const Layout* const layout = find_layout(layout_name);
     const auto factor = added_factor(factor_name);
@@ -132,6 +153,8 @@ Drawing draw_added(const pipeline::DeviceProfile& profile, std::string_view layo
 }  // namespace
 
 Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile& profile) {
+    // Both kinds of names hold factor and format, in opposite order: DstAlpha_<format>, but
+    // <format>_Add_SrcA_<factor>.
     constexpr std::string_view added = "_Add_SrcA_";
     if (const std::size_t place = name.find(added); place != std::string_view::npos)
         return draw_added(profile, name.substr(0, place), name.substr(place + added.size()));
@@ -142,6 +165,7 @@ Drawing draw_blend_surface(std::string_view name, const pipeline::DeviceProfile&
     if (layout == nullptr) return unknown_name;
     pipeline::Surface window{profile, {}};
     window.clear_color(unpack(0xff555555));
+    // Eight targets: the alphas 00, 40, 80 and FF over black above, the same over blue below.
     for (int k = 0; k < 8; ++k) {
         constexpr Argb alphas[] = {0x00000000, 0x40000000, 0x80000000, 0xff000000};
         const Argb fill = alphas[k % 4] | (k < 4 ? 0x000000 : 0x0000ff);

@@ -1,5 +1,6 @@
-// Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads. chip-fragment.md 9.
-// All equal; the checkerboard behind two of them is a test of texture coordinates that are whole numbers in exact arithmetic.
+// Suite Combiner: CombinerOps, Flags, Mux, SpecialInputs: register combiners on flat quads. chip-fragment.md 9. All
+// equal; the checkerboard behind two of them is a test of texture coordinates that are whole numbers in exact
+// arithmetic.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/suite.h"
@@ -18,19 +19,23 @@ using pipeline::Surface;
 using Reg = pipeline::CombinerRegister;
 
 constexpr pipeline::DrawState over{.blend = pipeline::blend_mode::over};
+// 255 - 0: the constant 1 of a stage's inputs.
 constexpr CombinerInput one{.source = Reg::zero, .mapping = CombinerMapping::unsigned_invert};
 constexpr CombinerInput constant0{.source = Reg::constant_color0}, constant1{.source = Reg::constant_color1};
-// In an alpha portion: a colour input's blue.
+// An input's blue, for an alpha portion (combiners.md 2.1).
 constexpr CombinerInput blue(CombinerInput input) {
     input.component = CombinerComponent::blue;
     return input;
 }
 
+// Values of 8-bit codes, 0 to 255, as the combiners' constants take them: they come back to the
+// same codes.
 Rgba codes(int r, int g, int b, int a) {
     const auto value = [](int code) { return static_cast<float>(code) / 255.0f; };
     return {value(r), value(g), value(b), value(a)};
 }
 
+// Draws the soup through these combiners alone: no texture shader, blending OVER.
 void draw(Surface& surface, const Combiners& combiners, const TriangleSoup& soup) {
     const pipeline::FragmentPath path{{}, combiners};
     pipeline::DrawState state = over;
@@ -38,13 +43,15 @@ void draw(Surface& surface, const Combiners& combiners, const TriangleSoup& soup
     surface.draw(state, soup);
 }
 
-// Through the fixed pipeline, to a window rectangle.
+// A white rectangle at window x, y in pixels, upper left corner first. The fixed pipeline adds its
+// viewport offset.
 TriangleSoup rectangle(float x, float y, float width, float height) {
     const float left = x + viewport_offset, top = y + viewport_offset;
     return box({left, top, left + width, top + height}, 0xffffffff);
 }
 
-// Cells of 20 x 15 pixels: 8 x 8 texels of 256 x 256.
+// The checkerboard behind CombinerOps and SpecialInputs: 256 x 256 texels in cells of 8, spread
+// over the window, so that a cell covers 20 x 15 pixels.
 void draw_checkerboard(Surface& surface) {
     constexpr int texels = 256, cell = 8;
     pipeline::Texture board;
@@ -57,14 +64,17 @@ void draw_checkerboard(Surface& surface) {
             board.texels.insert(board.texels.end(), {grey, grey, grey, 255});
         }
     TriangleSoup soup = rectangle(0, 0, picture_width, picture_height);
+    // The offset of 0.53125 moves the corners, so 1 tells the near sides from the far ones.
     for (ClipVertex& v : soup.vertices) v.texcoord = {v.x < 1 ? 0.0f : float{texels}, v.y < 1 ? 0.0f : float{texels}};
     pipeline::DrawState state = over;
     state.texture = &board;
     surface.draw(state, std::move(soup));
 }
 
-// Six quads of the test's world, four of them in the upper row.
+// Quad `number`, 0 to 5, of the test's grid of world points: four in the upper row, two in the
+// lower one.
 TriangleSoup world_quad(int number) {
+    // World units. The lower row lies further down by a quad and four gaps.
     constexpr double width = 1.3, height = 3.4 / 3.0, gap = 0.1, z = 1;
     const double left = -2.75 + (width + gap) * (number % 4), top = 1.75 - (height + 4 * gap) * (number / 4);
     const auto corner = [&](double x, double y) {
@@ -79,9 +89,11 @@ TriangleSoup world_quad(int number) {
     return soup;
 }
 
+// The clear colour of Mux and Flags.
 constexpr Argb dark = 0xff303030;
 
-// spare0's alpha chooses between red and blue.
+// The selector is spare 0's alpha: by its lowest bit, or by its highest. Unset, the sum is AB, red;
+// set, it is CD, blue. The alphas 82, 81 and 0 have both answers in each mode (chip-fragment.md 9).
 Picture mux(const pipeline::DeviceProfile& profile) {
     struct Case {
         int alpha;
@@ -107,7 +119,7 @@ Picture mux(const pipeline::DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
-// One general stage that leaves `ab` and `cd` in registers, and a final one.
+// Combiners of one general stage with this rgb portion and constant 0, and of the final stage.
 Combiners sum_of(const CombinerPortion& rgb, const Rgba& constant, const FinalCombiner& final_stage) {
     Combiners combiners;
     combiners.stages.resize(1);
@@ -117,7 +129,9 @@ Combiners sum_of(const CombinerPortion& rgb, const Rgba& constant, const FinalCo
     return combiners;
 }
 
-// The final stage's sum of spare0 and secondary colour, clamped or not, with either of them inverted.
+// Six quads: the final stage's sum of spare 0 and secondary colour without a flag, clamped, and
+// with either operand inverted. The first two are halved, because only half of a sum above 255
+// tells whether it was clamped: 127 * 510 / 255 is 254, not 127.
 Picture flags(const pipeline::DeviceProfile& profile) {
     const Rgba half = codes(127, 127, 127, 127), most = codes(191, 191, 191, 191);
     const CombinerPortion both{.a = one, .b = one, .c = one, .d = one, .ab = Reg::secondary_color, .cd = Reg::spare0};
@@ -139,9 +153,11 @@ Picture flags(const pipeline::DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
+// Pixels: where CombinerOps and SpecialInputs have their squares.
 constexpr float quad_side = 64, quad_top = 74, quad_step = 72, left_column = 200, right_column = 500;
 
-// Bias and scale of a general stage; the left half is opaque, the right one shows what became of alpha.
+// Each pair of bias and scale on the constant (25, 63, 255, 127). The left half of a square is
+// opaque, the right one shows alpha, which the alpha portion makes of the constant's blue.
 Picture combiner_ops(const pipeline::DeviceProfile& profile) {
     using pipeline::CombinerBias;
     using pipeline::CombinerScale;
@@ -160,6 +176,7 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
         const CombinerPortion rgb{.a = constant0, .b = one, .ab = Reg::spare0, .scale = scale, .bias = bias};
         CombinerPortion alpha = rgb;
         alpha.a = blue(constant0);
+        // Five squares in the left column, the sixth at the top of the right one.
         const float x = k < 5 ? left_column : right_column, y = quad_top + quad_step * static_cast<float>(k % 5);
         for (const bool opaque : {true, false}) {
             Combiners combiners = show(Reg::spare0, opaque ? Reg::zero : Reg::spare0);
@@ -170,7 +187,9 @@ Picture combiner_ops(const pipeline::DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
-// The final stage's product of E and F, and its sum of spare0 and secondary colour.
+// Four squares: the final stage's product of E and F; its sum of spare 0 and secondary colour; the
+// same with either inverted. No sum is clamped by the flag; the final result is clamped to
+// 0..255 in any case.
 Picture special_inputs(const pipeline::DeviceProfile& profile) {
     Combiners product;
     product.final_stage = {.d = {.source = Reg::e_times_f},
@@ -204,6 +223,7 @@ Drawing draw_combiner(std::string_view name, const pipeline::DeviceProfile& prof
     if (name == "Flags") return {flags(profile), {}};
     if (name == "Mux") return {mux(profile), {}};
     if (name == "SpecialInputs") return {special_inputs(profile), {}};
+    // Names of the suite whose scenes chip-fragment.md 9 does not describe.
     for (const std::string_view known : {"AlphaFromBlue", "ColorAlphaIndependence", "Independence", "SignedCombinerOps",
                                          "SignedPassThroughPipeline", "SignedToUnsignedMapping", "UnboundTexSampler"})
         if (name == known) return {std::nullopt, "what it draws is not described"};

@@ -1,5 +1,6 @@
-// Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and Depth_buffer_fixed_function, the same without
-// DepthFmt_. Slopes of depth over small and wide quads. chip-depth.md 2, chip-geometry.md 5.4.
+// Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and
+// Depth_buffer_fixed_function, the same without DepthFmt_. Slopes of depth over small and wide quads.
+// chip-depth.md 2, chip-geometry.md 5.4.
 #include <vector>
 
 #include "rasterizer/rules/depth_code.h"
@@ -13,13 +14,15 @@ namespace {
 
 using pipeline::DepthFormat;
 
+// What a name says. `clear` is a code of `format`; `is_float` is FZy, and `shows_depth` is _ZB.
 struct Setting {
     DepthFormat format = DepthFormat::d16;
     std::uint32_t clear = 0;
     bool is_float = false, shows_depth = false;
 };
 
-// z16_Cn_FZn_M00ffff; compression changes no stored value.
+// Parses names such as z16_Cn_FZn_M00ffff. C says whether the chip compresses the buffer, which
+// changes no stored value. A clear word above the format's greatest code is no name of the suite.
 std::optional<Setting> parse(std::string_view name) {
     Setting s;
     s.shows_depth = take_last(name, "_ZB");
@@ -38,32 +41,43 @@ std::optional<Setting> parse(std::string_view name) {
 
 using Color = std::array<float, 4>;
 
-// Corners in the order upper left, upper right, lower right, lower left.
+// A quad with its own depth at every corner. Corners stand in the order upper left, upper right,
+// lower right, lower left.
 struct Slope {
     Box where;
+    // Window z in the buffer's own values; for world_slopes() world z.
     std::array<float, 4> z;
     std::array<Color, 4> color{};
 };
 
 [[nodiscard]] Color rgb(float r, float g, float b) { return {r, g, b, 1}; }
+// A grey from 0.25 to 1 for a share of the depth range from 0 to 1.
 [[nodiscard]] Color grey(float share) {
     const float v = 0.25f + share * 0.75f;
     return rgb(v, v, v);
 }
 
-// Window z of code `k`, in the buffer's own values.
+// Window z of code `k`, in the buffer's own values. A fixed format counts codes, a float format
+// holds another number.
 float value_of(DepthFormat format, float k) {
     return format == DepthFormat::d16f ? rasterizer::d16f_value(static_cast<std::uint32_t>(k)) : k;
 }
 
+// The quads of chip-depth.md 2: a grid of 31 x 32 with depths that rise quad by quad, then three
+// wide ones. All in binary32, as the test computes them.
 std::vector<Slope> window_slopes(DepthFormat format) {
     constexpr int columns = 31, rows = 32;
     const std::uint32_t max = rasterizer::max_code(format);
+    // The test divides by the number of its quads and one more: the last one stays below the
+    // greatest code.
     const float step = static_cast<float>(max) / static_cast<float>(columns * rows + 3 + 1);
+    // Depths are cut to whole codes, at least 0.
     const auto cut = [&](float k) {
         return value_of(format, static_cast<float>(static_cast<std::int64_t>(k > 0 ? k : 0)));
     };
     std::vector<Slope> slopes;
+    // `z_left` adds up in binary32 with the test's own rounding errors: a product would not give
+    // the same codes.
     float z_left = 0, offset = step * 0.75f;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
@@ -77,19 +91,24 @@ std::vector<Slope> window_slopes(DepthFormat format) {
         }
     const auto code = [&](std::uint32_t k) { return value_of(format, static_cast<float>(k)); };
     const auto share = [&](float z) { return z / static_cast<float>(max); };
+    // (max - 1) * 3 / 4 is the test's integer arithmetic; it fits into 32 bits, for max is below
+    // 2^24.
     const float back = code((max - 1) * 3 / 4), near = code(0);
     const Color far_left = rgb(share(back), 0.75f, share(back)), near_right = rgb(0.75f, share(near), share(near));
     slopes.push_back({{132, 430, 492, 435}, {back, near, near, back}, {far_left, near_right, near_right, far_left}});
     const float first = code(1), half = code(max / 2);
     const Color upper = rgb(share(first), 0.5f, share(first)), lower = rgb(0.5f, share(half), share(half));
     slopes.push_back({{502, 45, 510, 435}, {first, first, half, half}, {upper, upper, lower, lower}});
+    // max * 2 is taken in 64 bits, and cut.
     const float top = code(static_cast<std::uint32_t>(std::uint64_t{max - 1} * 2 / 3)), end = code(max - 1);
     slopes.push_back(
         {{128, 40, 512, 440}, {top, top, end, end}, {rgb(0, 1, 0), rgb(1, 0, 0), rgb(0.4f, 0.3f, 0), rgb(0, 0, 1)}});
     return slopes;
 }
 
-// World z of the corners; the window's x, y were un-projected and come back, plus the viewport's offset.
+// The quads of chip-geometry.md 5.4 with world z at their corners, for the fixed pipeline. The test
+// un-projects their window x and y, and the projection gives these back; so only z goes through the
+// emulated vertex arithmetic.
 std::vector<Slope> world_slopes() {
     constexpr float near = -6, far = 193;
     constexpr int columns = 18, rows = 18;
@@ -110,7 +129,9 @@ std::vector<Slope> world_slopes() {
     return slopes;
 }
 
-// Triangles (UL, UR, LR) and (UL, LR, LL); `turned`: (UL, LR, LL) first.
+// Adds a slope's two triangles, `shift` pixels further right and down: (UL, UR, LR) and (UL, LR,
+// LL), or where it is `turned` (UL, LR, LL) and (UL, UR, LR). The order matters: weights depend on
+// which corner of a triangle comes first.
 void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
     const Box b{s.where.left + shift, s.where.top + shift, s.where.right + shift, s.where.bottom + shift};
     const ClipVertex ul = at(b.left, b.top, s.z[0], s.color[0]), ur = at(b.right, b.top, s.z[1], s.color[1]);
@@ -123,6 +144,8 @@ void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
     }
 }
 
+// Draws the soup with LESS over the clear word of `s`, and shows depths or colours as the name
+// asks.
 Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, TriangleSoup soup) {
     pipeline::Surface surface{profile, {.depth = s.format}};
     surface.clear_color(unpack(0xff000000));
@@ -132,6 +155,7 @@ Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, 
     return {.reading = s.format == DepthFormat::d24 ? Reading::depth24 : Reading::depth16, .image = surface.depth()};
 }
 
+// Why some pictures of these two suites are not modelled.
 const Drawing colors_unknown{std::nullopt,
                              "how the chip weighs colours where w differs is not emulated yet (chip-float-depth.md 7)"};
 const Drawing float_colors{std::nullopt,

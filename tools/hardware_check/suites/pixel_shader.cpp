@@ -1,7 +1,8 @@
-// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. chip-depth.md 6, chip-geometry.md 4.
+// Suite Pixel_shader: DotZW, DotST, ClipPlane, Passthru: stages of the texture shader. chip-depth.md 6,
+// chip-geometry.md 4.
 //
-// All equal but DotZW, at most 1 unit off on at most 0.25 % of its pixels: the last bits of its quotient are not understood.
-// DotZW and DotST sample images that the test loads from its own disk.
+// All equal but DotZW, at most 1 unit off on at most 0.25 % of its pixels: the last bits of its quotient are not
+// understood. DotZW and DotST sample images that the test loads from its own disk.
 #include <cmath>
 #include <filesystem>
 
@@ -25,6 +26,8 @@ constexpr Argb background = 0xff222222;
 // Units 0 to 2 at a corner of a square, in the order upper left, upper right, lower right, lower left.
 using Units = std::array<Coordinate, 3>;
 
+// A square of `side` pixels at window x, y, to which the fixed pipeline adds its offset, with the
+// coordinates of three units.
 TriangleSoup square(float x, float y, float side, const std::array<Units, 4>& unit, Argb color = 0xffffffff) {
     const float left = x + viewport_offset, top = y + viewport_offset, right = left + side, bottom = top + side;
     const auto corner = [&](std::size_t k, float px, float py) {
@@ -38,8 +41,10 @@ TriangleSoup square(float x, float y, float side, const std::array<Units, 4>& un
 constexpr int middle_x = 192, middle_y = 112, middle_side = 256;
 TriangleSoup middle(const std::array<Units, 4>& unit) { return square(middle_x, middle_y, middle_side, unit); }
 
-// Unit 0 steps over the bump map's texels, two pixels each; units 1 and 2 hold the rows of the matrix that its texels meet.
+// The two rows s, t, r of the matrix at one corner; q is 1.
 using Rows = std::array<std::array<float, 3>, 2>;
+// The large square. Unit 0 steps over the bump map's texels, two pixels each; units 1 and 2 hold
+// the rows of the matrix that its texels meet.
 TriangleSoup bumped(const std::array<Rows, 4>& rows) {
     constexpr float texels = 128;
     constexpr Coordinate texel[4] = {{0, 0, 0, 1}, {texels, 0, 0, 1}, {texels, texels, 0, 1}, {0, texels, 0, 1}};
@@ -51,6 +56,8 @@ TriangleSoup bumped(const std::array<Rows, 4>& rows) {
     return middle(unit);
 }
 
+// Stage 0 looks up the bump map, stages 1 and 2 are its dot products with the rows. `last` says
+// what the second one is for.
 pipeline::ShaderStages bump_stages(const Texture& bumps, ShaderOp last) {
     pipeline::ShaderStages stages;
     stages[0] = rectangle_lookup({.color = &bumps});
@@ -59,6 +66,8 @@ pipeline::ShaderStages bump_stages(const Texture& bumps, ShaderOp last) {
     return stages;
 }
 
+// Depth is the quotient of the two dot products, z / w, in the buffer's own units. The rows are
+// those of chip-depth.md 6.
 Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
     pipeline::FragmentPath path{bump_stages(bumps, ShaderOp::dot_product_depth_replace),
                                 show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};
@@ -70,7 +79,9 @@ Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
                           {{{10, 100, 1000}, {1, 0, 0}}},
                           {{{100, 100, 100}, {0, 0, 1}}}}}));
     constexpr int right = middle_x + middle_side, bottom = middle_y + middle_side;
-    return {.reading = Reading::depth16,  // the square alone shows the depth buffer
+    // The capture shows the depth buffer in the square alone; around it there is nothing to
+    // compare. 0.25 % of its words may be one unit off: 104 are, by the last bits of the quotient.
+    return {.reading = Reading::depth16,
             .image = surface.depth(),
             .hidden = {{0, 0, picture_width, middle_y},
                        {0, middle_y, middle_x, bottom},
@@ -80,13 +91,19 @@ Picture dot_zw(const DeviceProfile& profile, const Texture& bumps) {
 }
 
 using Vector = std::array<double, 3>;
+// The unit vector from one point to another, computed in binary64 and then rounded to binary32.
+// std::sqrt is correctly rounded.
 std::array<float, 3> direction(const Vector& from, const Vector& to) {
     const double x = to[0] - from[0], y = to[1] - from[1], z = to[2] - from[2],
                  length = std::sqrt(x * x + y * y + z * z);
     return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
+// The two dot products are the coordinates of a lookup: rows are the directions from the eye to a
+// point and on to a light (chip-geometry.md 4.1). `image` is 128 x 128 texels, addressed from 0 to
+// 1.
 Picture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image) {
+    // The suite's images are loaded as rectangles; this stage takes coordinates from 0 to 1.
     image.target = pipeline::TextureTarget::two_d;
     pipeline::FragmentPath path{bump_stages(bumps, ShaderOp::dot_product_texture_2d),
                                 show(pipeline::CombinerRegister::texture2, pipeline::CombinerRegister::texture2)};
@@ -100,14 +117,16 @@ Picture dot_st(const DeviceProfile& profile, const Texture& bumps, Texture image
     return {.image = surface.color()};
 }
 
-// What each of the units 0, 1 and 2 holds at a corner.
+// s, t, r, q of the units 0, 1 and 2 at the four corners (chip-geometry.md 4.2).
 constexpr std::array<Units, 4> planes{
     {{{{0, 0.1f, -0.02f, -0.25f}, {-0.1f, -0.1f, 0.02f, 0.25f}, {-0.1f, -0.1f, -0.1f, 0.1f}}},
      {{{1, -0.3f, 1, 0}, {0.1f, 0.3f, -0.2f, -0.01f}, {0.1f, -0.1f, -0.1f, -0.1f}}},
      {{{-1, -0.1f, -0.1f, 0.5f}, {1, 0.1f, 0.1f, -0.25f}, {-0.1f, 0.1f, -0.1f, -0.1f}}},
      {{{-0.1f, 2, 3, 0.25f}, {0.1f, -0.6f, 1.1f, -0.35f}, {-0.1f, -0.1f, 0.1f, -0.1f}}}}};
 
-// Three draws over a dark square, each culled by one unit. Bits 3 to 0 of `flags`: s t r q die where they are not negative.
+// A dark square, and over it three draws, each culled by one unit. Bits 3 to 0 of `flags` stand for
+// s, t, r, q. Where a bit is set, a fragment dies if that coordinate is not negative; where it is
+// clear, if it is negative.
 void draw_culled(Surface& surface, float x, float y, unsigned flags) {
     constexpr float side = 64;
     constexpr Argb dark = 0xff333333, colors[] = {0xffdd447f, 0xff44dd6e, 0xff5566ee};
@@ -117,12 +136,15 @@ void draw_culled(Surface& surface, float x, float y, unsigned flags) {
         path.shader = {};
         path.shader[unit].op = ShaderOp::cull_fragment;
         for (std::size_t c = 0; c < 4; ++c)
+            // CullMode names the comparison with 0 that keeps a fragment: `less` is the negative
+            // side.
             path.shader[unit].cull[c] =
                 (flags >> (3 - c) & 1u) != 0 ? pipeline::CullMode::less : pipeline::CullMode::gequal;
         surface.draw({.path = &path}, square(x, y, side, planes, colors[unit]));
     }
 }
 
+// All sixteen combinations of flags, seven squares a row.
 Picture clip_plane(const DeviceProfile& profile) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xff000000));
@@ -131,6 +153,7 @@ Picture clip_plane(const DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
+// Coordinates shown as colours: each is cut to 8 bits, not rounded.
 Picture pass_through(const DeviceProfile& profile) {
     pipeline::FragmentPath path{{}, show(pipeline::CombinerRegister::texture0, pipeline::CombinerRegister::texture0)};
     path.shader[0].op = ShaderOp::pass_through;
@@ -141,12 +164,14 @@ Picture pass_through(const DeviceProfile& profile) {
     return {.image = surface.color()};
 }
 
-// The test's image of that name, looked up in texels; nothing if it is not there.
+// The image of that name in the folder `textures`, as a rectangle looked up in texels; nothing if
+// there is no such file. Throws InputError if the file is no picture.
 std::optional<Texture> load(const std::string& textures, const std::string& name) {
     const std::string path = (std::filesystem::path(textures) / (name + ".png")).string();
     if (textures.empty() || !std::filesystem::exists(path)) return std::nullopt;
     return as_texture(scenes::read_images(path).front().image);
 }
+// The picture is then not modelled, and the reason names the file that is missing.
 Drawing needs(const std::string& name) {
     return {std::nullopt, "needs textures/" + name + ".png, which the test loads"};
 }

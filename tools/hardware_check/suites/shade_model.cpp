@@ -1,5 +1,5 @@
-// Suite Shade_model: Prog_<primitive>_<Smooth|Flat>_<First|Last>: how primitives become triangles, and which vertex colours a
-// flat one. chip-fragment.md 3.3. Lit, textured and W_ pictures are not modelled.
+// Suite Shade_model: Prog_<primitive>_<Smooth|Flat>_<First|Last>: how primitives become triangles, and which vertex
+// colours a flat one. chip-fragment.md 3.3. Lit, textured and W_ pictures are not modelled.
 #include <vector>
 
 #include "tools/hardware_check/fixed_pipeline.h"
@@ -10,6 +10,7 @@
 namespace strata::hardware_check {
 namespace {
 
+// World units: the rectangle that all shapes fill, and w of every vertex.
 constexpr double left = -2.75, right = 2.75, top = 1.75, bottom = -1.75, eye_distance = 7.1;
 using Point = std::array<double, 2>;
 
@@ -19,13 +20,16 @@ struct Triangle {
     std::array<std::size_t, 2> provoking;
 };
 
+// A primitive of the names, its points in submission order, and the triangles that the chip makes
+// of it.
 struct Primitive {
     std::string_view name;
     std::vector<Point> points;
     std::vector<Triangle> triangles;
 };
 
-// Polygons and fans: (0, k, k+1).
+// The triangles (0, k, k+1) of a fan or polygon. A flat polygon takes vertex 0's colour in both
+// modes; a fan's triangle takes k's (First) or k+1's (Last).
 std::vector<Triangle> fan(std::size_t vertices, bool is_polygon) {
     std::vector<Triangle> all;
     for (std::size_t k = 1; k + 1 < vertices; ++k)
@@ -33,6 +37,8 @@ std::vector<Triangle> fan(std::size_t vertices, bool is_polygon) {
     return all;
 }
 
+// Triangle i of a strip is (i, i+1, i+2); odd ones exchange the first two, so that all face alike.
+// Flat colour: vertex i (First) or i+2 (Last).
 std::vector<Triangle> strip(std::size_t vertices) {
     std::vector<Triangle> all;
     for (std::size_t i = 0; i + 2 < vertices; ++i)
@@ -40,6 +46,8 @@ std::vector<Triangle> strip(std::size_t vertices) {
     return all;
 }
 
+// The table of chip-fragment.md 3.3. Quads and their strips take the colour of their last vertex in
+// both modes.
 std::vector<Primitive> primitives() {
     return {{"Tri",
              {{left, top},
@@ -74,10 +82,13 @@ std::vector<Primitive> primitives() {
             {"Poly", {{left, bottom}, {-1.4, 1.1}, {-0.3, top}, {2, 0.3}, {right, -1.5}}, fan(5, true)}};
 }
 
+// By vertex index in submission order.
 constexpr Argb vertex_colors[] = {0xff0000ff, 0xff00ff00, 0xffff0000, 0xffcccccc, 0xffcc33ff, 0xff33ccff, 0xff33ffcc,
                                   0xffccff33, 0xffffcc33, 0xffff33cc, 0xff111199, 0xff119911, 0xff991111, 0xff666666};
 
-// Vertex arithmetic truncates: what is exactly on a step of 1/16 pixel comes out below it.
+// A point in the window, w = 7.1. The chip's vertex arithmetic cuts: a value that is exactly on a
+// step of 1/16 pixel comes out below it (x = 0 at 319.9375), so the next smaller binary32 stands
+// for it here.
 ClipVertex window_vertex(const Point& p, Argb color) {
     constexpr double scale = 240.0 * cotangent / eye_distance;
     const auto cut = [](double v) { return next_below(static_cast<float>(v)); };
@@ -85,6 +96,8 @@ ClipVertex window_vertex(const Point& p, Argb color) {
               static_cast<float>(eye_distance));
 }
 
+// `provoking` picks the mode of a flat shape: 0 First, 1 Last. A smooth one takes every corner's
+// own colour.
 TriangleSoup shaded(const Primitive& primitive, bool flat, std::size_t provoking) {
     TriangleSoup soup;
     for (const Triangle& t : primitive.triangles) {
@@ -115,6 +128,8 @@ Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& p
         const bool flat = shading == "Flat";
         surface.draw({.cull = rasterizer::CullFace::back, .front_face = rasterizer::FrontFace::clockwise},
                      shaded(primitive, flat, name == "First" ? 0 : 1));
+        // Flat pictures are equal. Of smooth ones at most one pixel is one unit off, where 256
+        // times a weight lies next to an integer (chip-fragment.md 3.3); two may be.
         return {Picture{.image = surface.color(), .bound = flat ? Bound{} : Bound{2, 1}}, {}};
     }
     return unknown_name;

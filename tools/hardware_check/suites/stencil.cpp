@@ -13,15 +13,19 @@ using pipeline::StencilOp;
 using pipeline::StencilTest;
 using pipeline::Surface;
 
+// The clear word of depth, a code of 24 bits.
 constexpr std::uint32_t far_depth = 0x00ffff;
 
+// The same test for both faces; reference, masks and operations are the face's.
 StencilTest stencil_test(const StencilFace& face) { return {.enabled = true, .front = face, .back = face}; }
 
+// With _ZB the picture shows depth words with the stencil below them.
 Picture finished(const Surface& surface, bool shows_depth) {
     if (!shows_depth) return {.image = surface.color()};
     return {.reading = Reading::depth24, .image = surface.depth(), .stencil = surface.stencil()};
 }
 
+// A black window with this stencil.
 Surface cleared(const pipeline::DeviceProfile& profile, std::uint8_t stencil) {
     Surface surface{profile, {}};
     surface.clear_color(unpack(0xff000000));
@@ -30,7 +34,8 @@ Surface cleared(const pipeline::DeviceProfile& profile, std::uint8_t stencil) {
     return surface;
 }
 
-// Sets the stencil to `value` under a patch of colour: INVERT under the write mask 7F makes it known first.
+// A square of 80 pixels whose stencil becomes `value`. The test gets there by INVERT under the
+// write mask 7F and the operation that a name gives; what is left is drawn here with REPLACE.
 struct Patch {
     float x, y;
     std::uint8_t value;
@@ -52,11 +57,13 @@ Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profi
     const std::uint8_t ref = zeroes ? 0 : 1;
     Surface surface = cleared(profile, zeroes ? 0xff : 0x00);
     surface.draw({}, box({220, 140, 420, 340}, 0xffff0000));
+    // The square in the middle: nothing but stencil is written, and its depth test passes always.
     DrawState tested{.color_mask = 0};
     if (tests_stencil)
         tested.stencil = stencil_test({.ref = ref, .pass = zeroes ? StencilOp::zero : StencilOp::replace});
     tested.depth = {.enabled = tests_depth, .func = CompareFunc::always, .write = false};
     surface.draw(tested, box({270, 190, 370, 290}, 0xffffffff));
+    // Green shows where the stencil became `ref`.
     surface.draw({.stencil = stencil_test({.func = CompareFunc::equal, .ref = ref})},
                  box({220, 140, 420, 340}, 0xff00ff00));
     return {finished(surface, shows_depth), {}};
@@ -67,6 +74,8 @@ Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& 
     const auto func = compare_func(name);
     if (!func) return unknown_name;
     Surface surface = cleared(profile, 0);
+    // Stencil values of the two rows of patches, around the reference 7F and at both ends of the
+    // range.
     constexpr std::uint8_t upper[] = {0x00, 0x7e, 0x7f, 0x80, 0xff}, lower[] = {0xff, 0x00, 0x00, 0xff};
     for (std::size_t k = 0; k < std::size(upper); ++k)
         draw_patch(surface, {125.0f + 81.0f * static_cast<float>(k), 44, upper[k]});

@@ -1,5 +1,5 @@
-// Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checker, or four colours, over a quad whose w differs,
-// with perspective correction and without; two corners lie far outside of the window. chip-geometry.md 5.1.
+// Suite Texture_perspective: tex_<tex|diff>_pers_<y|n>_<quad|bitri>. A checker, or four colours, over a quad whose w
+// differs, with perspective correction and without; two corners lie far outside of the window. chip-geometry.md 5.1.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -8,9 +8,11 @@
 namespace strata::hardware_check {
 namespace {
 
+// Texels a side, and of a cell of the checker.
 constexpr int texels = 256, cell = 8;
 constexpr float side = texels;
 
+// Cyan in the cell at texel (0, 0), then black.
 pipeline::Texture checker() {
     pipeline::Image image{pipeline::Format::rgba8, texels, texels};
     for (int y = 0; y < texels; ++y)
@@ -23,11 +25,14 @@ pipeline::Texture checker() {
 
 // A corner of the square of 3.5 world units, its input w other than 1.
 struct Corner {
+    // World x and y; w is a factor of the camera's distance.
     double x, y, w;
     Argb color;
     std::array<float, 2> texel;
 };
 
+// A corner in the window, with the viewport's offset. Without correction all w are 1, so values
+// become linear in the window.
 ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
     constexpr double distance = 7.0, scale = 240.0 * cotangent;
     const double w = distance * c.w;
@@ -38,10 +43,11 @@ ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
     return v;
 }
 
-// The exact value, rounded, is within 2 units of the chip's colours everywhere (chip-geometry.md 5.1); ours is as far from it at most.
+// The exact value, rounded, is within 2 units of the chip's colours everywhere (chip-geometry.md 5.1); ours is as far
+// from it at most.
 constexpr Bound within_four{std::uint64_t{picture_width} * picture_height, 4};
-// Texels that the chip takes from the other side of a cell's edge: 1 in the corrected capture at hand, none in the other one; no
-// quad was at hand.
+// Texels that the chip takes from the other side of a cell's edge: 1 in the corrected capture at hand, none in the
+// other one; no quad was at hand.
 constexpr Bound few_texels{8, 255};
 
 }  // namespace
@@ -54,6 +60,7 @@ Drawing draw_texture_perspective(std::string_view name, const pipeline::DevicePr
     const bool is_quad = name == "quad";
     if (!is_quad && name != "bitri") return unknown_name;
 
+    // The third factor of w differs between the textured and the coloured pictures, as in the test.
     const std::array<Corner, 4> corners{{{-1.75, 1.75, 0.3, 0xffff0000, {0, 0}},
                                          {1.75, 1.75, 1, 0xff00ff00, {side, 0}},
                                          {1.75, -1.75, is_textured ? 3 : 0.3, 0xff0000ff, {side, side}},
@@ -61,6 +68,7 @@ Drawing draw_texture_perspective(std::string_view name, const pipeline::DevicePr
     std::array<ClipVertex, 4> v;
     for (std::size_t i = 0; i < 4; ++i) v[i] = vertex(corners[i], is_textured, corrected);
     TriangleSoup soup;
+    // The two splits of the same quad: along the corners 0 and 2, or 1 and 3.
     if (is_quad) {
         add_quad(soup, v);
     } else {

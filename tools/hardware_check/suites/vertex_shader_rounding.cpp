@@ -1,5 +1,6 @@
 // Suite Vertex_shader_rounding_tests: where positions are cut, and who owns a pixel centre. chip-geometry.md 1.
-// TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B, GeometrySubscreen_B with B a shift in pixels.
+// TopLeftRaster[_Fixed]; Geometry_B, AdjacentGeometry_B, ProjAdjacentGeometry_B, GeometrySubscreen_B with B a shift
+// in pixels.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
@@ -15,6 +16,8 @@ using pipeline::Surface;
 constexpr Argb green = 0xff009900, magenta = 0xffff00ff;
 constexpr pipeline::SurfaceLayout screen{.depth = pipeline::DepthFormat::d16};
 
+// Green over magenta. What stays magenta along the upper and the left side shows where `shift` was
+// cut, and who owns the pixel centres on the side (chip-geometry.md 1.1).
 Picture geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
@@ -23,6 +26,7 @@ Picture geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color()};
 }
 
+// Two rows of four squares of 100 pixels that share their sides.
 TriangleSoup eight_squares(float shift) {
     TriangleSoup soup;
     for (int row = 0; row < 2; ++row)
@@ -33,6 +37,7 @@ TriangleSoup eight_squares(float shift) {
     return soup;
 }
 
+// No gap and no pixel drawn twice may show along the shared sides.
 Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
@@ -41,8 +46,9 @@ Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color()};
 }
 
-// As adjacent_geometry, half of it through the fixed pipeline. The points come back from un-projection where they were, but
-// for the binary32 chain, which is not modelled: it shows at .5625, on two edge lines of the chip's picture.
+// As adjacent_geometry, half of it through the fixed pipeline. The points come back from un-projection where they
+// were, but for the binary32 chain, which is not modelled: it shows at .5625, on two edge lines of the chip's
+// picture.
 Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     constexpr Argb by_program = green, by_fixed = 0xff00bb00;
     constexpr bool is_fixed[8] = {false, true, false, true, true, false, true, false};
@@ -53,6 +59,7 @@ Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     for (const bool fixed : {false, true}) {
         TriangleSoup half;
         const float offset = fixed ? viewport_offset : 0;
+        // Six vertices a square, three a triangle.
         for (std::size_t i = 0; i < squares.vertices.size(); i += 3) {
             const auto moved = [&](std::size_t k) {
                 const ClipVertex& v = squares.vertices[i + k];
@@ -65,6 +72,8 @@ Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color(), .bound = shift == 0.5625f ? Bound{896, 255} : Bound{}};
 }
 
+// Draws a green quad, moved by `shift`, into a magenta target of its own and shows it at x, y. The
+// four numbers are x, y, width, height.
 void show_subscreen(Surface& surface, const DeviceProfile& profile, float shift,
                     const std::array<int, 4>& place_and_size) {
     const auto [x, y, width, height] = place_and_size;
@@ -91,6 +100,9 @@ class Lines {
   public:
     Lines(bool along_x, const std::array<float, 4>& marks) : along_x_{along_x}, marks_{marks} {}
 
+    // The shapes of chip-geometry.md 1.5 from `start` on, four pixels apart. Their sides lie on
+    // pixel centres, a sixteenth beside them, and one binary32 below either: each column shows what
+    // rounding and the tie rule do to one of these.
     void draw_all(float start, float sliver_start, const std::array<std::array<float, 2>, 3>& slivers) {
         float p = start;
         for (int i = 0; i < 20; ++i, p += 4) skewed_quad(p, p + 0.5f + sixteenths(i));
@@ -110,6 +122,7 @@ class Lines {
         const std::array borders{-0.0625f, -0.0624f, 0.0f};
         for (std::size_t k = 0; k < 3; ++k) bar(borders[k], 1, slivers[k][0], slivers[k][1]);
     }
+    // An upright bar along the line: from `from` to `to` along it, from `begin` to `end` across.
     void bar(float from, float to, float begin, float end) {
         quad({{{from, begin}, {to, begin}, {to, end}, {from, end}}});
     }

@@ -1,6 +1,6 @@
-// Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, an s in front: the second region was set first. Two clip regions,
-// drawn inside or outside of; both limits of a region are inside. Writing a limit of region 0 sets all eight regions, so that
-// with an s the first region alone is left.
+// Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, an s in front: the second region was set first. Two
+// clip regions, drawn inside or outside of; both limits of a region are inside. Writing a limit of region 0 sets all
+// eight regions, so that with an s the first region alone is left.
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -8,6 +8,7 @@
 namespace strata::hardware_check {
 namespace {
 
+// Takes `key` and up to six decimal digits off the name: six digits cannot overflow an int.
 std::optional<int> take_number(std::string_view& name, std::string_view key) {
     if (!take(name, key)) return std::nullopt;
     int value = 0, digits = 0;
@@ -18,6 +19,8 @@ std::optional<int> take_number(std::string_view& name, std::string_view key) {
 
 constexpr int widest = 4095;  // the limits' registers have 12 bits [A]
 
+// A region x, y, w, h. Both limits x and x + w are inside on the chip; a Rect is half-open, hence
+// the + 1.
 std::optional<rasterizer::Rect> take_region(std::string_view& name) {
     const auto x = take_number(name, "x"), y = take_number(name, "y"), w = take_number(name, "_w"),
                h = take_number(name, "h");
@@ -28,6 +31,7 @@ std::optional<rasterizer::Rect> take_region(std::string_view& name) {
 }  // namespace
 
 Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& profile) {
+    // Names with an r draw into an off-screen target.
     if (name.starts_with("r")) return {std::nullopt, "clipping in an off-screen target is not described"};
     const bool second_is_overwritten = take(name, "s");
     const bool exclusive = take(name, "E_");
@@ -36,6 +40,8 @@ Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& p
     const auto second = first && take(name, "-") ? take_region(name) : std::nullopt;
     if (!second || !name.empty()) return unknown_name;
 
+    // The exclusive mode is drawn as its complement: the whole square in one colour, then the
+    // regions in the other.
     constexpr Argb below = 0xff337788, above = 0xffff7733;
     const Box square{0, 0, 256, 256};
     pipeline::Surface surface{profile, {}};

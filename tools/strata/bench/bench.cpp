@@ -14,8 +14,10 @@ namespace strata::tools {
 
 namespace {
 
+// The command line. Each list is a dimension: every combination of them is a job.
 struct BenchOptions {
     RunOptions run;
+    // Scenes by name or file, opened one after the other.
     std::vector<std::string> scenes;
     std::vector<const peeling::Algorithm*> algorithms;
     std::vector<pipeline::Execution> executions{pipeline::Execution::replay};
@@ -25,6 +27,7 @@ struct BenchOptions {
     std::string json, baseline;
 };
 
+// All algorithms by name, and `depth`, which is no algorithm: null.
 std::vector<Choice<const peeling::Algorithm*>> job_names() {
     std::vector<Choice<const peeling::Algorithm*>> names{{"depth", nullptr}};
     for (const peeling::Algorithm& algorithm : peeling::algorithms()) names.push_back({algorithm.name, &algorithm});
@@ -56,6 +59,8 @@ std::vector<BenchJob> jobs_of(const BenchOptions& options, const std::vector<Ben
     return jobs;
 }
 
+// Each scene has options and a session of its own, for --camera and --orbit mean another view in
+// each.
 std::vector<BenchScene> open_scenes(const BenchOptions& options) {
     std::vector<BenchScene> scenes;
     for (const std::string& name : options.scenes) {
@@ -77,6 +82,7 @@ int exit_status(const std::vector<BenchResult>& results) {
 int bench(BenchOptions& options) {
     complete(options.run);
     check_outputs({{"--json", options.json == "-" ? "" : options.json, {".json"}}});
+    // The baseline is read first: a wrong file ends the command before the time is spent.
     const Baseline baseline = options.baseline.empty() ? Baseline{} : load_baseline(options.baseline);
     const std::vector<BenchScene> scenes = open_scenes(options);
     const auto results = measure(jobs_of(options, scenes), options.repetitions);

@@ -1,6 +1,6 @@
-// tools/strata/bench/bench_jobs.h - what `strata bench` times: one algorithm in one way of running it, from the scene in memory
-// to finished pixels in memory. Loading is outside, and so is whatever compares or writes. A job is timed warm: its first frames, which
-// make the process's memory grow, are not counted, as strata_mesa's are not.
+// tools/strata/bench/bench_jobs.h - what `strata bench` times: one algorithm in one way of running it, from the scene
+// in memory to finished pixels in memory. Loading is outside, and so is whatever compares or writes. A job is timed
+// warm: its first frames, which make the process's memory grow, are not counted, as strata_mesa's are not.
 #pragma once
 #include <optional>
 #include <string>
@@ -25,21 +25,27 @@ struct BenchScene {
 
 struct BenchJob {
     const BenchScene* scene = nullptr;
-    const peeling::Algorithm* algorithm = nullptr;  // null: the job `depth`, one opaque depth pass
+    // Null: the job `depth`, one opaque depth pass.
+    const peeling::Algorithm* algorithm = nullptr;
     pipeline::Execution execution = pipeline::Execution::replay;
     Simd simd = Simd::scalar;
     pipeline::Effects effects = pipeline::Effects::needed;
-    pipeline::Effect once_more = pipeline::Effect::none;  // of `strata effects`
-    bool is_never_replayed = false;                       // fragment memory 0, whatever the scene's options say
+    // An effect that `strata effects` has simulated once more, to measure it; none in a benchmark.
+    pipeline::Effect once_more = pipeline::Effect::none;
+    // True: fragment memory 0, whatever the scene's options say.
+    bool is_never_replayed = false;
 };
 
 // One repetition.
 struct BenchRun {
-    std::string refusal;                       // why the profile cannot run it; empty: it ran
-    double seconds = 0, geometry_seconds = 0;  // the second is a part of the first
+    // Why the profile cannot run the job; empty: it ran.
+    std::string refusal;
+    // Of the whole run, and of its part from transform to bins.
+    double seconds = 0, geometry_seconds = 0;
     int geometry_passes = 0, iterations = 0;
-    pipeline::Counters counters;  // literal's
-    pipeline::Image picture;      // the depths for `depth`
+    // Literal execution's, whatever ran.
+    pipeline::Counters counters;
+    pipeline::Image picture;  // the depths for `depth`
 };
 
 struct BenchResult {

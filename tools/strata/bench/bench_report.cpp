@@ -37,7 +37,8 @@ ordered_json words_of(const BenchJob& job) {
             {"profile", job.scene->session.profile.name}};
 }
 
-// Of older documents: the execution `tiled` is replay without memory; no memory is named where it is the usual.
+// One line that tells a job from every other one; a baseline is looked up by it. In older documents
+// the execution `tiled` stands for replay without memory; no memory is named where it is the usual.
 std::string name_of_words(const ordered_json& words) {
     const bool is_tiled = words.at("execution") == "tiled";
     const std::uint64_t memory =
@@ -52,6 +53,7 @@ std::string name_of_words(const ordered_json& words) {
 
 std::string name_of_job(const BenchJob& job) { return name_of_words(words_of(job)); }
 
+// The passes' fragments in literal execution: the same work for every way of running.
 double fragments(const BenchResult& r) { return static_cast<double>(r.last.counters.fragments_rasterized); }
 
 double bytes_per_fragment(const BenchResult& r) {
@@ -66,6 +68,7 @@ std::string per_fragment(const BenchResult& r, double value, int digits) {
     return fragments(r) > 0 ? fmt::format("{:.{}f}", value, digits) : "-";
 }
 
+// The keys of a job as reports.md 2 lists them, in that order.
 ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     const Spread spread = spread_of(result.seconds);
     ordered_json job = words_of(result.job);
@@ -73,6 +76,7 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     job["fragments"] = result.last.counters.fragments_rasterized;
     job["seconds"] = {
         {"median", spread.median}, {"min", spread.least}, {"max", spread.greatest}, {"all", result.seconds}};
+    // The part from transform to bins.
     job["geometry_seconds"] = spread_of(result.geometry_seconds).median;
     job["fragments_per_second"] = fragments(result) / spread.median;
     job["ns_per_fragment_pass"] = per_fragment(result, spread.median * 1e9 / fragments(result));
@@ -85,6 +89,8 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     return job;
 }
 
+// The row of to_table(): milliseconds, millions of fragments a second, nanoseconds and bytes a
+// fragment.
 std::vector<std::string> cells(const BenchResult& result) {
     const BenchJob& job = result.job;
     const Spread spread = spread_of(result.seconds);
@@ -103,7 +109,8 @@ std::vector<std::string> cells(const BenchResult& result) {
             per_fragment(result, bytes_per_fragment(result), 1)};
 }
 
-// One row a scene, algorithm, instruction set and effects; one column of milliseconds an execution, then each over replay.
+// One row a scene, algorithm, instruction set and effects; one column of milliseconds an execution, then each over
+// replay.
 std::string side_by_side(const std::vector<BenchResult>& results) {
     std::map<std::string, std::map<pipeline::Execution, double>> rows;
     std::vector<std::string> order;
@@ -116,12 +123,14 @@ std::string side_by_side(const std::vector<BenchResult>& results) {
         rows[name][r.job.execution] = spread_of(r.seconds).median;
         used.insert(r.job.execution);
     }
+    // One execution has nothing to stand beside.
     if (used.size() < 2) return "";
     Table table{{{"ms"}}, {}};
     for (const auto execution : used) table.columns.push_back({name_of(executions, execution), Align::right});
     table.columns.push_back({"ratio", Align::right});
     for (const std::string& name : order) {
         std::vector<std::string> row{name}, ratios;
+        // The executions are in the order of their enum: replay is the last one.
         const double last = rows[name][*used.rbegin()];
         for (const auto execution : used) {
             row.push_back(fmt::format("{:.2f}", rows[name][execution] * 1e3));
@@ -143,6 +152,7 @@ Spread spread_of(std::vector<double> values) {
 }
 
 Baseline load_baseline(const std::string& path) {
+    // 64 MiB is far more than a run of every job writes.
     const auto document = ordered_json::parse(scenes::read_text_file(path, std::size_t{64} << 20), nullptr, false);
     const InputError unusable(path, "--baseline", "what strata bench --json wrote", "something else");
     if (!document.is_object() || !document.contains("jobs")) throw unusable;

@@ -1,4 +1,5 @@
-// tools/strata/effects/effects.cpp - strata effects: what a run simulates and why, what it costs, what leaving the rest out saved.
+// tools/strata/effects/effects.cpp - strata effects: what a run simulates and why, what it costs, what leaving the
+// rest out saved.
 #include <fmt/format.h>
 
 #include <memory>
@@ -23,6 +24,7 @@ struct EffectsOptions {
     bool json = false;
 };
 
+// What is told of one algorithm.
 struct Explained {
     const peeling::Algorithm* algorithm = nullptr;
     std::string refusal;  // empty: it ran
@@ -30,6 +32,7 @@ struct Explained {
     EffectTimes times;
 };
 
+// Runs the algorithm once for its counts, then plans and times its effects.
 Explained explain(const BenchScene& scene, const peeling::Algorithm& algorithm, int repeat) {
     const BenchJob asked{.scene = &scene,
                          .algorithm = &algorithm,
@@ -64,6 +67,7 @@ ordered_json to_json(const Explained& e, const BenchScene& scene) {
     return document;
 }
 
+// Simulated effects first, then those left out.
 std::string to_text(const Explained& e, const BenchScene& scene) {
     if (!e.refusal.empty()) return fmt::format("{}: {}\n", e.algorithm->name, e.refusal);
     Table table{{{e.algorithm->name},

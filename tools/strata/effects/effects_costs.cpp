@@ -12,13 +12,15 @@ namespace {
 
 using pipeline::Effect;
 
+// Wall-clock seconds of one call.
 double seconds_of(const std::function<void()>& run) {
     const auto start = std::chrono::steady_clock::now();
     run();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Median seconds of each; a first round warms up.
+// Median seconds of each; a first round warms up. The runs of a round stand next to each other in
+// time, so that a machine that becomes slower changes all of them alike.
 std::vector<double> in_turn(const std::vector<std::function<void()>>& runs, int repeat) {
     std::vector<std::vector<double>> seconds(runs.size());
     for (int round = 0; round <= repeat; ++round)
@@ -33,11 +35,13 @@ std::vector<double> in_turn(const std::vector<std::function<void()>>& runs, int 
 
 double cost(double with, double without) { return std::max(0.0, with - without); }
 
+// True for an array that is computed for each fragment; the other effects are stages.
 bool is_value(Effect effect) {
     using enum Effect;
     return effect == color || effect == texcoord || effect == shader_z || effect == code || effect == facing;
 }
 
+// Values that the run needs cannot be left out of it: walks over the fragments measure them.
 bool is_walked(const EffectRow& row) { return row.is_simulated && is_value(row.effect_id); }
 
 // The values that the plan simulates, all but one.
@@ -48,6 +52,7 @@ rasterizer::FragmentNeeds values_without(const EffectsPlan& plan, Effect left_ou
     return needs;
 }
 
+// Walk 0 computes all values that are called for, each further walk all but one.
 void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
     const peeling::RenderOptions& options = asked.scene->options.render;
     std::vector<std::function<void()>> walks;
@@ -69,6 +74,7 @@ void measure_values(const BenchJob& asked, int repeat, EffectsPlan& plan) {
 }  // namespace
 
 EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan) {
+    // The plain run: without replay, which would hide what passes cost.
     BenchJob needed = asked;
     needed.is_never_replayed = true;
     needed.effects = pipeline::Effects::needed;

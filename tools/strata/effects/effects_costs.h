@@ -17,7 +17,8 @@ struct EffectTimes {
     double needed = 0, all = 0, as_asked = 0;
 };
 
-// Fills EffectRow::seconds where it can be measured. Costs are differences of measured times: one below 0 is noise, and 0.
+// Fills EffectRow::seconds where it can be measured. Costs are differences of measured times: one below 0 is noise,
+// and 0.
 [[nodiscard]] EffectTimes measure_effects(const BenchJob& asked, int repeat, EffectsPlan& plan);
 
 }  // namespace strata::tools

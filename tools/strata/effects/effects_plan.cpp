@@ -17,12 +17,13 @@ using pipeline::Effect;
 using pipeline::Material;
 using pipeline::PassRecord;
 
+// --alpha makes everything transparent.
 bool is_transparent(const RunOptions& options, const Material& m) {
     return options.render.alpha || m.alpha_mode == AlphaMode::blend;
 }
 
-// How often passes like this one occur in the whole run: once for each record before the first iteration and in the first;
-// what later iterations do, they all do alike.
+// How often passes like this one occur in the whole run: once for each record before the first iteration and in the
+// first; what later iterations do, they all do alike.
 struct Occurrences {
     std::uint64_t before = 0, first = 0, later = 0;
     [[nodiscard]] std::uint64_t in(int iterations) const {
@@ -40,7 +41,8 @@ std::uint64_t count_passes(const pipeline::PassLog& log, int iterations, Holds h
         if (pass.is_opaque_priming || pass.iteration > 2 || !holds(pass)) continue;
         ++(pass.iteration == 0 ? found.before : pass.iteration == 1 ? found.first : found.later);
     }
-    if (!has_later) found.later = found.first;  // the small run ended after one iteration
+    // The small run ended after one iteration: later ones are taken to be like the first.
+    if (!has_later) found.later = found.first;
     return found.in(iterations);
 }
 
@@ -58,7 +60,8 @@ std::string names_of(const pipeline::DrawList& list, Holds holds) {
     return fmt::format("{}{}", fmt::join(names.begin(), end, ", "), more);
 }
 
-// What state decides, pass by pass.
+// A row that the state of each pass decides: `called` says who calls for it, `idle` why nobody
+// does.
 struct PassEffect {
     const char* name;
     Effect effect;
@@ -67,12 +70,14 @@ struct PassEffect {
     const char* idle;
 };
 
+// True if a colour target that exists is blended.
 bool is_blending(const PassRecord& p) {
     for (std::size_t k = 0; k < p.state.color.size(); ++k)
         if (p.state.color[k].exists() && p.state.blend[k].enabled) return true;
     return false;
 }
 
+// In the order in which a fragment meets them.
 constexpr std::array pass_effects{
     PassEffect{"colour interpolation, perspective division", Effect::color,
                [](const PassRecord& p) { return p.needs.color; },
@@ -111,18 +116,21 @@ bool idles_when_off(Effect effect) {
            effect == Effect::blending;
 }
 
+// Of all materials.
 std::uint64_t total(const std::vector<std::uint64_t>& counts) {
     std::uint64_t sum = 0;
     for (const std::uint64_t count : counts) sum += count;
     return sum;
 }
 
+// Collects the rows: the small literal run happens in the constructor, the rest in plan().
 class Planner {
   public:
     Planner(const BenchJob& job, const BenchRun& run) : job_{job}, run_{run} {
         const RunOptions& options = job.scene->options;
         peeling::RenderOptions small = options.render;
         constexpr int longest = 128;  // passes do not depend on the size
+        // Both sides are divided by the same number, so that the view keeps its aspect.
         const int scale = std::max(1, (std::max(small.width, small.height) + longest - 1) / longest);
         small.width = std::max(1, small.width / scale);
         small.height = std::max(1, small.height / scale);
@@ -191,7 +199,8 @@ class Planner {
                 list(), session.view, raster, session.profile,
                 {.selection = selection, .tile_size = tile_size, .threads = options.render.threads});
         };
-        // With --alpha nothing is opaque: the other list is then one without a triangle.
+        // Counts tiles and fragments of both lists in the whole frame, with the tiles of the run
+        // itself. With --alpha nothing is opaque: the other list is then one without a triangle.
         pipeline::PreparedDraw opaque = prepared(Selection::opaque);
         if (options.render.alpha) std::fill(opaque.geometry.bin_start.begin(), opaque.geometry.bin_start.end(), 0u);
         plan_.drawn = prepared(options.render.alpha ? Selection::all : Selection::transparent);

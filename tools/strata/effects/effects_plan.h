@@ -1,8 +1,9 @@
-// tools/strata/effects/effects_plan.h - the plan of a run: every effect of this machine, simulated or left out, who calls for it, and
-// how many fragments go through it.
+// tools/strata/effects/effects_plan.h - the plan of a run: every effect of this machine, simulated or left out, who
+// calls for it, and how many fragments go through it.
 //
-// Rule     The passes are those that the pipeline decided (pipeline/frame/effects.h), logged in a small literal run of the same
-//          scene and view; their number and their fragments are those of the whole run in literal execution.
+// Rule     The passes are those that the pipeline decided (pipeline/frame/effects.h), logged in a small literal run
+//          of the same scene and view; their number and their fragments are those of the whole run in literal
+//          execution.
 // Tests    tests/tools/effects_test.cpp
 #pragma once
 #include <optional>

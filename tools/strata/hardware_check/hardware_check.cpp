@@ -1,8 +1,9 @@
-// tools/strata/hardware_check/hardware_check.cpp - strata hardware-check: a profile against pictures that a real chip drew.
+// tools/strata/hardware_check/hardware_check.cpp - strata hardware-check: a profile against pictures that a real chip
+// drew.
 //
-// Rule     DIR/<suite>/<name>.png as the public captures are named; DIR/textures, if it is there, holds images that the tests
-//          loaded. Every picture is drawn from its name and compared outside of
-//          its labels. What is not modelled is listed, and never counted as passed. Exit status 1 if a picture is outside its bound.
+// Rule     DIR/<suite>/<name>.png as the public captures are named; DIR/textures, if it is there, holds images that
+//          the tests loaded. Every picture is drawn from its name and compared outside of its labels. What is not
+//          modelled is listed, and never counted as passed. Exit status 1 if a picture is outside its bound.
 // Tests    tests/tools/hardware_check_test.cpp, tests/tools/hardware_check/suites_test.cpp
 #include <algorithm>
 #include <filesystem>
@@ -25,11 +26,13 @@ namespace {
 namespace hc = hardware_check;
 namespace fs = std::filesystem;
 
+// The command line. Empty texts: every suite, no report.
 struct Options {
     std::string folder, suite, profile = "geforce3", report;
     bool json = false, hypotheses = false, digests = false;
 };
 
+// Names of the folder's entries that are wanted, in ASCII order: folders list their files in any.
 std::vector<std::string> sorted_names(const fs::path& folder, auto&& is_wanted) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -62,6 +65,7 @@ std::vector<Capture> find_captures(const Options& options) {
     return captures;
 }
 
+// Pictures are independent of each other; results stand in the order of the captures.
 std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile) {
     std::vector<CheckedPicture> checked(captures.size());
     for_every("checking", captures.size(), [&](std::size_t i) { checked[i] = check(captures[i], profile); });
@@ -71,6 +75,7 @@ std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, cons
 int hardware_check(const Options& options) {
     const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
     const std::vector<Capture> captures = find_captures(options);
+    // Scores are no comparison that could fail: the exit status is 0.
     if (options.hypotheses) {
         print(hypothesis_scores(captures, profile));
         return 0;

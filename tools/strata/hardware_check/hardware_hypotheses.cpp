@@ -16,6 +16,7 @@ using rasterizer::Subject;
 
 namespace {
 
+// A subject and the heading of its table, in the order of the output.
 struct Titled {
     Subject subject;
     std::string_view title;
@@ -28,12 +29,15 @@ constexpr Titled subjects[] = {{Subject::window_depth, "depths that are written"
 // What one capture says of every hypothesis; empty where it cannot tell.
 using Verdicts = std::vector<hc::Comparison>;
 
+// True if a picture of this suite, read like this, shows what the subject can change. Depth
+// pictures never tell of colours, nor colours of written depths, whatever the suite's set says.
 bool can_tell(const hc::Suite& suite, hc::Reading reading, Subject subject) {
     const bool shows_depth = reading == hc::Reading::depth16 || reading == hc::Reading::depth24;
     if (subject == (shows_depth ? Subject::color : Subject::window_depth)) return false;
     return (suite.tells >> static_cast<unsigned>(subject) & 1) != 0;
 }
 
+// Draws the capture once under each hypothesis, the rest of the profile as given.
 Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& profile, Subject subject,
                      const std::vector<NamedHypothesis>& hypotheses) {
     const hc::Suite* const suite = hc::find_suite(capture.suite);
@@ -50,9 +54,11 @@ Verdicts verdicts_of(const Capture& capture, const pipeline::DeviceProfile& prof
     return verdicts;
 }
 
+// The rules as given first, then every value of every open constant on this subject.
 std::vector<NamedHypothesis> hypotheses_on(Subject subject, const rasterizer::RasterRules& rules) {
     std::vector<NamedHypothesis> chosen = rasterizer::depth_hypotheses(rules);
     const std::vector<NamedHypothesis> others = rasterizer::interpolation_hypotheses(rules);
+    // Both lists begin with the rules as given: one of the two is left out.
     chosen.insert(chosen.end(), others.begin() + 1, others.end());
     chosen.erase(std::remove_if(chosen.begin() + 1, chosen.end(),
                                 [&](const NamedHypothesis& h) { return h.subject != subject; }),
@@ -60,6 +66,8 @@ std::vector<NamedHypothesis> hypotheses_on(Subject subject, const rasterizer::Ra
     return chosen;
 }
 
+// A row a hypothesis: captures that come out equal, captures within their bound, and pixels over
+// all captures.
 Table table_of(const std::vector<NamedHypothesis>& hypotheses, const std::vector<Verdicts>& verdicts) {
     Table table{{{"hypothesis"},
                  {"equal", Align::right},
@@ -71,6 +79,7 @@ Table table_of(const std::vector<NamedHypothesis>& hypotheses, const std::vector
         std::uint64_t equal = 0, within = 0, differing = 0;
         std::uint32_t largest = 0;
         for (const Verdicts& of_capture : verdicts) {
+            // This capture cannot tell.
             if (of_capture.empty()) continue;
             const hc::Comparison& c = of_capture[h];
             equal += c.differing == 0;

@@ -1,4 +1,5 @@
-// tools/strata/hardware_check/hardware_report.h - what a hardware check found: a line a suite, a line a picture, JSON, and a page with pictures.
+// tools/strata/hardware_check/hardware_report.h - what a hardware check found: a line a suite, a line a picture,
+// JSON, and a page with pictures.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 namespace strata::tools {
 
+// A file PATH = DIR/SUITE/NAME.png.
 struct Capture {
     std::string suite, name, path;
 };
@@ -18,16 +20,21 @@ inline constexpr std::string_view textures_folder = "textures";
 // The picture of a known suite, or why there is none: the profile may lack what it draws on.
 [[nodiscard]] hardware_check::Drawing drawn(const Capture& capture, const pipeline::DeviceProfile& profile);
 
+// The outcome for one capture.
 struct CheckedPicture {
     Capture capture;
-    bool is_known = false;   // the suite, and the name in it
-    std::string unmodelled;  // the reason; empty: it was compared
+    // The suite is known, and so is the name in it.
+    bool is_known = false;
+    // Why it was not compared; empty: it was.
+    std::string unmodelled;
     hardware_check::Bound bound{};
     hardware_check::Comparison comparison{};
     std::vector<std::uint64_t> reports{};
     rasterizer::Rect labels{};
-    std::string digest{};  // of the capture outside its labels
+    // Of the capture outside its labels.
+    std::string digest{};
     [[nodiscard]] bool is_compared() const { return is_known && unmodelled.empty(); }
+    // Pictures that are not modelled never fail a check; the tables count them by themselves.
     [[nodiscard]] bool is_accepted() const { return !is_compared() || comparison.within_bound; }
 };
 
@@ -37,6 +44,7 @@ struct CheckedPicture {
 // Draws the picture and compares. InputError for a file that is no such capture.
 [[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile);
 
+// The tables, and the JSON document of --json.
 [[nodiscard]] std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
 [[nodiscard]] std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
 // Suite, picture, label box, digest: of every capture that came out equal.

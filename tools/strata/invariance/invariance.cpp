@@ -1,5 +1,5 @@
-// tools/strata/invariance/invariance.cpp - strata invariance: two depths that ought to be equal, what that does to a peel, and what each
-// remedy costs.
+// tools/strata/invariance/invariance.cpp - strata invariance: two depths that ought to be equal, what that does to a
+// peel, and what each remedy costs.
 #include <fmt/format.h>
 
 #include <memory>
@@ -15,6 +15,8 @@ namespace strata::tools {
 
 namespace {
 
+// The command line. `keys` holds the options that are keys of a plan. Of `run` the scene and how it
+// is read, the resources and the output folder are used.
 struct InvarianceOptions {
     RunOptions run;
     KeyValues keys;
@@ -24,12 +26,15 @@ struct InvarianceOptions {
     bool dry_run = false, images = true, hypotheses = false;
 };
 
+// depth_format becomes --depth-format.
 std::string option_of(const PlanKey& key) {
     std::string name = "--" + key.name;
     std::replace(name.begin() + 2, name.end(), '_', '-');
     return name;
 }
 
+// Declares the option of a key. Each value is tried on a cell that is thrown away: it is set for
+// good when the plan is expanded.
 void add_key(CLI::App& app, InvarianceOptions& options, const PlanKey& key) {
     const auto fill = [&options, key](const std::string& given) {
         const auto values = key.is_list ? split(given, ',') : std::vector{given};
@@ -45,6 +50,7 @@ void add_key(CLI::App& app, InvarianceOptions& options, const PlanKey& key) {
         ->type_name(key.is_list ? "VALUE[,VALUE...]" : "VALUE");
 }
 
+// Throws CLI::ValidationError for options that exclude each other.
 void check_usage(const InvarianceOptions& options) {
     if (options.run.output.empty() && !options.dry_run)
         throw CLI::ValidationError("-o", "expected a folder for the results, found none");

@@ -11,6 +11,8 @@ namespace strata::tools {
 
 namespace {
 
+// The experiment that a cell stands for. `resources` brings threads, tile size and memory;
+// everything that a bit depends on is the cell's.
 peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions& resources) {
     peeling::Experiment e;
     e.render = resources;
@@ -18,6 +20,8 @@ peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions
     e.render.height = cell.height;
     e.render.alpha = cell.alpha;
     e.render.depth = cell.format;
+    // A factor and units of 0 would be an offset all the same: it is off, so that the plain cell is
+    // the plain machine.
     const bool has_bias = cell.remedy.bias_constant != 0 || cell.remedy.bias_slope != 0;
     e.render.raster.polygon_offset = {has_bias, cell.remedy.bias_slope, cell.remedy.bias_constant};
     e.render.compare_epsilon = cell.remedy.epsilon;
@@ -27,6 +31,7 @@ peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions
     e.compare = cell.compare;
     e.algorithm = cell.algorithm;
     e.max_passes = cell.max_passes;
+    // The two other splits need another list, which run() sets.
     if (cell.split == Split::clamped) e.render.second_depth_clamp = true;
     if (cell.split == Split::diagonal) e.match = peeling::Match::quad;
     if (cell.split == Split::moved) e.moved_window = {1, 1};
@@ -35,6 +40,7 @@ peeling::Experiment experiment_of(const Cell& cell, const peeling::RenderOptions
 
 }  // namespace
 
+// A reference into the map stays valid: nodes of a std::map do not move.
 const scenes::Scene& CellRunner::scene(const std::string& name) {
     const auto found = scenes_.find(name);
     return found != scenes_.end() ? found->second
@@ -46,6 +52,8 @@ pipeline::DeviceProfile CellRunner::profile(const Cell& cell) {
     pipeline::DeviceProfile profile = profiles_[cell.profile];
     if (cell.subpixel_bits != 0) profile.raster.subpixel_bits = cell.subpixel_bits;
     if (cell.hypothesis == "profile") return profile;
+    // The device with one open constant at another value. The names in an error begin with the two
+    // words that are no constant.
     std::vector<std::string> names{"profile", "all"};
     for (const auto& named : rasterizer::depth_hypotheses(profile.raster)) {
         if (named.name == cell.hypothesis) return profile.raster = named.rules, profile;
@@ -54,6 +62,8 @@ pipeline::DeviceProfile CellRunner::profile(const Cell& cell) {
     throw InputError(cell.profile, "hypothesis", one_of(names), found_but_near(cell.hypothesis, names));
 }
 
+// The number of a cell is its place in this list: a shard and a merge of the same plan must expand
+// it alike.
 std::vector<Cell> CellRunner::expanded(const std::vector<Cell>& cells) {
     std::vector<Cell> all;
     for (Cell cell : cells) {
@@ -70,6 +80,7 @@ std::vector<Cell> CellRunner::expanded(const std::vector<Cell>& cells) {
     return all;
 }
 
+// Reading is checking: both throw InputError.
 void CellRunner::check(const Cell& cell) {
     static_cast<void>(profile(cell));
     static_cast<void>(scene(cell.scene));
@@ -77,6 +88,7 @@ void CellRunner::check(const Cell& cell) {
 
 const pipeline::DrawList* CellRunner::split_list(const Cell& cell) {
     if (cell.split != Split::rotated && cell.split != Split::diagonal) return nullptr;
+    // One list a scene and split. A split does not depend on the view.
     const std::string key = cell.scene + ' ' + name_of(cell.split);
     const pipeline::DrawList& list = scene(cell.scene).list;
     if (!splits_.contains(key))
@@ -88,6 +100,8 @@ const pipeline::DrawList* CellRunner::split_list(const Cell& cell) {
 CellView CellRunner::view(const Cell& cell) {
     const double aspect = double(cell.width) / cell.height;
     scenes::LookAt camera = scenes::orbit_camera(scene(cell.scene).bounds, cell.azimuth, cell.elevation);
+    // The far plane stays the orbit's and the near one moves towards the eye: nothing of the scene
+    // is cut off.
     if (cell.range.ratio > 0) camera.near = camera.far / cell.range.ratio;
     if (cell.range.far > 0) {
         camera.near = cell.range.near;

@@ -9,19 +9,22 @@
 
 namespace strata::tools {
 
+// The camera of a cell, with what its line says about it.
 struct CellView {
     pipeline::View view;
     double near = 0, far = 0;  // of the projection
     int subpixel_bits = 0;     // of the device
 };
 
+// The outcome of one cell.
 struct CellResult {
     CellView view;
     peeling::Measurement measured;
     std::string refusal;  // the sentence; empty: it ran
 };
 
-// Scenes and profiles are read once.
+// Runs cells one after the other; not for several threads at once. Scenes and profiles are read
+// once.
 class CellRunner {
   public:
     CellRunner(scenes::SceneOptions scene_options, peeling::RenderOptions resources)
@@ -31,13 +34,16 @@ class CellRunner {
     [[nodiscard]] std::vector<Cell> expanded(const std::vector<Cell>& cells);
     // Reads what the cell names, so that a wrong name or file is told before anything runs. Throws InputError.
     void check(const Cell& cell);
+    // The orbit view of the cell's scene, with the planes that its range asks for.
     [[nodiscard]] CellView view(const Cell& cell);
+    // Measures the cell. A profile that refuses it is told in the result.
     [[nodiscard]] CellResult run(const Cell& cell);
 
   private:
     [[nodiscard]] const scenes::Scene& scene(const std::string& name);
     [[nodiscard]] pipeline::DeviceProfile profile(const Cell& cell);
-    [[nodiscard]] const pipeline::DrawList* split_list(const Cell& cell);  // null: the scene's own
+    // What further passes draw; null: the scene's own list.
+    [[nodiscard]] const pipeline::DrawList* split_list(const Cell& cell);
 
     scenes::SceneOptions scene_options_;
     peeling::RenderOptions resources_;  // threads, tile size, fragment memory: no bit depends on them

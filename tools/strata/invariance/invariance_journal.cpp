@@ -17,6 +17,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
+// `number` counts from 0, the message from 1.
 ordered_json parse_line(const std::string& path, std::size_t number, const std::string& text) {
     auto line = ordered_json::parse(text, nullptr, false);
     if (!line.is_object())
@@ -24,6 +25,8 @@ ordered_json parse_line(const std::string& path, std::size_t number, const std::
     return line;
 }
 
+// Every key that the plan knows beforehand must be there with the same value. JSON text is
+// compared: numbers are written in one form.
 void check_line(const std::string& path, std::size_t number, const ordered_json& line, const ordered_json& expected) {
     for (const auto& [key, value] : expected.items()) {
         const std::string found = line.contains(key) ? line[key].dump() : "nothing";
@@ -37,6 +40,8 @@ void check_line(const std::string& path, std::size_t number, const ordered_json&
 
 std::vector<std::size_t> Shard::cells(std::size_t all) const {
     std::vector<std::size_t> mine;
+    // Strided, not in blocks: neighbouring cells take about as long, so that shards end at about
+    // the same time.
     for (std::size_t cell = index - 1; cell < all; cell += count) mine.push_back(cell);
     return mine;
 }
@@ -50,6 +55,7 @@ std::optional<Shard> to_shard(std::string_view text) {
 }
 
 std::string shard_file(const std::string& folder, const std::string& stem, const Shard& shard) {
+    // A sweep in one shard has the plain names.
     const std::string part = shard.count == 1 ? "" : fmt::format(".{}of{}", shard.index, shard.count);
     return (std::filesystem::path(folder) / (stem + part + ".jsonl")).string();
 }
@@ -57,6 +63,7 @@ std::string shard_file(const std::string& folder, const std::string& stem, const
 Found read_journal(const std::string& path) {
     Found found;
     if (!std::filesystem::exists(path)) return found;
+    // At most 2 GiB, far more than the lines of any sweep.
     const std::string text = scenes::read_text_file(path, std::size_t{1} << 31);
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = text.find('\n', begin);
@@ -80,6 +87,7 @@ void check_journal(const std::string& path, const Lines& lines, const Lines& exp
 }
 
 Journal::Journal(const std::string& path, std::size_t whole_bytes) : path_{path} {
+    // What is torn goes before anything is appended: a line behind it would be lost with it.
     if (std::filesystem::exists(path)) std::filesystem::resize_file(path, whole_bytes);
     file_ = std::fopen(path.c_str(), "ab");
     if (file_ == nullptr) throw SystemError(path, "write", std::strerror(errno));
@@ -87,6 +95,7 @@ Journal::Journal(const std::string& path, std::size_t whole_bytes) : path_{path}
 
 Journal::~Journal() { std::fclose(file_); }
 
+// Flushed line by line: a kill costs the cell in work.
 void Journal::append(const ordered_json& line) {
     const std::string text = line.dump() + '\n';
     const bool written = std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0;

@@ -1,8 +1,10 @@
-// tools/strata/invariance/invariance_journal.h - the lines of a sweep on disk: appended one by one, taken up again after a kill, merged.
+// tools/strata/invariance/invariance_journal.h - the lines of a sweep on disk: appended one by one, taken up again
+// after a kill, merged.
 //
-// Rule     results.jsonl holds a line a cell in the order of the cells, so it is always a beginning of the finished file. A last line
-//          without its newline was torn by a kill: it is cut off, and its cell measured again. Every other line must be
-//          the one that this plan would write there. Shard i of n holds the cells i, i + n, ... in results.IofN.jsonl.
+// Rule     results.jsonl holds a line a cell in the order of the cells, so it is always a beginning of the finished
+//          file. A last line without its newline was torn by a kill: it is cut off, and its cell measured again.
+//          Every other line must be the one that this plan would write there. Shard i of n holds the cells i, i + n,
+//          ... in results.IofN.jsonl.
 // Tests    tests/tools/invariance_test.cpp
 #pragma once
 #include <cstdio>
@@ -13,13 +15,15 @@
 
 namespace strata::tools {
 
+// Shard `index` of `count`; the default is the whole sweep.
 struct Shard {
-    std::size_t index = 1, count = 1;  // from 1
+    // From 1 to `count`.
+    std::size_t index = 1, count = 1;
     // Cells of a sweep of `all` that are this shard's, in order.
     [[nodiscard]] std::vector<std::size_t> cells(std::size_t all) const;
 };
 
-// "2/5".
+// "2/5" is the shard 2 of 5. Nothing for a text that is not I/N with I from 1 to N.
 [[nodiscard]] std::optional<Shard> to_shard(std::string_view text);
 
 // "results", "jsonl": results.jsonl, or results.2of5.jsonl.
@@ -27,10 +31,12 @@ struct Shard {
 
 using Lines = std::vector<nlohmann::ordered_json>;
 
+// What a journal held when it was opened.
 struct Found {
     Lines lines;
-    bool torn = false;            // the file has a last line without newline
-    std::size_t whole_bytes = 0;  // of the lines with one
+    bool torn = false;  // the file has a last line without newline
+    // The length of the file up to its last newline, where appending goes on.
+    std::size_t whole_bytes = 0;
 };
 
 // Nothing if there is no such file. Throws InputError where a whole line is no JSON object.

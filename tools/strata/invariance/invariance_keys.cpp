@@ -10,6 +10,7 @@ namespace strata::tools {
 
 namespace {
 
+// Whether a file or a name exists is checked when the cell is: CellRunner::check().
 bool set_name(std::string& target, const std::string& text) {
     target = text;
     return !text.empty();
@@ -22,6 +23,7 @@ bool assign(Target& target, const std::optional<T>& value) {
     return value.has_value();
 }
 
+// A number from `low` to `high`, both included. `target` keeps its value if the text is none.
 bool set_number(auto& target, std::string_view text, double low, double high) {
     using Number = std::remove_reference_t<decltype(target)>;
     const auto value = to_number<Number>(text);
@@ -40,24 +42,30 @@ bool set_orbit(Cell& cell, const std::string& text) {
     return orbit.has_value();
 }
 
+// An invariance test needs layers in order: a peel that is exact or keeps them, and not the oracle
+// itself.
 bool set_algorithm(Cell& cell, const std::string& text) {
     cell.algorithm = peeling::find_algorithm(text);
     return cell.algorithm != nullptr && !cell.algorithm->is_oracle &&
            (cell.algorithm->exact || cell.algorithm->makes_layers);
 }
 
+// WRITE:COMPARE.
 bool set_pair(Cell& cell, const std::string& text) {
     const auto parts = split(text, ':');
     return parts.size() == 2 && assign(cell.write, to_choice(depth_paths(), parts[0])) &&
            assign(cell.compare, to_choice(depth_paths(), parts[1]));
 }
 
+// 0 is the profile's own number.
 bool set_subpixel_bits(Cell& cell, const std::string& text) {
     if (text == "profile") return cell.subpixel_bits = 0, true;
     const auto bits = to_int(text);
     return bits && (*bits == 4 || *bits == 8 || *bits == 12) && assign(cell.subpixel_bits, bits);
 }
 
+// orbit, ratio:R or NEAR:FAR. The orbit's far plane is 3.6 radii away, its sphere begins at 1.5:
+// from a ratio of 2.6 on, the near plane stays in front of that.
 bool set_range(Cell& cell, const std::string& text) {
     cell.range = {};
     if (text == "orbit") return true;
@@ -67,6 +75,7 @@ bool set_range(Cell& cell, const std::string& text) {
            set_number(cell.range.far, parts[1], cell.range.near, 1e12) && cell.range.far > cell.range.near;
 }
 
+// Adds one part of a remedy. A part that comes again replaces the first; `none` adds nothing.
 bool add_remedy(Remedy& remedy, const std::string& part) {
     const std::string value = part.find(':') == std::string::npos ? "" : part.substr(part.find(':') + 1);
     if (part == "none") return true;
@@ -100,6 +109,8 @@ const std::vector<Choice<Split>> splits{{"none", Split::none},
                                         {"moved", Split::moved},
                                         {"clamped", Split::clamped}};
 
+// In the order of nesting, which numbers the cells (reports.md 5.1): a key that moves changes every
+// number.
 std::vector<PlanKey> make_keys() {
     return {
         {"scene", "what is drawn", "a scene's name or file", "",

@@ -15,6 +15,7 @@ using nlohmann::json;
 
 namespace {
 
+// The file that a message names.
 struct Source {
     const std::string& file;
     [[noreturn]] void fail(const std::string& place, const std::string& expected, const std::string& found) const {
@@ -41,6 +42,8 @@ void check_value(const PlanKey& key, const std::string& text, const Source& sour
     if (!key.set(cell, text)) source.fail(place, key.expected, "'" + text + "'");
 }
 
+// One value or a list of them, each checked by the key; `place` is a JSON pointer, to which a list
+// adds the index.
 std::vector<std::string> values_of(const PlanKey& key, const json& value, const Source& source,
                                    const std::string& place) {
     if (value.is_array() && value.empty()) source.fail(place, "at least one value", "an empty list");
@@ -54,6 +57,8 @@ std::vector<std::string> values_of(const PlanKey& key, const json& value, const 
     return values;
 }
 
+// The keys of an object of the plan. An unknown key is an error: a misspelt one would silently be
+// its default.
 KeyValues grid_of(const json& object, const Source& source, const std::string& place) {
     if (!object.is_object()) source.fail(place, "an object", object.dump());
     KeyValues values;
@@ -80,6 +85,8 @@ KeyValues fallbacks() {
     return values;
 }
 
+// Adds all combinations of the values from key `k` on to `cell`; a cell that is there already is
+// not added again. The search for it is linear, for plans have hundreds of cells.
 void add_combinations(std::vector<Cell>& cells, const KeyValues& grid, std::size_t k, const Cell& cell) {
     const auto& keys = plan_keys();
     if (k == keys.size()) {
@@ -93,6 +100,7 @@ void add_combinations(std::vector<Cell>& cells, const KeyValues& grid, std::size
     }
 }
 
+// The only key without a default.
 void require_scene(const KeyValues& grid, const Source& source, const std::string& place) {
     if (!grid.contains("scene")) source.fail(place, "a scene, here, in /common or on the command line", "none");
 }
@@ -113,6 +121,7 @@ std::vector<Cell> parse_plan(const std::string& text, const std::string& file, c
             source.fail("/", "keys about, common or grids", found_but_near(name, {"about", "common", "grids"}));
     if (!plan.contains("grids") || !plan["grids"].is_array() || plan["grids"].empty())
         source.fail("/grids", "a list of at least one grid", plan.contains("grids") ? plan["grids"].dump() : "none");
+    // A grid's own values win over /common, these over the options, these over the defaults.
     const KeyValues base = merged(merged(fallbacks(), options),
                                   plan.contains("common") ? grid_of(plan["common"], source, "/common") : KeyValues{});
     std::vector<Cell> cells;

@@ -1,9 +1,11 @@
-// tools/strata/invariance/invariance_plan.h - what an invariance sweep measures: cells, from a JSON plan or from options.
+// tools/strata/invariance/invariance_plan.h - what an invariance sweep measures: cells, from a JSON plan or from
+// options.
 //
-// Rule     A plan is {"common": {...}, "grids": [{...}, ...]}. A grid gives each key one value or a list of values and stands
-//          for all their combinations; what it leaves out comes from `common`, then from the options, then from the
-//          defaults. Cells are numbered grid by grid, in the keys' own order with the last key fastest, so the order in a
-//          file changes nothing; a cell that comes twice is kept once. The whole plan is checked before anything runs.
+// Rule     A plan is {"common": {...}, "grids": [{...}, ...]}. A grid gives each key one value or a list of values
+//          and stands for all their combinations; what it leaves out comes from `common`, then from the options, then
+//          from the defaults. Cells are numbered grid by grid, in the keys' own order with the last key fastest, so
+//          the order in a file changes nothing; a cell that comes twice is kept once. The whole plan is checked
+//          before anything runs.
 // Tests    tests/tools/invariance_plan_test.cpp
 #pragma once
 #include <map>
@@ -30,9 +32,12 @@ struct DepthRange {
     friend bool operator==(const DepthRange&, const DepthRange&) = default;
 };
 
-// What further passes draw instead of what the first one drew.
+// none: the same. rotated: each triangle's vertices in another order. diagonal: quads cut along
+// their other diagonal. moved: a viewport one pixel further in x and y. clamped: with depth clamp.
 enum class Split : std::uint8_t { none, rotated, diagonal, moved, clamped };
 
+// One experiment. Its fields are the keys of a plan in their meaning; what names them stands in
+// reports.md 5.1.
 struct Cell {
     std::string scene, profile = "geforce3";
     int width = 256, height = 192;
@@ -48,15 +53,19 @@ struct Cell {
     int subpixel_bits = 0;  // 0: the profile's
     DepthRange range;
     Remedy remedy;
-    int max_passes = 0;  // 0: twice what a peel of the true layers needs
+    // Geometry passes at most; 0: twice what a peel of the true layers needs.
+    int max_passes = 0;
     friend bool operator==(const Cell&, const Cell&) = default;
 };
 
 // One key of a plan, and the option of the same meaning.
 struct PlanKey {
     std::string name;  // "depth_format"; the option is --depth-format
+    // Both are parts of sentences: of --help, and of an error after "expected".
     std::string help, expected;
     std::string fallback;  // values with commas between
+    // Sets the cell's field from one value. False, with the cell in any state, if the value has no
+    // meaning.
     bool (*set)(Cell&, const std::string& text);
     bool is_list = true;  // the option takes several values with commas between
 };

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "peeling/algorithms/algorithm.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/table.h"
 
@@ -13,6 +14,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
+// The columns of results.csv: what a table in print needs. results.jsonl has all keys.
 constexpr std::array columns{"scene",
                              "width",
                              "height",
@@ -40,6 +42,8 @@ constexpr std::array columns{"scene",
                              "psnr",
                              "outcome"};
 
+// The pair of fragments that shows a figure (reports.md 5.2). `width` turns the pixel's number into
+// x and y.
 ordered_json witness(const peeling::PathPair& pair, int width) {
     return {{"x", static_cast<int>(pair.pixel) % width},
             {"y", static_cast<int>(pair.pixel) / width},
@@ -48,7 +52,8 @@ ordered_json witness(const peeling::PathPair& pair, int width) {
             {"reference", fmt::format("0x{:08x}", pair.reference)}};
 }
 
-// Safe: the interval. Empty: the fragment that is peeled twice below `lowest` and the pair that loses one above `highest`.
+// Safe: the interval. Empty: the fragment that is peeled twice below `lowest` and the pair that loses one above
+// `highest`.
 ordered_json to_json(const std::optional<peeling::SafeRange>& found, int width) {
     if (!found) return nullptr;
     const peeling::SafeRange& range = *found;
@@ -70,17 +75,21 @@ ordered_json to_json(const std::optional<peeling::SafeAbsolute>& range) {
     return json;
 }
 
+// Bins of differences in codes: lowest, highest, count (audit.md 8.2).
 ordered_json histogram(const peeling::PathComparison& paths) {
     ordered_json bins = ordered_json::array();
     for (const peeling::UlpBin& bin : paths.histogram) bins.push_back({bin.low, bin.high, bin.count});
     return bins;
 }
 
+// The keys behind `refusal`, in the order of reports.md 5.2. A cell that was refused has them, too,
+// with counts of 0.
 void add_findings(ordered_json& line, const Cell& cell, const peeling::Measurement& m) {
     const bool ran = !m.refusal && m.peeled;
     line["fragments"] = m.paths.fragments;
     line["differing"] = m.paths.differing;
     line["unmatched"] = m.paths.unmatched;
+    // The size alone; its sign stands in the histogram.
     line["ulp_max"] = m.paths.largest < 0 ? -m.paths.largest : m.paths.largest;
     line["ulp_max_at"] = m.paths.differing > 0 ? witness(m.paths.where, cell.width) : ordered_json(nullptr);
     line["histogram"] = histogram(m.paths);
@@ -100,7 +109,7 @@ void add_findings(ordered_json& line, const Cell& cell, const peeling::Measureme
     line["safe_bias"] = to_json(m.advice.bias, cell.width);
 }
 
-// The double that prints as the float does.
+// The double whose shortest decimals are those of the float: 0.1f becomes 0.1, not 0.10000000149.
 double shortest(float value) { return *to_number<double>(fmt::format("{}", value)); }
 
 // RFC 4180: quotes only where the text needs them.
@@ -119,6 +128,7 @@ std::string without_folder(const std::string& name) {
     return scenes::is_procedural(name) ? name : std::filesystem::path(name).filename().string();
 }
 
+// One of the words of reports.md 5.2.
 std::string outcome(const CellResult& result) {
     if (!result.refusal.empty()) return "refused";
     if (!result.measured.peeled) return "compared";
@@ -128,6 +138,7 @@ std::string outcome(const CellResult& result) {
 }  // namespace
 
 ordered_json description(std::size_t number, const Cell& cell, const CellView& view) {
+    // The path that really writes: a remedy may replace the cell's own.
     const auto write = cell.remedy.depth_replace ? rasterizer::DepthPath::depth_replace : cell.write;
     return {{"cell", number},
             {"scene", without_folder(cell.scene)},

@@ -1,8 +1,9 @@
-// tools/strata/invariance/invariance_row.h - one measured cell as a line of results.jsonl and as a row of results.csv.
+// tools/strata/invariance/invariance_row.h - one measured cell as a line of results.jsonl and as a row of
+// results.csv.
 //
-// Rule     A line holds the cell's number, everything that says what was measured, then what was found, in one order of keys; a row
-//          holds the columns of csv_header(). Numbers are written in the shortest form that reads back to the same bits;
-//          nothing depends on time, threads or host.
+// Rule     A line holds the cell's number, everything that says what was measured, then what was found, in one order
+//          of keys; a row holds the columns of csv_header(). Numbers are written in the shortest form that reads back
+//          to the same bits; nothing depends on time, threads or host.
 // Tests    tests/tools/invariance_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>

@@ -18,6 +18,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
+// What each line of the shard must begin with.
 Lines descriptions(const Sweep& sweep, CellRunner& runner, const Shard& shard) {
     Lines lines;
     for (const std::size_t number : shard.cells(sweep.cells.size()))
@@ -25,6 +26,7 @@ Lines descriptions(const Sweep& sweep, CellRunner& runner, const Shard& shard) {
     return lines;
 }
 
+// results.csv is made anew from all lines; only the journal grows.
 std::string csv_of(const Lines& lines) {
     std::string text = csv_header();
     for (const ordered_json& line : lines) text += to_csv(line);
@@ -56,6 +58,7 @@ Timed timed_run(CellRunner& runner, const Cell& cell) {
     return {std::move(result), taken.count()};
 }
 
+// The journal of an earlier run, held against the plan: a folder belongs to one plan.
 Found checked(const std::string& path, const Lines& expected) {
     Found found = read_journal(path);
     check_journal(path, found.lines, expected);
@@ -73,6 +76,7 @@ int run_sweep(const Sweep& sweep, CellRunner& runner) {
     if (found.torn)
         std::fprintf(stderr, "strata: warning: %s: the last line was torn; its cell is measured again\n",
                      results.c_str());
+    // A finished sweep writes nothing but its CSV.
     if (found.lines.size() < expected.size()) {
         Journal journal(results, found.whole_bytes), clock(timings, read_journal(timings).whole_bytes);
         Progress progress("invariance", Remaining::shown);
@@ -82,6 +86,8 @@ int run_sweep(const Sweep& sweep, CellRunner& runner) {
             progress.show(static_cast<double>(i - before) / static_cast<double>(mine.size() - before));
             const Cell& cell = sweep.cells[mine[i]];
             const Timed timed = timed_run(runner, cell);
+            // Pictures and the time are written first: a line in the journal means that its cell is
+            // complete.
             if (sweep.images) write_cell_images(sweep.folder, mine[i], timed.result);
             clock.append(
                 {{"cell", mine[i]}, {"seconds", timed.seconds}, {"peel_seconds", timed.result.measured.seconds}});
@@ -98,6 +104,7 @@ int run_sweep(const Sweep& sweep, CellRunner& runner) {
     return exit_status(found.lines);
 }
 
+// Lines go to the places of their cells, so the merged files are those of a sweep in one shard.
 int merge_shards(const Sweep& sweep, CellRunner& runner, std::size_t shards) {
     Lines results(sweep.cells.size());
     std::string timings;
@@ -110,6 +117,7 @@ int merge_shards(const Sweep& sweep, CellRunner& runner, std::size_t shards) {
             throw InputError(path, "lines", std::to_string(cells.size()) + ", one a cell of the shard",
                              std::to_string(found.lines.size()));
         for (std::size_t i = 0; i < cells.size(); ++i) results[cells[i]] = std::move(found.lines[i]);
+        // Times are joined shard by shard; each line names its cell.
         for (const ordered_json& line : read_journal(shard_file(sweep.folder, "timings", shard)).lines)
             timings += line.dump() + '\n';
     }
@@ -122,6 +130,7 @@ int merge_shards(const Sweep& sweep, CellRunner& runner, std::size_t shards) {
     return exit_status(results);
 }
 
+// Cells of one scene, size and algorithm are taken to last equally long.
 void dry_run(const Sweep& sweep, CellRunner& runner) {
     std::map<std::string, double> measured;
     double total = 0;

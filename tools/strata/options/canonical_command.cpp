@@ -11,6 +11,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
+// An option with its value.
 void add(Words& words, const std::string& option, const std::string& value) {
     words.push_back(option);
     words.push_back(value);
@@ -40,6 +41,8 @@ std::string to_text(const peeling::Sort& sort) {
     return "";  // unreachable: the enum is closed
 }
 
+// Each of these adds the options of one group, in the order of reports.md 7, where they differ from
+// their defaults.
 void add_scene(Words& words, const RunOptions& options) {
     const scenes::SceneOptions& scene = options.scene_options;
     if (scene.scene) add(words, "--scene", fmt::format("{}", *scene.scene));
@@ -51,6 +54,7 @@ void add_scene(Words& words, const RunOptions& options) {
 void add_view(Words& words, const RunOptions& options) {
     const peeling::RenderOptions& render = options.render;
     add(words, "--size", fmt::format("{}x{}", render.width, render.height));
+    // The view is always named, also where it is the default.
     const Orbit orbit = options.orbit.value_or(Orbit{});
     if (options.camera.empty())
         add(words, "--orbit", fmt::format("{},{}", orbit.azimuth, orbit.elevation));

@@ -29,6 +29,7 @@ inline const std::vector<Choice<pipeline::Format>> count_formats{{"r16f", pipeli
     return paths;
 }
 
+// In the order of the enum.
 [[nodiscard]] inline std::vector<Choice<pipeline::VertexPath>> vertex_paths() {
     std::vector<Choice<pipeline::VertexPath>> paths;
     for (const std::string_view name : pipeline::vertex_path_names)
@@ -54,6 +55,7 @@ inline const std::vector<Choice<Simd>> simds{{"scalar", Simd::scalar},
 inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
                                                             {"all", pipeline::Effects::all}};
 
+// Pixels a side.
 inline const std::vector<Choice<int>> tile_sizes{{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
 
 }  // namespace strata::tools

@@ -1,5 +1,5 @@
-// tools/strata/options/option.h - one option: declared beside the variable it fills; an error names the option, what was wanted
-// and what was found.
+// tools/strata/options/option.h - one option: declared beside the variable it fills; an error names the option, what
+// was wanted and what was found.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -13,6 +13,7 @@
 
 namespace strata::tools {
 
+// The words of an option, for --help and for its error.
 struct OptionText {
     std::string name;  // --size
     std::string type;  // WIDTHxHEIGHT
@@ -31,7 +32,8 @@ CLI::Option* add_option(CLI::App& app, T& target, const OptionText& text, Parse 
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
 }
 
-// A name of something outside, which is never empty. A long name is what messages call the option unless it has a short one.
+// A name of something outside, which is never empty. A long name is what messages call the option unless it has a
+// short one.
 inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionText& text) {
     OptionText named = text;
     named.name = text.name.substr(0, text.name.find(','));
@@ -42,6 +44,7 @@ inline CLI::Option* add_path(CLI::App& app, std::string& target, const OptionTex
     return app.add_option_function<std::string>(text.name, fill, text.help)->type_name(text.type);
 }
 
+// A word and the value that it means.
 template <class T>
 struct Choice {
     std::string name;
@@ -55,6 +58,7 @@ template <class T>
     return names;
 }
 
+// Empty for a value that is not in the list.
 template <class T>
 [[nodiscard]] std::string name_of(const std::vector<Choice<T>>& choices, const T& value) {
     for (const auto& choice : choices) {
@@ -71,7 +75,8 @@ template <class T>
     return std::nullopt;
 }
 
-// Of the words with commas between, those in `choices`, none twice; `all` stands for `everything` unless it is one of them.
+// Of the words with commas between, those in `choices`, none twice; `all` stands for `everything` unless it is one of
+// them.
 template <class T>
 [[nodiscard]] std::vector<T> to_choices(const std::string& name, const std::string& text,
                                         const std::vector<Choice<T>>& choices, const std::vector<T>& everything) {

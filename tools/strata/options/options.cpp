@@ -12,6 +12,7 @@ namespace strata::tools {
 
 namespace {
 
+// R,G,B, each from 0 to 1; alpha is 1.
 std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
     pipeline::Rgba color{0, 0, 0, 1};
     const auto parts = split(text, ',');
@@ -24,6 +25,7 @@ std::optional<pipeline::Rgba> to_rgb(std::string_view text) {
     return color;
 }
 
+// One of the words of keys-and-counts.md 3.1, with its share or number of passes.
 std::optional<pipeline::Termination> to_termination(std::string_view text) {
     using enum pipeline::TerminationRule;
     if (text == "exact") return pipeline::Termination{.rule = exact};
@@ -40,6 +42,7 @@ std::optional<pipeline::Termination> to_termination(std::string_view text) {
     return std::nullopt;
 }
 
+// One of the orders of keys-and-counts.md 5. A seed is any number of 64 bits.
 std::optional<peeling::Sort> to_sort(std::string_view text) {
     using enum peeling::SortRule;
     if (text == "none") return peeling::Sort{.rule = none};
@@ -67,16 +70,20 @@ std::optional<std::uint64_t> to_bytes(std::string_view text) {
     const unsigned shift = suffix == suffixes.npos ? 0 : 10 * (static_cast<unsigned>(suffix) + 1);
     if (shift > 0) text.remove_suffix(1);
     const auto count = to_int<std::uint64_t>(text);
+    // More than 2^64 - 1 bytes is no size: the shift would lose the upper bits.
     if (!count || *count > ~std::uint64_t{0} >> shift) return std::nullopt;
     return *count << shift;
 }
 
+// FACTOR,UNITS: an offset that is given is on, even with two zeros.
 std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text) {
     const auto values = to_numbers<float>(text, 2);
     if (!values) return std::nullopt;
     return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
 }
 
+// The algorithms of a list of names, in its order, none twice; `all` stands for every algorithm of
+// the registry. Throws CLI::ValidationError for any other name.
 std::vector<const peeling::Algorithm*> to_algorithms(const std::string& text) {
     std::vector<const peeling::Algorithm*> chosen;
     const auto add = [&](const peeling::Algorithm& algorithm) {
@@ -115,6 +122,7 @@ void add_profile_option(CLI::App& app, std::string& profile) {
               "a profile's name or file"});
 }
 
+// Options are declared in the order in which --help shows them.
 void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
     add_choice(app, options.depth, "--depth", depth_formats,
                "depth buffer (default d32f, or d24 where that is missing)");
@@ -200,6 +208,7 @@ void add_picture_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_view_options(CLI::App& app, RunOptions& options) {
+    // One option fills two fields: the width is its value, the height is set beside it.
     const auto set_size = [&options](std::string_view text) {
         const auto size = to_size(text);
         if (size) options.render.height = size->height;

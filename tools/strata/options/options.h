@@ -13,7 +13,9 @@
 
 namespace strata::tools {
 
+// What a command was asked for; every field has the default of reports.md 6.
 struct RunOptions {
+    // The process's own start, as far as this program sees it: statistics tell the seconds since.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     std::string scene;
     scenes::SceneOptions scene_options;

@@ -1,4 +1,5 @@
-// tools/strata/options/parse.h - text from the command line into numbers. Independent of the locale; the whole text counts.
+// tools/strata/options/parse.h - text from the command line into numbers. Independent of the locale; the whole text
+// counts.
 #pragma once
 #include <charconv>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 namespace strata::tools {
 
+// A whole decimal number that T can hold; nothing for any other text, a sign + or a space included.
 template <std::integral T = int>
 [[nodiscard]] std::optional<T> to_int(std::string_view text) {
     T value = 0;
@@ -18,6 +20,7 @@ template <std::integral T = int>
     return value;
 }
 
+// From 1.
 [[nodiscard]] inline std::optional<int> to_positive(std::string_view text) {
     const auto value = to_int(text);
     return value && *value >= 1 ? value : std::nullopt;
@@ -32,6 +35,7 @@ template <std::floating_point T>
     return value;
 }
 
+// From 0.
 [[nodiscard]] inline std::optional<double> to_seconds(std::string_view text) {
     const auto value = to_number<double>(text);
     return value && *value >= 0 ? value : std::nullopt;

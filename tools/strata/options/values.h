@@ -1,5 +1,5 @@
-// tools/strata/options/values.h - what the values of options mean, wherever they are given: on the command line, or in a plan of
-// `strata invariance`. Each function answers nothing for a text that it cannot use.
+// tools/strata/options/values.h - what the values of options mean, wherever they are given: on the command line, or
+// in a plan of `strata invariance`. Each function answers nothing for a text that it cannot use.
 #pragma once
 #include <optional>
 #include <string_view>
@@ -12,6 +12,7 @@ struct VertexPaths;
 
 namespace strata::tools {
 
+// Pixels.
 struct Size {
     int width = 0, height = 0;
 };

@@ -1,4 +1,5 @@
-// tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the frame.
+// tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the
+// frame.
 #include <memory>
 #include <numeric>
 
@@ -12,6 +13,7 @@ namespace strata::tools {
 
 namespace {
 
+// The command line; `deep` is the file of --deep, empty for none.
 struct LayersOptions {
     RunOptions run;
     std::string deep;
@@ -39,6 +41,7 @@ scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fra
     return deep;
 }
 
+// Writes the layers (-o) and the fragments (--deep) of one algorithm.
 void write_layers(const LayersOptions& options, const Finished& finished) {
     const scenes::Attributes attributes = attributes_of("layers", options.run, finished);
     if (!options.run.output.empty()) {

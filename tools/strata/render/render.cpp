@@ -11,6 +11,7 @@ namespace strata::tools {
 
 namespace {
 
+// Without -o nothing is written: the statistics are the result.
 void write_picture(const RunOptions& options, const Finished& finished) {
     if (options.output.empty()) return;
     scenes::write_image(path_for(options.output, options, finished.algorithm),

@@ -19,6 +19,7 @@ namespace strata::tools {
 
 namespace {
 
+// The view of --camera or of the orbit. A name means a camera of the scene first, then a file.
 pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) {
     const double aspect = double(options.render.width) / options.render.height;
     if (options.camera.empty()) {
@@ -43,6 +44,7 @@ void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
     const auto add = [&](const std::string& name) {
         if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     };
+    // Meshes and materials share one list of names: either may be meant.
     for (const auto& mesh : scene.list.meshes) add(mesh.name);
     for (const auto& material : scene.list.materials) add(material.name);
     for (const std::string& name : options.render.sorted)
@@ -71,6 +73,7 @@ Session open_session(RunOptions& options) {
     check_simd(options.simd);
     options.render.simd = options.simd;
     Session session;
+    // Profile first: it is small, and an error in it is told before a large scene is read.
     session.profile = scenes::load_profile(options.profile);
     session.scene = scenes::load_scene(options.scene, options.scene_options);
     for (const std::string& warning : session.scene.warnings)
@@ -78,6 +81,7 @@ Session open_session(RunOptions& options) {
     warn_of_opaque(options, session.scene);
     session.view = find_view(options, session.scene);
     check_sorted(options, session.scene);
+    // Given as sRGB values; the frame blends in the colour space of the run.
     options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
     return session;
 }
@@ -97,6 +101,7 @@ RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&
     return summary;
 }
 
+// Renders, and writes the files while the pixels are there. A refused algorithm writes none.
 RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, peeling::Renderer& renderer,
                    const Writer& write) {
     Progress progress(algorithm.name);
@@ -105,6 +110,7 @@ RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, 
     return summarize(algorithm, std::move(result));
 }
 
+// Tells the statistics once all algorithms have run: as JSON, as a table, or both.
 void report(const RunOptions& options, const std::vector<RunSummary>& runs, const std::string& profile) {
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - options.started;
     const RunContext context{.profile = profile,
@@ -139,6 +145,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     complete(options);
     check_outputs({{"--stats", options.stats == "-" ? "" : options.stats, {".json"}}});
     const Session session = open_session(options);
+    // One renderer serves all algorithms: geometry is transformed and set up once.
     peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
     std::vector<RunSummary> runs;
     for (const peeling::Algorithm* algorithm : options.algorithms)

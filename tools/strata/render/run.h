@@ -21,10 +21,11 @@ struct Session {
     pipeline::View view;
 };
 
-// Loads profile and scene, warns on standard error (of a scene in which nothing is transparent, too), finds the view, and makes --simd and --background the run's.
+// Loads profile and scene, warns on standard error (of a scene in which nothing is transparent, too), finds the view,
+// and makes --simd and --background the run's.
 [[nodiscard]] Session open_session(RunOptions& options);
 
-// One algorithm that ran.
+// One algorithm that ran. The references hold while the Writer runs.
 struct Finished {
     const Session& session;
     const peeling::Algorithm& algorithm;

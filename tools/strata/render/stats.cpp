@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
+// False for a run that the profile refused.
 bool is_done(const RunSummary& run) { return run.result.outcome == peeling::Outcome::done; }
 
 std::string_view outcome_name(peeling::Outcome outcome) {
@@ -22,6 +23,7 @@ std::string_view outcome_name(peeling::Outcome outcome) {
     return "";  // unreachable: the enum is closed
 }
 
+// The objects of a row, with the keys of reports.md 1 in their order.
 ordered_json to_json(const pipeline::Counters& c) {
     return {{"fragments_rasterized", c.fragments_rasterized},
             {"discarded", c.discarded},
@@ -51,12 +53,15 @@ ordered_json to_json(const std::vector<pipeline::Diagnostic>& diagnostics) {
     return list;
 }
 
+// Null for a run that was done.
 ordered_json refusal_of(const RunSummary& run) {
     if (is_done(run)) return nullptr;
     const auto refusal = run.result.refusal.value_or(pipeline::Refusal{});
     return {{"feature", refusal.feature}, {"extension", refusal.extension}};
 }
 
+// A line for people below the table. Faults that no pixel shows have no count and no place (first_x
+// is -1).
 std::string describe(const std::string& algorithm, const pipeline::Diagnostic& d) {
     std::string text = fmt::format("{}: {}", algorithm, pipeline::name(d.fault));
     if (d.pixels > 0) text += fmt::format(" at {} pixels", d.pixels);
@@ -64,20 +69,18 @@ std::string describe(const std::string& algorithm, const pipeline::Diagnostic& d
     return text + (d.detail.empty() ? "" : ": " + d.detail) + '\n';
 }
 
+// The row of the table; "-" stands for what a refused or unaudited run does not have.
 std::vector<std::string> cells(const RunSummary& run, const RunContext& context) {
     const auto& [algorithm, result, color, depth] = run;
     if (!is_done(run)) return {algorithm->name, "refused", "-", "-", "-", "-", "-", "-", "-", "-"};
     const peeling::AuditResult& audit = result.audit;
     const auto audited = [&](const std::string& text) { return context.audited ? text : "-"; };
-    return {algorithm->name,
-            std::string(outcome_name(result.outcome)),
-            fmt::format("{}", result.frame.passes.geometry),
+    return {algorithm->name, std::string(outcome_name(result.outcome)), fmt::format("{}", result.frame.passes.geometry),
             audited(fmt::format("{}", audit.layers_max)),
             audited(audit.order_errors ? fmt::format("{}", *audit.order_errors) : "-"),
-            audited(fmt::format("{}", audit.lost_by_ties)),
-            audited(fmt::format("{:.3f}", audit.max_difference)),
-            color.substr(0, 12),
-            fmt::format("{:.3f}", result.seconds.geometry + result.seconds.passes),
+            audited(fmt::format("{}", audit.lost_by_ties)), audited(fmt::format("{:.3f}", audit.max_difference)),
+            // Twelve digits tell pictures apart by eye; --stats has the whole digest.
+            color.substr(0, 12), fmt::format("{:.3f}", result.seconds.geometry + result.seconds.passes),
             audited(fmt::format("{:.3f}", result.seconds.audit))};
 }
 
@@ -86,6 +89,7 @@ std::vector<std::string> cells(const RunSummary& run, const RunContext& context)
 ordered_json to_row(const RunSummary& run, const RunContext& context) {
     const auto& [algorithm, result, color, depth] = run;
     const peeling::AuditResult& audit = result.audit;
+    // A refused row has counts of 0, not null, also without the audit.
     const bool counted = context.audited || !is_done(run);
     const auto audited = [&](ordered_json value) { return counted ? value : ordered_json(nullptr); };
     const bool has_order = !is_done(run) || audit.order_errors.has_value();

@@ -31,6 +31,7 @@ struct RunContext {
 // A refused run has empty digests, zeros for counts, and says why in "refusal", which is null for every other run.
 [[nodiscard]] nlohmann::ordered_json to_row(const RunSummary& run, const RunContext& context);
 
+// The document of --stats (reports.md 1), with its newline.
 [[nodiscard]] std::string to_json(const std::vector<RunSummary>& runs, const RunContext& context);
 
 // The same for people, with the diagnostics and refusals below the table.

@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce.cpp - strata reproduce: a paper's own figures and tables beside what this machine finds.
+// tools/strata/reproduce/reproduce.cpp - strata reproduce: a paper's own figures and tables beside what this machine
+// finds.
 #include <filesystem>
 #include <memory>
 
@@ -13,8 +14,11 @@ namespace strata::tools {
 
 namespace {
 
+// The papers that have a page, in the order in which an error lists them.
 const std::vector<std::string> papers{"carr2008", "everitt2001", "bavoil2008"};
 
+// Reads every model before anything is drawn, so that a wrong file ends the command at once. Throws
+// InputError.
 std::vector<Model> load_models(const ReproduceOptions& options) {
     std::vector<Model> models;
     for (const std::string& path : options.models)
@@ -22,16 +26,19 @@ std::vector<Model> load_models(const ReproduceOptions& options) {
     return models;
 }
 
+// Everitt's figures have the teapot alone: models are not loaded for them.
 Page page_of(const ReproduceOptions& options) {
     if (options.paper == "everitt2001") return reproduce_everitt(options);
     const std::vector<Model> models = load_models(options);
     return options.paper == "carr2008" ? reproduce_carr(options, models) : reproduce_bavoil(options, models);
 }
 
+// The exit status is 0, or the command throws.
 int reproduce(const ReproduceOptions& options) {
     if (std::find(papers.begin(), papers.end(), options.paper) == papers.end())
         throw CLI::ValidationError("PAPER",
                                    "expected " + one_of(papers) + ", found " + found_but_near(options.paper, papers));
+    // A folder that cannot be made is told by what is there afterwards: it may exist already.
     std::error_code failed;
     std::filesystem::create_directories(options.folder, failed);
     if (!std::filesystem::is_directory(options.folder))

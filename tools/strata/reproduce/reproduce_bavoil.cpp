@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_bavoil.cpp - Bavoil and Myers 2008: geometry passes of dual peeling, and Figure 4 (three choices of alpha).
+// tools/strata/reproduce/reproduce_bavoil.cpp - Bavoil and Myers 2008: geometry passes of dual peeling, and Figure 4
+// (three choices of alpha).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,17 +13,20 @@ namespace strata::tools {
 
 namespace {
 
+// A model, seen from one view for all its pictures and counts.
 struct Subject {
     const Model& model;
     pipeline::View view;
 };
 
+// One run on the profile geforce8.
 peeling::RenderResult render(const Subject& subject, const std::string& algorithm,
                              const peeling::RenderOptions& options) {
     return peeling::Renderer(subject.model.scene.list, subject.view, *pipeline::find_profile("geforce8"), options)
         .render(*peeling::find_algorithm(algorithm));
 }
 
+// Square pictures on white; every alpha times `alpha`.
 peeling::RenderOptions options_for(const ReproduceOptions& options, float alpha) {
     peeling::RenderOptions render;
     render.width = render.height = options.size;
@@ -32,10 +36,13 @@ peeling::RenderOptions options_for(const ReproduceOptions& options, float alpha)
     return render;
 }
 
+// A row of the table of passes. Two exits of dual are run: ours ends when nothing is left, the
+// paper's when a pass blends nothing.
 std::vector<std::string> pass_row(const ReproduceOptions& options, const Subject& subject) {
     peeling::RenderOptions exact = options_for(options, 0.6f), paper = exact;
     paper.termination.rule = pipeline::TerminationRule::paper;
     const auto dual = render(subject, "dual", exact);
+    // N is the number of layers of the deepest pixel, as the audit counts it.
     const int n = dual.audit.layers_max, passes = dual.frame.passes.geometry;
     const auto with_paper_exit = render(subject, "dual", paper);
     const auto front_to_back = render(subject, "front_to_back", exact);
@@ -50,7 +57,8 @@ std::vector<std::string> pass_row(const ReproduceOptions& options, const Subject
                        : "N is odd: the layer in the middle takes a pass of its own (E11)"};
 }
 
-// Alpha from 0.2 at the bottom of the bounds to 0.8 at their top.
+// Gives each mesh vertex colours whose alpha goes from 0.2 at the bottom of that mesh to 0.8 at its
+// top, linear in y. A flat mesh has 0.2.
 void vary_alpha(scenes::Scene& scene) {
     for (pipeline::Mesh& mesh : scene.list.meshes) {
         float low = HUGE_VALF, high = -HUGE_VALF;
@@ -58,12 +66,14 @@ void vary_alpha(scenes::Scene& scene) {
             low = std::fmin(low, p[1]);
             high = std::fmax(high, p[1]);
         }
+        // A mesh without vertex colours gets white ones; colours that it has stay.
         mesh.colors.resize(mesh.positions.size(), {1, 1, 1, 1});
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             mesh.colors[i][3] = 0.2f + 0.6f * (high > low ? (mesh.positions[i][1] - low) / (high - low) : 0.0f);
     }
 }
 
+// Figure 4: three choices of alpha, and how far the two one-pass sums are from dual's picture.
 Section alphas(const ReproduceOptions& options, const Model& model, const pipeline::View& view) {
     Section section{"Figure 4 with " + model.name,
                     "Dual peeling is exact; the other two take one pass. The paper finds the average close to it for "
@@ -79,6 +89,7 @@ Section alphas(const ReproduceOptions& options, const Model& model, const pipeli
         const Model& model;
         float alpha;
     };
+    // The varied model has its alphas in its vertices, which 1.0 leaves as they are.
     for (const Column& column : {Column{"20", model, 0.2f}, {"60", model, 0.6f}, {"non-uniform", varied, 1.0f}}) {
         const Subject subject{column.model, view};
         const peeling::RenderOptions render_options = options_for(options, column.alpha);
@@ -98,6 +109,7 @@ Section alphas(const ReproduceOptions& options, const Model& model, const pipeli
 
 }  // namespace
 
+// The teapot comes first, then the models that were given.
 Page reproduce_bavoil(const ReproduceOptions& options, const std::vector<Model>& given) {
     std::vector<Model> models{{"teapot", scenes::load_scene("teapot", {})}};
     models.insert(models.end(), given.begin(), given.end());

@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_carr.cpp - Carr, Mech and Miller 2008: Table 1 (models) and Figures 1 and 3 (slices and a cone).
+// tools/strata/reproduce/reproduce_carr.cpp - Carr, Mech and Miller 2008: Table 1 (models) and Figures 1 and 3
+// (slices and a cone).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,22 +15,28 @@ namespace strata::tools {
 
 namespace {
 
+// What one algorithm needed for one picture.
 struct Run {
     int iterations = 0, passes = 0;
-    std::uint64_t fragments = 0;  // rasterized in all geometry passes
-    double seconds = 0;           // of all passes; the median of three runs where a run is short
+    // Rasterized in all geometry passes.
+    std::uint64_t fragments = 0;
+    // Of all passes, without loading and set-up: the median of three runs where a run is short.
+    double seconds = 0;
     pipeline::Image color{};
 };
 
-constexpr double short_run = 1.0;  // seconds
+// Seconds; a shorter run is repeated, because one of its times says little.
+constexpr double short_run = 1.0;
 
-// Literal execution: every pass rasterizes all its geometry, as the paper's machine did. `paper_exit`: iterations as the paper
-// counts them, by queries during compositing.
+// Literal execution: every pass rasterizes all its geometry, as the paper's machine did. `paper_exit`: iterations as
+// the paper counts them, by queries during compositing.
 Run run(const scenes::Scene& scene, const pipeline::View& view, const std::string& algorithm,
         peeling::RenderOptions options, bool paper_exit) {
     options.execution = pipeline::Execution::literal;
+    // Neither comparison nor nearest depth belongs to the paper's times.
     options.audit = options.nearest_depth = false;
     if (paper_exit) options.termination.rule = pipeline::TerminationRule::paper;
+    // coherent_ideal needs more than the hardware of the paper's time had.
     const char* const profile = algorithm == "coherent_ideal" ? "ideal" : "geforce8";
     peeling::Renderer renderer(scene.list, view, *pipeline::find_profile(profile), options);
     const peeling::Algorithm& chosen = *peeling::find_algorithm(algorithm);
@@ -42,6 +49,7 @@ Run run(const scenes::Scene& scene, const pipeline::View& view, const std::strin
             seconds[seconds.size() / 2], result.frame.color};
 }
 
+// Two decimals, or "-" where there is nothing to divide by.
 std::string ratio(double a, double b) { return b > 0 ? fmt::format("{:.2f}", a / b) : "-"; }
 
 peeling::RenderOptions options_for(const ReproduceOptions& options, int size) {
@@ -53,6 +61,7 @@ peeling::RenderOptions options_for(const ReproduceOptions& options, int size) {
 
 // ---- Figures 1 and 3
 
+// Pixels a side: literal peels of 1024 slices must end in reasonable time.
 constexpr int beam_size = 32;
 const std::array beam_algorithms{"layer_peel", "hybrid", "coherent_stencil", "coherent_blend", "coherent_ideal"};
 
@@ -61,6 +70,8 @@ struct Printed {
     std::string figure, why;
 };
 
+// Empty texts for rows of which the paper says nothing. `iterations` are ours: what is counted
+// alike needs no reason.
 Printed printed_of(int slices, const std::string& algorithm, int iterations) {
     constexpr auto other_times = "times are this machine's, not a GeForce 8800's; passes and fragments are counted";
     constexpr auto counted = "the stencil counts to 128 (E20): ceil(n/128) iterations for n slices, two for the cone";
@@ -83,12 +94,14 @@ constexpr auto beam_text =
     "over "
     "all geometry passes.";
 
+// One point of Figures 1 and 3.
 struct Measured {
     int slices;
     std::string algorithm;
     Run run;
 };
 
+// Every algorithm on every number of slices.
 std::vector<Measured> run_beams(const ReproduceOptions& options) {
     std::vector<Measured> runs;
     Progress progress("slices");
@@ -102,6 +115,7 @@ std::vector<Measured> run_beams(const ReproduceOptions& options) {
     return runs;
 }
 
+// A curve an algorithm; `value` picks what of a run is drawn.
 template <class Value>
 Chart chart_of(const std::vector<Measured>& runs, const std::string& label, Value value) {
     Chart chart{"slices", label};
@@ -114,6 +128,8 @@ Chart chart_of(const std::vector<Measured>& runs, const std::string& label, Valu
     return chart;
 }
 
+// The table, three charts and a picture. Rows of one number of slices stand together, layer_peel's
+// first: the others are compared with it.
 Section beam(const ReproduceOptions& options) {
     Section section{"Figures 1 and 3: slices of a volume and a cone", fmt::format(beam_text, beam_size)};
     section.sheet = {"figure3",
@@ -124,6 +140,8 @@ Section beam(const ReproduceOptions& options) {
     const Run* baseline = nullptr;
     for (const Measured& m : runs) {
         const Run& r = m.run;
+        // beam_algorithms begins with layer_peel, so a row of it comes before any row that divides
+        // by it.
         if (m.algorithm == "layer_peel") baseline = &r;
         const Printed printed = printed_of(m.slices, m.algorithm, r.iterations);
         section.sheet.rows.push_back({std::to_string(m.slices), m.algorithm, std::to_string(r.iterations),
@@ -148,17 +166,23 @@ Section beam(const ReproduceOptions& options) {
 
 // ---- Table 1
 
+// A row of the paper's Table 1, and where we look from.
 struct PaperRow {
     const char* model;
     const char* view;
-    int coherent, layers;  // iterations: A and B alike; layer peeling
+    // Iterations as printed: of both coherent formulations, which agree, and of layer peeling.
+    int coherent, layers;
+    // Frame rates as printed, of formulation A, formulation B and layer peeling.
     double a_fps, b_fps, layer_fps;
-    double azimuth, elevation;  // ours: the paper prints none
+    // Degrees of our orbit: the paper prints no view.
+    double azimuth, elevation;
+    // Why ours differs, for the last column.
     const char* why;
 };
 
 constexpr auto other_model =
     "another model than the paper's (faces, holes), and view, size and number of buckets are not printed";
+// A model belongs to a row if its file's name begins with the row's.
 constexpr std::array paper_rows{
     PaperRow{"engine", "Figure 4", 7, 22, 22, 23, 21, 30, 20, other_model},
     PaperRow{
@@ -179,8 +203,11 @@ constexpr std::array paper_rows{
     PaperRow{"building", "front", 20, 50, 0.71, 0.83, 0.86, 0, 0, other_model},
 };
 
+// Iterations and geometry passes.
 std::string counts(int iterations, int passes) { return fmt::format("{} it, {} g", iterations, passes); }
 
+// The rows of one view: three orders of triangles, four algorithms in each. `in_paper` is false for
+// a model that the paper does not have: its row of `paper` then holds the view alone.
 void add_rows(const ReproduceOptions& options, const Model& model, const PaperRow& paper, bool in_paper,
               Section& section) {
     peeling::RenderOptions render = options_for(options, options.size);
@@ -190,13 +217,17 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
         render.sort = sort;
         const Run layer = run(model.scene, view, "layer_peel", render, false);
         const auto row = [&](const std::string& algorithm, const Run& r, int iterations, int passes, double fps) {
+            // `iterations` is 0 for an algorithm that the paper did not time. coherent_ideal counts
+            // no empty iteration.
             const bool is_paper = in_paper && iterations > 0, counts_empty = algorithm != "coherent_ideal";
             std::string why;
+            // One empty iteration more is how the paper's query ends, and no difference.
             if (is_paper && counts_empty && r.iterations - 1 == iterations)
                 why = "the last iteration, which finds nothing, is counted here";
             else if (is_paper && r.iterations != iterations)
                 why = order == "as listed" ? "triangles as the file has them; the paper sorts" : paper.why;
             const double paper_speed = is_paper ? fps / paper.layer_fps : 0, speed = layer.seconds / r.seconds;
+            // A difference of up to 5 % is not explained: the printed rates have two digits.
             if (is_paper && std::abs(speed - paper_speed) > 0.05 * paper_speed)
                 why += std::string(why.empty() ? "" : "; ") + "speed: of this machine, where passes cost by fragments";
             section.sheet.rows.push_back({model.name, paper.view, order, algorithm,
@@ -204,12 +235,16 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
                                           is_paper ? ratio(fps, paper.layer_fps) : "", ratio(layer.seconds, r.seconds),
                                           ratio(double(r.fragments), double(layer.fragments)), why});
         };
+        // Geometry passes an iteration: layer_peel 2, formulation A 6, formulation B 5
+        // (algorithms.md 9, 10.2 and 11).
         row("layer_peel", layer, paper.layers, 2 * paper.layers, paper.layer_fps);
         row("coherent_stencil", run(model.scene, view, "coherent_stencil", render, true), paper.coherent,
             6 * paper.coherent, paper.a_fps);
         row("coherent_blend", run(model.scene, view, "coherent_blend", render, true), paper.coherent,
             5 * paper.coherent, paper.b_fps);
         row("coherent_ideal", run(model.scene, view, "coherent_ideal", render, false), 0, 0, 0);
+        // The unsorted list leaves no picture: but for ties, layer_peel's does not depend on the
+        // order.
         if (order != "as listed")
             section.pictures.push_back(write_picture(options.folder,
                                                      fmt::format("{}_{}.png", model.name, section.pictures.size()),
@@ -220,6 +255,7 @@ void add_rows(const ReproduceOptions& options, const Model& model, const PaperRo
     add("as listed", {});
 }
 
+// Table 1 for the given models; without one it holds its text alone.
 Section table(const ReproduceOptions& options, const std::vector<Model>& models) {
     Section section{"Table 1: models",
                     fmt::format("{0}x{0}, every alpha 0.3. it: iterations, g: geometry passes. Coherent peels end by "

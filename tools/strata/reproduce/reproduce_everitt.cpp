@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_everitt.cpp - Everitt 2001: Figure 3 (the teapot's layers) and Figure 5 (composites of the first n).
+// tools/strata/reproduce/reproduce_everitt.cpp - Everitt 2001: Figure 3 (the teapot's layers) and Figure 5
+// (composites of the first n).
 #include <fmt/format.h>
 
 #include "peeling/registry.h"
@@ -10,6 +11,7 @@ namespace strata::tools {
 
 namespace {
 
+// Square pictures of the size that was asked for.
 peeling::RenderOptions options_for(const ReproduceOptions& options) {
     peeling::RenderOptions render;
     render.width = render.height = options.size;
@@ -17,6 +19,8 @@ peeling::RenderOptions options_for(const ReproduceOptions& options) {
     return render;
 }
 
+// The scene of the paper's figures on the profile geforce3, peeled by two depth units as the
+// paper's Listing 1 describes.
 struct Teapot {
     scenes::Scene scene = scenes::load_scene("teapot", {});
     pipeline::View view = scenes::orbit_view(scene.bounds, 30, 20, 1.0);
@@ -27,9 +31,11 @@ struct Teapot {
     }
 };
 
+// Figure 3: each layer as a picture, and how many pixels it covers.
 Section layers(const ReproduceOptions& options, const Teapot& teapot) {
     peeling::RenderOptions render = options_for(options);
     render.alpha = 1.0f;
+    // A frame keeps its layers only where they are asked for.
     render.keep_layers = true;
     const peeling::RenderResult result = teapot.render(render);
     Section section{"Figure 3: simple depth peeling",
@@ -40,6 +46,7 @@ Section layers(const ReproduceOptions& options, const Teapot& teapot) {
     for (std::size_t i = 0; i < result.frame.layers.size(); ++i) {
         const pipeline::Image& color = result.frame.layers[i].color;
         std::size_t covered = 0;
+        // Pixels whose layer has a fragment: their alpha is not 0.
         for (std::size_t p = 0; p < color.codes.size(); p += 4) covered += color.codes[p + 3] != 0 ? 1 : 0;
         section.sheet.rows.push_back({std::to_string(i), std::to_string(covered)});
         section.pictures.push_back(
@@ -48,6 +55,7 @@ Section layers(const ReproduceOptions& options, const Teapot& teapot) {
     return section;
 }
 
+// Figure 5: the picture after n layers for every n, and how far it is from the whole one.
 Section composites(const ReproduceOptions& options, const Teapot& teapot) {
     peeling::RenderOptions render = options_for(options);
     render.alpha = 0.5f;
@@ -64,9 +72,12 @@ Section composites(const ReproduceOptions& options, const Teapot& teapot) {
         {"layers", "largest difference / 255", "mean difference / 255", "pixels that differ", "diagnosed as truncated"},
         {}};
     for (int n = 1; n <= whole.audit.layers_max; ++n) {
+        // One pass peels one layer. A peel that is cut short is composited as far as it went.
         render.max_passes = n;
         const peeling::RenderResult part = teapot.render(render);
         const PictureDifference d = difference(part.frame.color, whole.frame.color);
+        // Pixels that the run itself reports as cut short; the column stands beside the pixels that
+        // differ.
         std::uint64_t truncated = 0;
         for (const auto& diagnostic : part.frame.diagnostics)
             if (diagnostic.fault == pipeline::Fault::truncated) truncated += diagnostic.pixels;

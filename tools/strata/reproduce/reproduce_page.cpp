@@ -12,6 +12,7 @@ namespace strata::tools {
 
 namespace {
 
+// Text as HTML content or as a quoted attribute that holds no quotation mark.
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -25,6 +26,8 @@ std::string escaped(const std::string& text) {
     return out;
 }
 
+// Quoted where the text holds a comma, a quotation mark or a line's end; a quotation mark inside is
+// doubled.
 std::string csv_cell(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string quoted{'"'};
@@ -36,6 +39,7 @@ std::string csv_cell(const std::string& text) {
     return quoted;
 }
 
+// A line of titles and a line a row.
 std::string csv(const Sheet& sheet) {
     std::string text;
     const auto add = [&](const std::vector<std::string>& cells) {
@@ -50,6 +54,7 @@ std::string csv(const Sheet& sheet) {
     return text;
 }
 
+// The table and a link to its CSV.
 std::string html(const Sheet& sheet) {
     std::string text = "<table>\n<tr>";
     for (const auto& column : sheet.columns) text += fmt::format("<th>{}</th>", escaped(column));
@@ -62,6 +67,8 @@ std::string html(const Sheet& sheet) {
     return text + fmt::format("</table>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
 }
 
+// The page needs no other file than its pictures. {0} is the title; braces of CSS are doubled for
+// fmt.
 constexpr auto head = R"(<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{0}</title><style>
 body {{ font: 15px/1.4 sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }}
@@ -77,6 +84,7 @@ void write_page(const std::string& folder, const Page& page) {
     std::string text = fmt::format(head, escaped(page.title));
     for (const Section& section : page.sections) {
         text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(section.title), escaped(section.text));
+        // A section without rows leaves no table and no CSV.
         if (!section.sheet.rows.empty()) {
             text += html(section.sheet);
             scenes::write_file(folder + '/' + section.sheet.file + ".csv", csv(section.sheet));
@@ -90,11 +98,13 @@ void write_page(const std::string& folder, const Page& page) {
 
 Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
                       const pipeline::Image& color) {
+    // A finished frame counts as premultiplied; files hold straight colours in 8 bits.
     scenes::write_image(folder + '/' + file, {.color = color, .premultiplied = true});
     return {file, caption};
 }
 
 PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b) {
+    // Both images as people see them in 8 bits, whatever their format.
     const auto bytes = [](const pipeline::Image& image) {
         return scenes::as_straight_rgba8({.color = image, .premultiplied = true});
     };
@@ -103,6 +113,7 @@ PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b)
     const std::size_t pixels = x.codes.size() / 4;
     for (std::size_t p = 0; p < pixels; ++p) {
         double largest = 0;
+        // Alpha is left out: a finished picture's is 1.
         for (std::size_t c = 4 * p; c < 4 * p + 3; ++c)
             largest = std::max(largest, std::fabs(double(x.codes[c]) - double(y.codes[c])));
         found.largest = std::max(found.largest, largest);

@@ -1,4 +1,5 @@
-// tools/strata/reproduce/reproduce_page.h - what `strata reproduce` leaves in its folder: one page, its tables as CSV, its pictures.
+// tools/strata/reproduce/reproduce_page.h - what `strata reproduce` leaves in its folder: one page, its tables as
+// CSV, its pictures.
 #pragma once
 #include <string>
 #include <vector>
@@ -9,37 +10,45 @@
 
 namespace strata::tools {
 
+// A table of a page. Every row has a cell for every column.
 struct Sheet {
-    std::string file;  // "table1": table1.csv
+    // The CSV's name without its ending: "table1" becomes table1.csv in the page's folder.
+    std::string file;
     std::vector<std::string> columns;
     std::vector<std::vector<std::string>> rows;
 };
 
+// A file in the page's folder, and the words under it.
 struct Picture {
     std::string file, caption;
 };
 
+// A heading, a paragraph, a table (without rows: none) and pictures.
 struct Section {
     std::string title, text;
     Sheet sheet{};
     std::vector<Picture> pictures{};
 };
 
+// What a paper's page holds, from top to bottom.
 struct Page {
     std::string title;
     std::vector<Section> sections{};
 };
 
-// A model beside the paper's own: what a command line or the models' folder has.
+// A model that the command line gave, beside the paper's own.
 struct Model {
-    std::string name;  // the file's, without folder and ending
+    // The file's name without folder and ending; Table 1 of Carr et al. looks its rows up by it.
+    std::string name;
     scenes::Scene scene;
 };
 
+// The command line: `paper` is one of the names in reproduce.cpp, `folder` takes the page.
 struct ReproduceOptions {
     std::string paper, folder;
     std::vector<std::string> models;  // files
-    int size = 256, threads = 0;      // pixels a side
+    // Pixels a side of the pictures, 1 to 4096; threads at most, 0 being all.
+    int size = 256, threads = 0;
 };
 
 // index.html, a CSV for each sheet; the folder exists.
@@ -48,13 +57,16 @@ void write_page(const std::string& folder, const Page& page);
 [[nodiscard]] Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
                                     const pipeline::Image& color);
 
-// By pixel: the largest difference of r, g or b, in 1/255.
+// How far two pictures of one size are apart. A pixel's difference is the largest of its r, g and
+// b, in 1/255.
 struct PictureDifference {
     double largest = 0, mean = 0;
-    std::uint64_t pixels = 0;  // that differ
+    // The number of pixels that differ.
+    std::uint64_t pixels = 0;
 };
 [[nodiscard]] PictureDifference difference(const pipeline::Image& a, const pipeline::Image& b);
 
+// The three pages. Each renders its scenes and writes its pictures into the folder, which exists.
 [[nodiscard]] Page reproduce_carr(const ReproduceOptions& options, const std::vector<Model>& models);
 [[nodiscard]] Page reproduce_everitt(const ReproduceOptions& options);
 [[nodiscard]] Page reproduce_bavoil(const ReproduceOptions& options, const std::vector<Model>& models);
