@@ -1,8 +1,9 @@
 // peeling/registry.cpp - the algorithms as tables, one a paper: an entry an algorithm, a field a line.
 //
-// Rule     An entry names what differs from the defaults of Algorithm (algorithms/algorithm.h), which says what each field means. The
-//          order of the entries is the order of every list and table that the command prints.
-// Tests    tests/peeling/refusals_test.cpp, passes_test.cpp; tests/house/book_covers.py: each name has a section in the book
+// Rule     An entry names what differs from the defaults of Algorithm (algorithms/algorithm.h), which says what each
+//          field means. The order of the entries is the order of every list and table that the command prints.
+// Tests    tests/peeling/refusals_test.cpp, passes_test.cpp; tests/house/book_covers.py: each name has a section in the
+//          book
 #include "peeling/registry.h"
 
 #include <algorithm>

@@ -45,8 +45,8 @@ void sort_into_buckets(Numbers& numbers, const Keys& keys, int buckets) {
     }
     const double last = buckets - 1;
     const auto bucket = [&](std::uint32_t n) {
-        const double place = (keys[n] - least) / (greatest - least) * buckets;
-        return place > 0 ? std::min(std::floor(place), last) : 0.0;  // NaN where all keys are equal
+        const double position = (keys[n] - least) / (greatest - least) * buckets;
+        return position > 0 ? std::min(std::floor(position), last) : 0.0;  // NaN where all keys are equal
     };
     std::stable_sort(numbers.begin(), numbers.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return bucket(a) < bucket(b); });

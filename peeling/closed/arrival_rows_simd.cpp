@@ -1,4 +1,5 @@
 // peeling/closed/arrival_rows_simd.cpp - arrival_rows.h for every instruction set.
+// How kernels are written: kernels.md. Tests: tests/peeling/closed/arrival_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/closed/arrival_rows_simd.cpp"
 #include "hwy/foreach_target.h"

@@ -180,12 +180,12 @@ template <class Levels>
 
 // Puts the living fragments of a batch down; false if there was no room for one of them: then `to` is of no more use.
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept;
-// The sixteen columns from `pixel` on, sorted into `levels`, of which there is room for as many as the highest has; all of `block` but
-// where it lies and where its colours are. False if no fragment is there.
+// The sixteen columns from `pixel` on, sorted into `levels`, of which there is room for as many as the highest has; all
+// of `block` but where it lies and where its colours are. False if no fragment is there.
 [[nodiscard]] bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
                               std::uint64_t* levels) noexcept;
-// For every fragment of the block, at [level * block_lanes + lane]: the number of levels up to the last one nearer than it whose
-// fragment arrived earlier; 0 if none did.
+// For every fragment of the block, at [level * block_lanes + lane]: the number of levels up to the last one nearer than
+// it whose fragment arrived earlier; 0 if none did.
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept;
 
 }  // namespace strata::peeling

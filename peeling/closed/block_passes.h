@@ -1,12 +1,11 @@
 // peeling/closed/block_passes.h - the passes of a peel over a block of columns without equal depths, on UNORM8 targets: the scalar twins
 // of block_passes_simd.cpp.
 //
-// Rule     Pass i takes level i of a column from the front, dual peeling also level i from its back, until they meet. Columns do not
-//          meet: the twins go from column to column, the vectors through many side by side; what is beyond a column's end
-//          changes nothing.
-//          Dual front: the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back: the
-//          code of the far colour, OVER what is there, where its alpha is not 0. Front to back: the code of the colour times
-//          alpha, UNDER what is there.
+// Rule     Pass i takes level i of a column from the front, dual peeling also level i from its back, until they meet.
+//          Columns do not meet: the twins go from column to column, the vectors through many side by side; what is
+//          beyond a column's end changes nothing. Dual front: the UNDER of under_text-inl.h, stored under MAX with the
+//          front that other fragments pass through. Dual back: the code of the far colour, OVER what is there, where
+//          its alpha is not 0. Front to back: the code of the colour times alpha, UNDER what is there.
 // Tests    tests/peeling/closed/columns_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <algorithm>
@@ -20,8 +19,7 @@
 
 namespace strata::peeling {
 
-using BlockCodes = std::array<LaneWords, 4>;                    // UNORM8 codes by channel
-enum class FrontAlpha : std::uint8_t { covers, lets_through };  // which of the two a front's alpha says
+using BlockCodes = std::array<LaneWords, 4>;  // UNORM8 codes by channel
 
 inline namespace strict {
 namespace scalar {
@@ -108,13 +106,12 @@ inline void codes_of(const std::uint32_t* words, BlockCodes& codes) noexcept {
 inline void composite(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning,
                       std::uint32_t* words) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const float alpha = pipeline::unorm8_value(front[3][lane]);
-        const float let_through = meaning == FrontAlpha::covers ? 1.0f - alpha : alpha;
+        const float through = through_front(meaning, pipeline::unorm8_value(front[3][lane]));
         words[lane] = 0xff000000u;
         for (std::size_t c = 0; c < 3; ++c) {
             const float behind = pipeline::unorm8_value(back[c][lane]);
             const std::uint32_t code =
-                pipeline::to_unorm8(composited(pipeline::unorm8_value(front[c][lane]), let_through, behind));
+                pipeline::to_unorm8(composited(pipeline::unorm8_value(front[c][lane]), through, behind));
             words[lane] |= code << (8 * c);
         }
     }

@@ -1,4 +1,6 @@
-// peeling/closed/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at a time.
+// peeling/closed/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at
+// a time.
+// How kernels are written: kernels.md. Tests: tests/peeling/closed/columns_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/closed/block_passes_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -185,11 +187,12 @@ void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meani
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const FloatVec alpha = value_of(hn::LoadU(d, &front[3][lane]));
-        const FloatVec let_through = meaning == FrontAlpha::covers ? hn::Sub(hn::Set(Floats{}, 1.0f), alpha) : alpha;
+        const FloatVec through = meaning == FrontAlpha::covers ? let_through(AllLanes{}, alpha) : alpha;
         WordVec word = hn::Set(d, 0xff000000u);
         for (std::size_t c = 0; c < 3; ++c) {
-            const FloatVec behind = hn::Mul(let_through, value_of(hn::LoadU(d, &back[c][lane])));
-            const WordVec code = code_of(hn::Add(value_of(hn::LoadU(d, &front[c][lane])), behind));
+            const FloatVec near = value_of(hn::LoadU(d, &front[c][lane])),
+                           behind = value_of(hn::LoadU(d, &back[c][lane]));
+            const WordVec code = code_of(composited(near, through, behind));
             word = hn::Or(word, hn::ShiftLeftSame(code, static_cast<int>(8 * c)));
         }
         hn::StoreU(word, d, words + lane);

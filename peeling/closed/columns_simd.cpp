@@ -1,5 +1,6 @@
-// peeling/closed/columns_simd.cpp - arrivals.h for every instruction set. Loops that vectorise are compiled again; where the pixels of a
-// vector are neighbours with as many arrivals each, their words and counts are stored as vectors.
+// peeling/closed/columns_simd.cpp - arrivals.h for every instruction set. Loops that vectorise are compiled again;
+// where the pixels of a vector are neighbours with as many arrivals each, their words and counts are stored as vectors.
+// How kernels are written: kernels.md. Tests: tests/peeling/closed/columns_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/closed/columns_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -162,7 +163,8 @@ void arrived_before(const ColumnBlock& block, std::uint32_t* before) {
     }
 }
 
-// scalar::Levels. Not inline by itself: the loops of arrivals.h, which belong to no instruction set, come between it and its callers.
+// scalar::Levels. Not inline by itself: the loops of arrivals.h, which belong to no instruction set, come between it
+// and its callers.
 struct VectorLevels {
     using Wide = hn::CappedTag<std::uint64_t, block_lanes>;
     static constexpr std::size_t step = hn::MaxLanes(Wide{});

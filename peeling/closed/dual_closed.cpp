@@ -1,8 +1,10 @@
-// peeling/closed/dual_closed.cpp - dual peeling as a closed form: pass i takes the i-th depth from the front and the i-th from the back.
-// It runs by default in place of the passes of peeling/algorithms/dual.cpp, which are its definition: it leaves their bits, counters,
-// queries and trace. tests/peeling/execution_test.cpp and sequences_test.cpp compare the two.
+// peeling/closed/dual_closed.cpp - dual peeling as a closed form: pass i takes the i-th depth from the front and the
+// i-th from the back. It runs by default in place of the passes of peeling/algorithms/dual.cpp, which are its
+// definition: it leaves their bits, counters, queries and trace. tests/peeling/execution_test.cpp and
+// sequences_test.cpp compare the two.
 //
-// Declines   where closed_form.h says, on targets of other formats than rgba8, and on what Holds excludes: then the passes run.
+// Declines   where closed_form.h says, on targets of other formats than rgba8, and on what Holds excludes: then the
+//            passes run.
 // Holds      for 8-bit targets, where MAX over codes does not ask for an order; for visible depths that MAX keeps as they are: not
 //            below the cleared -1, and not flushed as denormals.
 // Ties       a depth is one group: MAX over its fragments' blends, and over the front that every other fragment passes through.
@@ -223,7 +225,8 @@ struct Course {
     }
 };
 
-// The counters of the draws and the quad of `dual`. Clears and copies are really done, or counted here where they repeat.
+// The counters of the draws and the quad of `dual`. Clears and copies are really done, or counted here where they
+// repeat.
 Counters of_fates(const RegionFragments& fragments) {
     return {.fragments_rasterized = fragments.rasterized,
             .alpha_killed = fragments.masked,

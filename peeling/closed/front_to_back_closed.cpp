@@ -1,6 +1,7 @@
-// peeling/closed/front_to_back_closed.cpp - front-to-back peeling as a closed form: pass i composites the i-th depth of every pixel.
-// It runs by default in place of the passes of peeling/algorithms/front_to_back.cpp, which are its definition: it leaves their bits,
-// counters, queries and trace. tests/peeling/execution_test.cpp and sequences_test.cpp compare the two.
+// peeling/closed/front_to_back_closed.cpp - front-to-back peeling as a closed form: pass i composites the i-th depth of
+// every pixel. It runs by default in place of the passes of peeling/algorithms/front_to_back.cpp, which are its
+// definition: it leaves their bits, counters, queries and trace. tests/peeling/execution_test.cpp and
+// sequences_test.cpp compare the two.
 //
 // Declines   where closed_form.h says: then the passes run.
 // Ties       the first arrival of a depth is its layer; the others are never seen.

@@ -1,5 +1,6 @@
-// peeling/programs/average-inl.h - average_text-inl.h for vectors. For *_simd.cpp alone: Highway compiles it once a set, wherever
-// foreach_target.h asks (rasterizer/reference/kernels.md 3). Tests: tests/peeling/programs/programs_test.cpp
+// peeling/programs/average-inl.h - average_text-inl.h for vectors. For *_simd.cpp alone: Highway compiles it once a
+// set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3). Tests:
+// tests/peeling/programs/programs_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/base/numerics.h"
 

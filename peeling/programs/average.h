@@ -1,7 +1,7 @@
 // peeling/programs/average.h - the resolve of weighted_average.
 //
-// Rule     C = (sums.rgb / sums.a) (1 - t) + background t with t = (1 - sums.a / n)^n as average_text-inl.h computes them. The
-//          background where n or sums.a is not above 0.
+// Rule     C = (sums.rgb / sums.a) (1 - t) + background t with t = (1 - sums.a / n)^n as average_text-inl.h computes
+//          them. The background where n or sums.a is not above 0.
 // Source   Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8. The guard for sums.a = 0 is ours.
 // Tests    tests/peeling/programs/programs_test.cpp
 #pragma once

@@ -1,4 +1,6 @@
-// peeling/programs/average_words_simd.cpp - resolve_average_words for the sets that convert halves. Whole vectors: planes have spare words.
+// peeling/programs/average_words_simd.cpp - resolve_average_words for the sets that convert halves. Whole vectors:
+// planes have spare words.
+// How kernels are written: kernels.md. Tests: tests/peeling/execution_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/programs/average_words_simd.cpp"
 #include "hwy/foreach_target.h"

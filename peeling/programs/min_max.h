@@ -19,8 +19,8 @@ inline namespace strict {
 void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
               const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& side) noexcept;
 
-// Classifies by the frame's reference depth and its epsilon: a depth within epsilon of `near` or `far` counts as that one. Depths are
-// compared as values, rounded to binary32 or not rounded, as the frame says.
+// Classifies by the frame's reference depth and its epsilon: a depth within epsilon of `near` or `far` counts as that
+// one. Depths are compared as values, rounded to binary32 or not rounded, as the frame says.
 inline void classify(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
                      const pipeline::ColorLanes& min_max, const pipeline::Lanes<std::uint32_t>& opaque,
                      PeelLanes& side) noexcept {

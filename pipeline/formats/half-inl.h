@@ -1,8 +1,8 @@
-// pipeline/formats/half-inl.h - binary16 codes and their values, a vector at a time, by the machine's conversions. For *_simd.cpp
-// alone: Highway compiles it once a set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
+// pipeline/formats/half-inl.h - binary16 codes and their values, a vector at a time, by the machine's conversions. For
+// *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
 //
-// Rule     half_to_float and to_half<nearest_even> of half.h, to the bit; but a signalling NaN becomes quiet. `Words` is a tag
-//          of 32-bit words, a code in the low half of each. Only sets with has_halves convert as fast as that.
+// Rule     half_to_float and to_half<nearest_even> of half.h, to the bit; but a signalling NaN becomes quiet. `Words`
+//          is a tag of 32-bit words, a code in the low half of each. Only sets with has_halves convert as fast as that.
 // Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
 #include "rasterizer/base/numerics.h"

@@ -60,8 +60,8 @@ class Loads {
 // Where a traced fragment joins the sequence that a pixel composites: at its far end (UNDER) or at its near end (OVER).
 enum class Side : std::uint8_t { none, front, back };
 
-// The results of a program. Fragments start alive; colours are undefined until written, straight or premultiplied as the
-// blend state expects them.
+// The results of a program. Fragments start alive; colours are undefined until written, straight or premultiplied as
+// the blend state expects them.
 struct Outputs {
     std::array<ColorLanes, max_color_targets> color;
     Lanes<std::uint32_t> alive;  // ~0 or 0; a program discards with &=

@@ -118,8 +118,8 @@ class Region {
     // A query for a branch within the iteration asks with Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle);
     void begin_iteration();
-    // A layer may be composited after the last iteration, but its cost belongs to the iteration that made it. From now on counters
-    // go to the record of `iteration`, counted from 1.
+    // A layer may be composited after the last iteration, but its cost belongs to the iteration that made it. From now
+    // on counters go to the record of `iteration`, counted from 1.
     void count_with(int iteration) { books_.counted_record = static_cast<std::size_t>(iteration); }
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1);

@@ -39,8 +39,8 @@ class RegionShortcuts {
     // the band's first. Once the program answers false it sees no more, and so does the caller.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
-    // The input for walking those fragments by rows, without batches; empty where rows do not have their depths and colours. After its
-    // walk a caller reports the number of fragments to looked_at.
+    // The input for walking those fragments by rows, without batches; empty where rows do not have their depths and
+    // colours. After its walk a caller reports the number of fragments to looked_at.
     [[nodiscard]] std::optional<RowSource> row_source() const;
     void looked_at(std::uint64_t fragments) noexcept { region_.books_.fragments_drawn += fragments; }
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept {

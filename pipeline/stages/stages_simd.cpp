@@ -1,7 +1,8 @@
 // pipeline/stages/stages_simd.cpp - the stages between program and blending, one source for every instruction set.
 // Their meaning is namespace scalar of lane_words.h, convert.h, alpha_test.h and stencil_lanes.h. Where a plain loop
 // vectorises, the kernel is that loop, inlined (flatten) and compiled for the set; gather, scatter and counts are
-// written out. Tests: tests/pipeline/stages/simd_stages_test.cpp
+// written out.
+// How kernels are written: kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/stages_simd.cpp"
 #include <algorithm>

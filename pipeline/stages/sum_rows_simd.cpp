@@ -1,4 +1,5 @@
 // pipeline/stages/sum_rows_simd.cpp - add_sum_rows of sum_rows.h for the sets that convert halves.
+// How kernels are written: kernels.md. Tests: tests/peeling/execution_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/sum_rows_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -39,9 +40,9 @@ HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) 
     hn::BlendedStore(hn::BitCast(U32{}, hn::DemoteTo(HalfPair{}, sum)), hn::RebindMask(U32{}, covered), U32{}, words);
 }
 
-// Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered lanes. Two
-// steps of that show only where a source is negative (a positive denormal and its zero become the same half, whatever they are
-// added to) or a sum is NaN: they are done for rows that have one.
+// Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered
+// lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same half,
+// whatever they are added to) or a sum is NaN: they are done for rows that have one.
 template <bool flushes>
 HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* red_green, std::uint32_t* blue_alpha) {
     const F32 d;

@@ -21,7 +21,8 @@
 
 namespace strata::pipeline {
 
-// The texture and state that fragments of one material need besides their interpolants; an empty optional is an effect that is not used.
+// The texture and state that fragments of one material need besides their interpolants; an empty optional is an effect
+// that is not used.
 struct MaterialStage {
     const Texture* texture = nullptr;  // into the draw list, which must outlive this
     AlphaTest mask;                    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha
@@ -50,7 +51,8 @@ struct PreparedDraw {
     MaterialNeeds needs;  // of all of them
 };
 
-// The needs of the materials of some of a draw list's triangles. Those of one tile may be fewer than those of the whole list.
+// The needs of the materials of some of a draw list's triangles. Those of one tile may be fewer than those of the whole
+// list.
 [[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
 
 enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK

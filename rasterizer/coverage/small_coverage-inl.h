@@ -36,8 +36,8 @@ constexpr BlockShape shape_of(std::uint32_t width) {
 }
 constexpr BlockShape shapes[3] = {shape_of(4), shape_of(8), shape_of(16)};
 
-// The covered pixels of a small triangle as bits, one a pixel, block after block. `within_8` knows that the box lies in 8 x 8
-// pixels: four blocks, whose loops end where the compiler can see it.
+// The covered pixels of a small triangle as bits, one a pixel, block after block. `within_8` knows that the box lies in
+// 8 x 8 pixels: four blocks, whose loops end where the compiler can see it.
 template <bool within_8>
 class SmallCoverage {
   public:

@@ -1,5 +1,6 @@
-// rasterizer/coverage/small_triangles_simd.cpp - the kernels of small_triangles.h for every instruction set; their meaning stands
-// there.
+// rasterizer/coverage/small_triangles_simd.cpp - the kernels of small_triangles.h for every instruction set; their
+// meaning stands there.
+// How kernels are written: kernels.md. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/coverage/small_triangles_simd.cpp"
 #include <algorithm>

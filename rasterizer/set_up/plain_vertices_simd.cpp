@@ -1,4 +1,5 @@
 // rasterizer/set_up/plain_vertices_simd.cpp - plain_vertices.h for every instruction set.
+// How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once a target

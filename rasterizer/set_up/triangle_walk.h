@@ -1,5 +1,5 @@
-// rasterizer/set_up/triangle_walk.h - the triangles of a triangles, a group at a time, and the rows of a large one: what every walk over a
-// region starts with. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
+// rasterizer/set_up/triangle_walk.h - the triangles of a triangles, a group at a time, and the rows of a large one:
+// what every walk over a region starts with. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
 #pragma once
 #include <algorithm>
 #include <span>
@@ -24,8 +24,8 @@ struct RowSpan {
     return rules;
 }
 
-// Sets up `triangles` (indices into geometry.triangles) group after group in `group` and calls visit(the group's part of it)
-// for each. Triangles and corners of the groups to come are prefetched meanwhile.
+// Sets up `triangles` (indices into geometry.triangles) group after group in `group` and calls visit(the group's part
+// of it) for each. Triangles and corners of the groups to come are prefetched meanwhile.
 template <class Visit>
 void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span<const std::uint32_t> triangles,
                     TriangleGroup& group, const Visit& visit) {

@@ -59,7 +59,8 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
     return bytes[0];
 }
 
-// The slow paths below take copies of the plane. If they took it by reference, the compiler would keep it in memory in the fast path, too.
+// The slow paths below take copies of the plane. If they took it by reference, the compiler would keep it in memory in
+// the fast path, too.
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
     if (HWY_UNLIKELY(plane.is_constant()))
         return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
@@ -81,7 +82,8 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
     return hn::Load(F32{}, values);
 }
 
-// The depth test LESS. Fixed-point codes are compared as integers; D32F codes are the bits of a binary32 and are compared as floats.
+// The depth test LESS. Fixed-point codes are compared as integers; D32F codes are the bits of a binary32 and are
+// compared as floats.
 HWY_INLINE RowMask nearer(hn::Vec<U32> code, hn::Vec<U32> stored, bool is_fixed) {
     return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored))
                     : hn::Lt(hn::BitCast(F32{}, code), hn::BitCast(F32{}, stored));
@@ -194,7 +196,8 @@ class RowWalk {
             columns[part] = at.column_terms(numbers_from(x0 + static_cast<int>(part * row_lanes)));
             row_terms.set(part * row_lanes, at.row_terms(numbers_from(y0 + static_cast<int>(part * row_lanes))));
         }
-        // Locals, because a store to a target might change a member, for all that the compiler knows: it would be read anew each time.
+        // Locals, because a store to a target might change a member, for all that the compiler knows: it would be read
+        // anew each time.
         const auto width = static_cast<std::size_t>(region_.width());
         const std::uint32_t first_row = coverage.first_row(), end_row = coverage.end_row(group_.height[k]);
         std::size_t first = pixel(x0, y0) + first_row * width;
