@@ -9,6 +9,7 @@
 namespace strata::pipeline {
 namespace {
 
+// The words and the extension of a refusal, and the profile's field (devices.md 9.1).
 struct FeatureRow {
     Feature feature;
     std::string_view words, extension;
@@ -55,6 +56,7 @@ static_assert(rows_follow_the_enum(), "feature_rows has a row for every Feature,
 const FeatureRow& row(Feature feature) { return feature_rows[static_cast<std::size_t>(feature)]; }
 
 // "use geforce8 or ideal": the built-in profiles that `can`.
+// The sentence names only built-in profiles: a profile of a user's own is not known here.
 std::string way_out(auto can) {
     std::vector<std::string> names;
     for (const DeviceProfile& profile : builtin_profiles())
@@ -72,6 +74,7 @@ Verdict check_limit(const DeviceProfile& profile, int DeviceProfile::*limit, int
     return Refusal{feature, extension, way_out([&](const DeviceProfile& p) { return wanted <= p.*limit; })};
 }
 
+// What targets of one pass must have in common without independent blending: write masks and enables may differ.
 bool shares_terms(const Blend& a, const Blend& b) {
     return a.color == b.color && a.alpha == b.alpha && a.constant == b.constant;
 }
@@ -150,7 +153,8 @@ Verdict check(const DeviceProfile& profile, std::span<const Blend> targets) {
     if (Verdict refusal = check_limit(profile, &DeviceProfile::max_render_targets, count,
                                       std::to_string(count) + " render targets in one pass", "ARB_draw_buffers"))
         return refusal;
-    const Blend* first = nullptr;  // of those that blend
+    // The first target that blends: all others that blend are compared with it.
+    const Blend* first = nullptr;
     for (const Blend& target : targets) {
         if (Verdict refusal = check(profile, target)) return refusal;
         if (!target.enabled) continue;
@@ -161,11 +165,13 @@ Verdict check(const DeviceProfile& profile, std::span<const Blend> targets) {
     return std::nullopt;
 }
 
+// A program may compare r/q on every device; only a texture shader replaces depth (devices.md 9.2).
 Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared) {
     if (compared == rasterizer::DepthPath::depth_replace) return check(profile, Feature::depth_replace);
     return std::nullopt;
 }
 
+// Without programs r/q can be compared, but no stage can write it: depth replace is the stage that does.
 Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written) {
     if (written == rasterizer::DepthPath::perspective_rq && !profile.has_fragment_programs)
         return Refusal{"fragment programs that write a depth", "ARB_fragment_program",
@@ -175,7 +181,8 @@ Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written) {
 
 Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value) {
     const bool is_clamped = value >= 0.0f && value <= 1.0f;
-    if (format != DepthFormat::d32f || is_clamped) return std::nullopt;  // fixed formats clamp
+    // Fixed formats clamp the value, so nothing is asked of the device.
+    if (format != DepthFormat::d32f || is_clamped) return std::nullopt;
     return check(profile, Feature::unclamped_depth_clear);
 }
 

@@ -18,6 +18,7 @@
 
 namespace strata::pipeline {
 
+// What a pass may need of a device. check.cpp has a row for each, in this order, which a static_assert compares.
 enum class Feature : std::uint8_t {
     d16,
     d24,
@@ -37,12 +38,16 @@ enum class Feature : std::uint8_t {
     narrow_surfaces,
 };
 
+// State of the era that no profile has (fragment-stages.md 12).
 enum class UnsupportedState : std::uint8_t { fog, color_sum, dither, logic_op };
 
 struct Refusal {
-    std::string feature;    // "independent blend equations"
-    std::string extension;  // "ARB_draw_buffers_blend"; empty where no extension is meant
-    std::string way_out;    // "use geforce8_dx101 or ideal"; empty where there is none
+    // In words, as it stands after "has no": "independent blend equations".
+    std::string feature;
+    // "ARB_draw_buffers_blend"; empty where no extension is meant.
+    std::string extension;
+    // "use geforce8_dx101 or ideal"; empty where there is none.
+    std::string way_out;
     friend bool operator==(const Refusal&, const Refusal&) = default;
 
     // "profile geforce3 has no independent blend equations (ARB_draw_buffers_blend); use geforce8_dx101 or ideal"
@@ -56,13 +61,16 @@ struct Refused : std::runtime_error {
     Refusal refusal;
 };
 
-using Verdict = std::optional<Refusal>;  // empty: the profile can do it
+// Empty: the profile can do it.
+using Verdict = std::optional<Refusal>;
 
+// Whether the profile has a feature; `check` gives the refusal if it has not, and of several features that of the
+// first that is missing.
 [[nodiscard]] bool has(const DeviceProfile& profile, Feature feature);
 [[nodiscard]] Verdict check(const DeviceProfile& profile, Feature feature);
-[[nodiscard]] Verdict check(const DeviceProfile& profile,
-                            std::span<const Feature> needed);  // the first that is missing
+[[nodiscard]] Verdict check(const DeviceProfile& profile, std::span<const Feature> needed);
 
+// Single pieces of state. A stencil test or a blend that is off is never refused.
 [[nodiscard]] Verdict check(const DeviceProfile& profile, UnsupportedState state);
 [[nodiscard]] Verdict check(const DeviceProfile& profile, DepthFormat format);
 [[nodiscard]] Verdict check(const DeviceProfile& profile, Format target);
@@ -75,7 +83,9 @@ using Verdict = std::optional<Refusal>;  // empty: the profile can do it
 // The path that a depth buffer is written by, or the one that a program or a shadow comparison compares.
 [[nodiscard]] Verdict check(const DeviceProfile& profile, rasterizer::DepthPath written);
 [[nodiscard]] Verdict check_reference(const DeviceProfile& profile, rasterizer::DepthPath compared);
+// A D32F clear outside 0..1 needs has_unclamped_depth_clear; every other format clamps (formats.md 5.5).
 [[nodiscard]] Verdict check_depth_clear(const DeviceProfile& profile, DepthFormat format, float value);
+// Limits: the larger side of the viewport, samples of a pixel, units that a pass names (devices.md 7).
 [[nodiscard]] Verdict check_size(const DeviceProfile& profile, int width_px, int height_px);
 [[nodiscard]] Verdict check_samples(const DeviceProfile& profile, int samples);
 [[nodiscard]] Verdict check_texture_units(const DeviceProfile& profile, int units);

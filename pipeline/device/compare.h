@@ -9,6 +9,7 @@
 
 namespace strata::pipeline {
 
+// a FUNC b. The function is a template argument, so that a loop over lanes holds one comparison and no switch.
 template <CompareFunc func, class T>
 [[nodiscard]] constexpr bool passes(T a, T b) noexcept {
     if constexpr (func == CompareFunc::never) return false;

@@ -10,6 +10,8 @@ namespace {
 
 using namespace rasterizer;
 
+// The chip whose captures prove most rules: what is not set here
+// has the default of RasterRules (rasterizer/rules/rules.h).
 DeviceProfile geforce3() {
     DeviceProfile p;
     p.name = "geforce3";
@@ -35,6 +37,7 @@ DeviceProfile geforce3() {
     return p;
 }
 
+// RasterRules' own defaults are this device's.
 DeviceProfile geforce8() {
     DeviceProfile p;
     p.name = "geforce8";

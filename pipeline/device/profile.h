@@ -11,19 +11,22 @@
 
 namespace strata::pipeline {
 
-enum class AlphaTestPrecision : std::uint8_t {
-    unorm8,
-    by_target
-};  // 8-bit compare always, or binary32 on float targets
-enum class BlendRounding : std::uint8_t {
-    nearest,
-    truncate
-};  // UNORM8: one rounding of the exact sum, half up, or cut
-enum class MinMaxNan : std::uint8_t { other_operand, propagate };     // one NaN operand of MIN / MAX
-enum class DenormalRule : std::uint8_t { flush, keep };               // binary32 blending
-enum class TextureFilterPrecision : std::uint8_t { unorm8, single };  // result of a bilinear lookup
+// The alpha test compares 8-bit codes always, or on 8-bit targets alone (fragment-stages.md 3).
+enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
+// How the exact sum of an 8-bit blend becomes a code: half up, or cut (fragment-stages.md 8.2).
+enum class BlendRounding : std::uint8_t { nearest, truncate };
+// What MIN and MAX of one NaN and one number give (fragment-stages.md 9.3).
+enum class MinMaxNan : std::uint8_t { other_operand, propagate };
+// Whether binary32 blending turns operands and results below 2^-126 into zeros (fragment-stages.md 9.1).
+enum class DenormalRule : std::uint8_t { flush, keep };
+// What a filtered lookup gives: a multiple of 1/255, or binary32 (texturing.md 3). Nearest lookups and pass-through
+// coordinates go by it, too (devices.md 4).
+enum class TextureFilterPrecision : std::uint8_t { unorm8, single };
 
+// A device. Everything that differs between devices is a field here, and no code asks for the name (devices.md 1);
+// profile.cpp writes the built-in ones.
 struct DeviceProfile {
+    // In JSON at most 64 bytes, the description at most 1000 (devices.md 1).
     std::string name;
     std::string description;
     rasterizer::RasterRules raster;
@@ -38,27 +41,43 @@ struct DeviceProfile {
 
     // Formats
     bool has_d16 = false, has_d24 = true, has_d32f = false;
-    bool has_d16f = false;                   // 4 bits of exponent, 12 of mantissa
-    bool has_narrow_surfaces = false;        // x8r8g8b8, x1a7r8g8b8, r5g6b5 and x1r5g5b5 (narrow.h)
-    bool has_float_targets = false;          // fp16 and fp32 render targets that blend, RG32F and R16F among them
-    bool has_unclamped_depth_clear = false;  // NV_depth_buffer_float
+    // 4 bits of exponent and 12 of mantissa, as the chip stores them (depth.md 1.2).
+    bool has_d16f = false;
+    // x8r8g8b8, x1a7r8g8b8, r5g6b5 and x1r5g5b5 (narrow.h).
+    bool has_narrow_surfaces = false;
+    // fp16 and binary32 render targets that blend, RG32F and R16F among them.
+    bool has_float_targets = false;
+    // NV_depth_buffer_float: a D32F clear is stored as it is.
+    bool has_unclamped_depth_clear = false;
 
     // Features
-    bool has_fragment_programs = false;      // ARB_fragment_program, with discard after a compare
-    bool has_separate_alpha_blend = false;   // EXT_blend_func_separate, EXT_blend_equation_separate
-    bool has_independent_blend = false;      // ARB_draw_buffers_blend
-    bool has_two_sided_stencil = false;      // EXT_stencil_two_side
-    bool has_depth_clamp = false;            // ARB_depth_clamp, NV_depth_clamp
-    bool has_depth_replace = false;          // NV_texture_shader: DOT_PRODUCT_DEPTH_REPLACE
-    bool has_sequential_depth_units = true;  // STRATA_depth_units: an emulator extension, reported when used
-    bool has_ordered_rmw = false;            // STRATA_ordered_rmw: targets that a program reads and writes
-    bool has_signed_blend = false;           // signed add and signed reverse subtract, on 8-bit targets
+    // ARB_fragment_program, with discard after a compare.
+    bool has_fragment_programs = false;
+    // EXT_blend_func_separate, EXT_blend_equation_separate.
+    bool has_separate_alpha_blend = false;
+    // ARB_draw_buffers_blend: another equation or factors for each target.
+    bool has_independent_blend = false;
+    // EXT_stencil_two_side.
+    bool has_two_sided_stencil = false;
+    // ARB_depth_clamp, NV_depth_clamp.
+    bool has_depth_clamp = false;
+    // NV_texture_shader's DOT_PRODUCT_DEPTH_REPLACE, and with it texture shaders at all (devices.md 6).
+    bool has_depth_replace = false;
+    // STRATA_depth_units: an extension of the emulator, reported whenever it is used.
+    bool has_sequential_depth_units = true;
+    // STRATA_ordered_rmw: targets that a program both reads and writes.
+    bool has_ordered_rmw = false;
+    // Signed add and signed reverse subtract, on 8-bit targets (fragment-stages.md 8.3).
+    bool has_signed_blend = false;
+    // Limits (devices.md 7): colour targets of a pass, texture units,
+    // the viewport's larger side in pixels, samples of a pixel.
     int max_render_targets = 1;
     int max_texture_units = 4;
     int max_viewport_px = 4096;
     int max_samples = 1;
     friend bool operator==(const DeviceProfile&, const DeviceProfile&) = default;
 
+    // Whether depth buffers of that format exist; d24s8 is a d24 with stencil beside it.
     [[nodiscard]] bool has_depth(DepthFormat f) const noexcept {
         switch (f) {
             case DepthFormat::d16: return has_d16;

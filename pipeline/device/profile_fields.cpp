@@ -30,6 +30,7 @@ template <auto member>
     }
 }
 
+// A row without its range: value and set go through `at`, as plain functions, so that the table can be constexpr.
 template <auto member>
 constexpr ProfileField row(std::string_view key, FieldKind kind, const Sources& source) {
     ProfileField field;
@@ -48,6 +49,7 @@ constexpr ProfileField boolean(std::string_view key, const Sources& source) {
     return row<member>(key, FieldKind::boolean, source);
 }
 
+// A choice whose names are not an enum's identifiers.
 template <auto member>
 constexpr ProfileField choice_of(std::string_view key, Names names, const Sources& source) {
     ProfileField field = row<member>(key, FieldKind::choice, source);

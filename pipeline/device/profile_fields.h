@@ -13,13 +13,19 @@ namespace strata::pipeline {
 enum class FieldKind : std::uint8_t { boolean, integer, choice };
 
 struct ProfileField {
-    std::string_view key;  // "has_d32f"; "raster.snap" lies in the object "raster"
+    // "has_d32f"; a key with "raster." lies in the object "raster" of the JSON.
+    std::string_view key;
     FieldKind kind{};
-    std::span<const std::string_view> choices;  // choice: the names of its values 0, 1, ...
-    int lowest = 0, highest = 1, step = 1;      // integer: lowest, lowest + step, ..., highest
+    // Of a choice: the names of its values 0, 1, ...
+    std::span<const std::string_view> choices;
+    // The values that the field may have: lowest, lowest + step, ...,
+    // highest. A boolean is 0 or 1, a choice the number of its name.
+    int lowest = 0, highest = 1, step = 1;
+    // Read and write the field as such a number; the caller of `set` has checked the range.
     int (*value)(const DeviceProfile&) = nullptr;
-    void (*set)(DeviceProfile&, int) = nullptr;  // the caller has checked the range
-    std::array<std::string_view, 4> source;      // geforce3, geforce8 and geforce8_dx101, ideal, llvmpipe
+    void (*set)(DeviceProfile&, int) = nullptr;
+    // One each for geforce3, for geforce8 and geforce8_dx101, for ideal, for llvmpipe; devices.md has the marks.
+    std::array<std::string_view, 4> source;
 };
 
 [[nodiscard]] std::span<const ProfileField> profile_fields();

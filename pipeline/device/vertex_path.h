@@ -10,13 +10,20 @@
 
 namespace strata::pipeline {
 
+// The formulas of rows stand in vertices.md 2.
 enum class VertexPath : std::uint8_t {
-    separate,          // every product and every sum rounded to binary32
-    fused,             // fused multiply-add
-    reassociated,      // model-view first, then the projection; sums in pairs
-    double_precision,  // binary64, rounded once
-    toward_zero,       // every product and every sum cut toward zero
-    nv20               // the GeForce3's vertex engine, its divide by w and its viewport too
+    // Every product and every sum rounded to binary32: the default.
+    separate,
+    // Fused multiply-add, each rounded once: compilers that contract.
+    fused,
+    // Model-view first, then the projection, with sums in pairs: drivers that keep two matrices.
+    reassociated,
+    // In binary64, rounded once: a host that transforms by itself.
+    double_precision,
+    // Every product and every sum cut toward zero.
+    toward_zero,
+    // The vertex engine of GeForce3, with its divide by w and its viewport.
+    nv20
 };
 
 // In the order of the enum.

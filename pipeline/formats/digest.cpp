@@ -22,6 +22,7 @@ struct FreeState {
     void operator()(XXH3_state_t* state) const noexcept { XXH3_freeState(state); }
 };
 
+// Gathers codes in a buffer, so that the hash is fed long runs of bytes.
 class Hash {
   public:
     Hash() : state_{XXH3_createState()} {
@@ -64,6 +65,7 @@ class Hash {
 
 namespace {
 
+// Bytes of a code in the digest; they are not those of the format: D16 takes four (formats.md 8).
 int code_bytes(ChannelType type) noexcept {
     switch (type) {
         case ChannelType::unorm8: return 1;

@@ -32,15 +32,19 @@ enum class Format : std::uint8_t {
     x1r5g5b5
 };
 
+// What a channel's code means: k / 255, a half's bits, a float's bits, a depth code, or eight bits of stencil.
 enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil };
 
 struct FormatInfo {
     std::string_view name;
     ChannelType type;
-    int channels;         // colour channels; 1 for depth and for stencil
-    int bytes_per_pixel;  // as the device stores it, for the counters of bytes read and written
+    // Colour channels; 1 for depth and for stencil.
+    int channels;
+    // As the device stores it, for the counters of bytes read and written.
+    int bytes_per_pixel;
 };
 
+// A narrow format has four channels of unorm8 codes here; its bytes are those of the device.
 [[nodiscard]] constexpr FormatInfo info(Format format) noexcept {
     switch (format) {
         case Format::rgba8: return {"rgba8", ChannelType::unorm8, 4, 4};
@@ -67,12 +71,14 @@ struct FormatInfo {
     const ChannelType t = info(f).type;
     return t == ChannelType::unorm8 || t == ChannelType::half || t == ChannelType::single;
 }
+// Surfaces that store less than 8 bits of some channel, or no alpha.
 [[nodiscard]] constexpr bool is_narrow(Format f) noexcept {
     return f == Format::x8r8g8b8 || f == Format::x1a7r8g8b8 || f == Format::r5g6b5 || f == Format::x1r5g5b5;
 }
 [[nodiscard]] constexpr bool is_depth(Format f) noexcept { return info(f).type == ChannelType::depth; }
 [[nodiscard]] constexpr bool has_stencil(Format f) noexcept { return f == Format::d24s8 || f == Format::s8; }
 
+// The codes of a depth target; `f` is one. d24 and d24s8 have the same.
 [[nodiscard]] constexpr DepthFormat depth_format(Format f) noexcept {
     switch (f) {
         case Format::d16: return DepthFormat::d16;
@@ -81,6 +87,7 @@ struct FormatInfo {
         default: return DepthFormat::d24;
     }
 }
+// A depth target without stencil for codes of that format.
 [[nodiscard]] constexpr Format target_format(DepthFormat f) noexcept {
     switch (f) {
         case DepthFormat::d16: return Format::d16;

@@ -28,10 +28,11 @@ inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bf
 // No branch, no shift by a variable: the compiler turns a loop over it into vector instructions.
 [[nodiscard]] constexpr float half_to_float(std::uint16_t half) noexcept {
     const std::uint32_t sign = (std::uint32_t{half} & half_bits::sign) << 16;
-    const std::uint32_t magnitude = (std::uint32_t{half} & 0x7fffu)
-                                    << 13;                  // exponent and mantissa where binary32 has them
-    const std::uint32_t normal = magnitude + (112u << 23);  // the bias grows from 15 to 127
-    const std::uint32_t special = normal + (112u << 23);    // e = 31 becomes 255
+    // Exponent and mantissa where binary32 has them. Then the bias grows
+    // from 15 to 127; e = 31 takes the same step once more, to 255.
+    const std::uint32_t magnitude = (std::uint32_t{half} & 0x7fffu) << 13;
+    const std::uint32_t normal = magnitude + (112u << 23);
+    const std::uint32_t special = normal + (112u << 23);
     // (1 + m/1024) 2^-14 - 2^-14: exact, and neither operand nor result is a binary32 denormal.
     const float denormal = std::bit_cast<float>(magnitude + (113u << 23)) - 0x1p-14f;
     std::uint32_t result = select(mask(magnitude < (1u << 23)), std::bit_cast<std::uint32_t>(denormal), normal);
@@ -39,6 +40,7 @@ inline constexpr std::uint32_t sign = 0x8000, infinity = 0x7c00, largest = 0x7bf
     return std::bit_cast<float>(sign | result);
 }
 
+// Normal, denormal and overflowing results are all computed, and one is selected: no branch.
 template <HalfRounding rounding>
 [[nodiscard]] constexpr std::uint16_t to_half(float value) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(value);
@@ -49,17 +51,21 @@ template <HalfRounding rounding>
     std::uint32_t normal = 0, denormal = 0, overflow = 0;
     if constexpr (rounding == HalfRounding::nearest_even) {
         normal =
-            (rebiased + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;  // a carry runs into the exponent, up to infinity
+            // A carry out of the mantissa runs into the exponent, as far as infinity.
+            (rebiased + 0xfffu + ((magnitude >> 13) & 1u)) >> 13;
         denormal =
-            std::bit_cast<std::uint32_t>(small + 0.5f) - std::bit_cast<std::uint32_t>(0.5f);  // 0.5's ulp is 2^-24
+            // 0.5 has an ulp of 2^-24, the unit of half denormals: the addition rounds to it.
+            std::bit_cast<std::uint32_t>(small + 0.5f) - std::bit_cast<std::uint32_t>(0.5f);
         overflow = half_bits::infinity;
     } else {
         normal = rebiased >> 13;
-        denormal = static_cast<std::uint32_t>(static_cast<std::int32_t>(small * 0x1p24f));  // the product is exact
+        // The product is exact; the conversion cuts.
+        denormal = static_cast<std::uint32_t>(static_cast<std::int32_t>(small * 0x1p24f));
         overflow = select(mask(magnitude == (255u << 23)), half_bits::infinity, half_bits::largest);
     }
     std::uint32_t result = select(is_denormal, denormal, normal);
-    result = select(mask(magnitude >= (143u << 23)), overflow, result);  // 2^16 and above
+    // 2^16 and above.
+    result = select(mask(magnitude >= (143u << 23)), overflow, result);
     result = select(mask(magnitude > (255u << 23)), half_bits::quiet_nan | ((magnitude >> 13) & 0x3ffu), result);
     return static_cast<std::uint16_t>(((bits >> 16) & half_bits::sign) | result);
 }

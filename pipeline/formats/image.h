@@ -29,11 +29,13 @@ struct Image {
         return image;
     }
 
-    [[nodiscard]] std::size_t size() const noexcept {  // codes
+    // The number of codes: width * height * samples * channels.
+    [[nodiscard]] std::size_t size() const noexcept {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(samples) *
                static_cast<std::size_t>(channels());
     }
     [[nodiscard]] int channels() const noexcept { return info(format).channels; }
+    // Where a code stands in `codes`; y counts down from the top row.
     [[nodiscard]] std::size_t index(int x, int y, int channel = 0, int sample = 0) const noexcept {
         const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
         return (pixel * static_cast<std::size_t>(samples) + static_cast<std::size_t>(sample)) *

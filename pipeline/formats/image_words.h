@@ -19,7 +19,8 @@ inline void widen_words(const std::uint32_t* words, std::size_t count, std::uint
 }  // namespace scalar
 
 void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept;
-// Between the last of these and whatever tells another thread of them.
+// Call it after the last widen_words and before another thread is told that the codes are there: stores past the
+// caches are not ordered by themselves.
 void finish_words() noexcept;
 
 }  // namespace strata::pipeline

@@ -36,6 +36,8 @@ namespace strata::pipeline {
 HWY_EXPORT(widen);
 
 void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept {
+    // A store past the caches needs an aligned address; bytes of a
+    // word are in channel order on little-endian machines alone.
     const bool is_aligned = reinterpret_cast<std::uintptr_t>(codes) % 16 == 0;
     if (simd_is_scalar() || !is_aligned || std::endian::native != std::endian::little)
         return scalar::widen_words(words, count, codes);

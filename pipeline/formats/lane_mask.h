@@ -6,6 +6,7 @@
 
 namespace strata::pipeline {
 
+// ~0 for yes, 0 for no.
 [[nodiscard]] constexpr std::uint32_t mask(bool yes) noexcept { return 0u - static_cast<std::uint32_t>(yes); }
 
 // a where the mask is ~0, b where it is 0.

@@ -6,11 +6,10 @@
 
 namespace strata::pipeline {
 
-enum class TextureTarget : std::uint8_t {
-    two_d,
-    rectangle
-};  // rectangle: unnormalised coordinates (NV_texture_rectangle)
+// two_d takes coordinates 0..1, rectangle takes texels (NV_texture_rectangle).
+enum class TextureTarget : std::uint8_t { two_d, rectangle };
 enum class TextureFilter : std::uint8_t { nearest, linear };
+// How texels beyond the image come back (texturing.md 2.3); a rectangle clamps whatever it says.
 enum class TextureWrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 // Four 8-bit channels a texel, row 0 at t = 0 (glTF's top row), straight alpha, in the frame's encoded colour space.
@@ -18,10 +17,13 @@ struct Texture {
     std::string name;
     TextureTarget target = TextureTarget::two_d;
     int width = 1, height = 1;
-    TextureFilter filter = TextureFilter::linear;  // magnification's; mip levels are not emulated
+    // The magnification's: mip levels are not emulated.
+    TextureFilter filter = TextureFilter::linear;
     TextureWrap wrap_s = TextureWrap::repeat, wrap_t = TextureWrap::repeat;
-    bool decode_srgb = false;  // --colour linear: r g b decoded by the exact 256-entry table (srgb.h) before filtering
-    std::vector<std::uint8_t> texels;  // width * height * 4
+    // --colour linear: r g b become linear by the table of srgb.h before they are filtered; alpha never does.
+    bool decode_srgb = false;
+    // width * height * 4 bytes, row by row.
+    std::vector<std::uint8_t> texels;
     friend bool operator==(const Texture&, const Texture&) = default;
 };
 

@@ -17,6 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// unorm8_value of each lane: two products and a sum, each rounded as there.
 template <class Words>
 HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> unorm8_values(Words, hn::Vec<Words> codes) {
     const hn::RebindToFloat<Words> d;
@@ -35,6 +36,7 @@ HWY_INLINE hn::Vec<Words> unorm8_codes(Words words, hn::Vec<hn::RebindToFloat<Wo
     const hn::RebindToFloat<Words> d;
     const hn::Half<hn::RebindToFloat<Words>> half;
     const hn::Rebind<double, decltype(half)> wide;
+    // NaN is not above 0 and becomes 0, as -0 does.
     const auto positive = hn::IfThenElseZero(hn::Lt(hn::Zero(d), x), x);  // 0 for NaN
     const auto clamped = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 1.0f)), positive, hn::Set(d, 1.0f));
     const auto rounded = [&](auto part) HWY_ATTR {

@@ -40,6 +40,7 @@ static_assert([] {
     return true;
 }());
 
+// from_unorm8 of every code: lookups read it in the place of a division.
 inline constexpr auto unorm8_table = [] {
     std::array<float, 256> table{};
     for (int k = 0; k < 256; ++k) table[static_cast<std::size_t>(k)] = from_unorm8(static_cast<std::uint8_t>(k));

@@ -11,6 +11,7 @@ namespace {
 using Input = CombinerInput;
 using Reg = CombinerRegister;
 
+// In units of 1/255. The chip's half is 128, not 127.5 (chip-fragment.md 9).
 constexpr std::int32_t one = 255, half = 128;
 
 [[nodiscard]] constexpr std::int32_t mapped(CombinerMapping mapping, std::int32_t e) noexcept {
@@ -33,6 +34,7 @@ constexpr std::int32_t one = 255, half = 128;
     return sum >= 0 ? (sum + one / 2) / one : -((-sum + one / 2) / one);
 }
 
+// Bias, scale and clamp of a rounded result (combiners.md 2.2).
 [[nodiscard]] constexpr std::int32_t scaled(const CombinerPortion& p, std::int32_t x) noexcept {
     if (p.bias == CombinerBias::by_negative_half) x -= half;
     switch (p.scale) {
@@ -49,6 +51,7 @@ constexpr std::int32_t one = 255, half = 128;
     return rule == CombinerSum::mux_low_bit ? (alpha & 1) != 0 : alpha >= half;
 }
 
+// Colour sum and E F are no registers of general stages, and neither is `discard`.
 [[nodiscard]] constexpr bool holds_value(Reg r) noexcept { return static_cast<std::size_t>(r) < combiner_registers; }
 [[nodiscard]] constexpr bool is_written(Reg r) noexcept { return r >= Reg::primary_color && r <= Reg::spare1; }
 
@@ -56,6 +59,7 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string{"combiner state: "} + what);
 }
 
+// What NV_register_combiners calls errors: they are mistakes of a program, never of a device.
 void check(const CombinerPortion& p, bool is_alpha) {
     for (const Input& input : {p.a, p.b, p.c, p.d})
         require(holds_value(input.source), "an input of a general stage names no register that it has");
@@ -76,7 +80,8 @@ void check(const CombinerPortion& p, bool is_alpha) {
 struct CombinerUnit::Operand {
     const Register& reg;
     const Input& input;
-    std::size_t own_alpha;  // 3 in an alpha portion: `own` is alpha there; else 0
+    // 3 in an alpha portion, where `own` means alpha; else 0.
+    std::size_t own_alpha;
 
     [[nodiscard]] std::int32_t at(std::size_t c, std::size_t i) const noexcept {
         const std::size_t channel = input.component == CombinerComponent::alpha  ? 3
@@ -127,6 +132,7 @@ void CombinerUnit::run_portion(const CombinerPortion& p, bool is_alpha, std::siz
     };
     for (std::size_t ch = first; ch < end; ++ch)
         for (std::size_t i = 0; i < count; ++i) {
+            // The sum adds the exact products, before either is rounded: one rounding for each of the three results.
             const std::int32_t ab = product(a, b, p.ab_product, ch, i), cd = product(c, d, p.cd_product, ch, i);
             const std::int32_t sum = p.sum_rule == CombinerSum::add                ? ab + cd
                                      : takes_cd(p.sum_rule, at(Reg::spare0)[3][i]) ? cd
@@ -144,6 +150,7 @@ void CombinerUnit::commit(const CombinerPortion& p, bool is_alpha, std::size_t c
             std::copy_n(result_[k][ch].begin(), count, at(to[k])[ch].begin());
 }
 
+// Both portions are computed before either writes: rgb must not show in alpha's inputs.
 void CombinerUnit::run_stage(const CombinerStage& stage, std::size_t count) {
     set_constants(stage.constant, count);
     run_portion(stage.rgb, false, count);
@@ -161,6 +168,7 @@ void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
     const Operand g{value_of(f.g.source), f.g, f.g.component == CombinerComponent::own ? std::size_t{3} : 0};
     for (std::size_t ch = 0; ch < 3; ++ch)
         for (std::size_t i = 0; i < count; ++i) {
+            // spare0 may be negative here; the sum takes it as 0 (combiners.md 3).
             const std::int32_t spare0 = std::max(at(Reg::spare0)[ch][i], 0),
                                secondary = at(Reg::secondary_color)[ch][i];
             const std::int32_t sum =
@@ -170,6 +178,7 @@ void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
         }
     for (std::size_t ch = 0; ch < 3; ++ch)
         for (std::size_t i = 0; i < count; ++i) {
+            // Both products are summed exactly and rounded once; D is added behind the rounding.
             const std::int32_t weight = a.at(ch, i);
             const std::int32_t mixed = rounded(weight * b.at(ch, i) + (one - weight) * c.at(ch, i)) + d.at(ch, i);
             out[ch][i] = from_unorm8(static_cast<std::uint8_t>(std::clamp(mixed, 0, one)));
@@ -178,7 +187,7 @@ void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
         out[3][i] = from_unorm8(static_cast<std::uint8_t>(std::clamp(g.at(3, i), 0, one)));
 }
 
-// spare0 starts with texture 0's alpha, the other spare registers with 0.
+// Alpha of spare0 starts as texture 0's alpha, and everything else of the spare registers as 0 (combiners.md 1).
 void CombinerUnit::run(const CombinerSources& sources, ColorLanes& out, int count) {
     const auto n = static_cast<std::size_t>(count);
     for (const Reg r : {Reg::zero, Reg::spare0, Reg::spare1}) load(r, nullptr, n);

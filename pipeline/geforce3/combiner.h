@@ -17,6 +17,7 @@
 
 namespace strata::pipeline {
 
+// What an input can name. The first eleven hold a value of their own; the next two are made by the final stage.
 enum class CombinerRegister : std::uint8_t {
     zero,
     constant_color0,
@@ -29,19 +30,27 @@ enum class CombinerRegister : std::uint8_t {
     texture3,
     spare0,
     spare1,
+    // Of the final stage, for its inputs A to D alone.
     spare0_plus_secondary_color,
-    e_times_f,  // of the final stage, inputs A to D alone
+    e_times_f,
+    // As an output: nobody wants the result.
     discard
 };
 inline constexpr std::size_t combiner_registers = 11;  // those that hold a value
 
+// How an input reads a value e (combiners.md 2.1); results lie in -255..255 again.
 enum class CombinerMapping : std::uint8_t {
-    unsigned_identity,  // max(0, e)
-    unsigned_invert,    // 1 - clamp(e, 0, 1)
-    expand_normal,      // 2 max(0, e) - 1
+    // max(0, e)
+    unsigned_identity,
+    // 1 - clamp(e, 0, 1)
+    unsigned_invert,
+    // 2 max(0, e) - 1: codes 0..255 are stretched to -1..1; the next is its negative.
+    expand_normal,
     expand_negate,
-    half_bias_normal,  // max(0, e) - 128/255
+    // max(0, e) - 128/255, and its negative.
+    half_bias_normal,
     half_bias_negate,
+    // e and -e.
     signed_identity,
     signed_negate
 };
@@ -56,15 +65,22 @@ struct CombinerInput {
     friend bool operator==(const CombinerInput&, const CombinerInput&) = default;
 };
 
+// Component by component, or one dot product of r g b that all three components get; alpha has none.
 enum class CombinerProduct : std::uint8_t { component_wise, dot };
+// What the third result of a portion is: the sum of both products, or one of them, by spare0's alpha before the stage.
 enum class CombinerSum : std::uint8_t {
     add,
-    mux,         // C D where alpha of spare0 is at least 128/255, else A B
-    mux_low_bit  // C D where that alpha's bit 0 is set: the chip's other mode, not OpenGL's
+    // C D where alpha of spare0 is at least 128/255, else A B.
+    mux,
+    // C D where bit 0 of that alpha is set: the chip's other mode, not OpenGL's.
+    mux_low_bit
 };
+// The factor behind the bias; by_half rounds a half up (combiners.md 2.2).
 enum class CombinerScale : std::uint8_t { by_one, by_two, by_four, by_half };
 enum class CombinerBias : std::uint8_t { none, by_negative_half };
 
+// The rgb or the alpha part of a stage: A B, C D and a sum or choice of them, each to a register or discarded. All
+// three take the same bias and scale.
 struct CombinerPortion {
     CombinerInput a{}, b{}, c{}, d{};
     CombinerRegister ab = CombinerRegister::discard, cd = CombinerRegister::discard, sum = CombinerRegister::discard;
@@ -77,14 +93,17 @@ struct CombinerPortion {
 
 struct CombinerStage {
     CombinerPortion rgb{}, alpha{};
-    std::array<Rgba, 2> constant{};  // per stage, as NV_register_combiners2 has them
+    // Per stage, as NV_register_combiners2 has them.
+    std::array<Rgba, 2> constant{};
     friend bool operator==(const CombinerStage&, const CombinerStage&) = default;
 };
 
+// rgb = A B + (1 - A) C + D, alpha = G; E F is a product that A to D may name (combiners.md 3).
 struct FinalCombiner {
     CombinerInput a{}, b{}, c{}, d{}, e{}, f{}, g{};  // unsigned mappings only
     bool clamps_color_sum = false;
-    bool inverts_spare0 = false, inverts_secondary_color = false;  // in their sum; flags of the chip, not of OpenGL
+    // Each operand of the colour sum may be taken as 1 - x before it is added; flags of the chip, not of OpenGL.
+    bool inverts_spare0 = false, inverts_secondary_color = false;
     std::array<Rgba, 2> constant{};
     friend bool operator==(const FinalCombiner&, const FinalCombiner&) = default;
 };
@@ -103,11 +122,13 @@ struct CombinerSources {
     std::array<const ColorLanes*, 4> texture{};  // null: 0
 };
 
+// Runs one state over batches. Its registers are as wide as a batch, so a unit serves one thread.
 class CombinerUnit {
   public:
     // Throws std::logic_error for what no machine could run: too many stages, an input that is not there.
     explicit CombinerUnit(const Combiners& state);
     // r g b a in [0,1], each k / 255.
+    // Writes lanes [0, count) of `out`.
     void run(const CombinerSources& sources, ColorLanes& out, int count);
 
   private:
@@ -126,8 +147,10 @@ class CombinerUnit {
 
     Combiners state_;
     std::array<Register, combiner_registers> registers_{};
-    std::array<Register, 3> result_{};  // ab, cd and sum of a stage: both portions read what stood before it
-    Register sum_{}, product_{};        // spare0_plus_secondary_color, e_times_f
+    // A B, C D and the sum of a stage. They wait here, because both portions read what stood before the stage.
+    std::array<Register, 3> result_{};
+    // spare0_plus_secondary_color and e_times_f.
+    Register sum_{}, product_{};
 };
 
 }  // namespace strata::pipeline

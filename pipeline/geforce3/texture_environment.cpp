@@ -10,6 +10,7 @@ using Reg = CombinerRegister;
 using Map = CombinerMapping;
 using Part = CombinerComponent;
 
+// 1, as the inverted zero register: a product with it passes the other factor.
 constexpr Input unity{Reg::zero, Map::unsigned_invert};
 
 [[nodiscard]] Reg texture(std::size_t unit) {
@@ -18,6 +19,7 @@ constexpr Input unity{Reg::zero, Map::unsigned_invert};
 }
 
 // What a stage of one unit takes: Cf or Af, Ct or At, Cc.
+// The registers that stand for Cf and Ct; a portion for alpha reads the same registers' alpha as its own component.
 struct Sources {
     Reg previous, texture;
     [[nodiscard]] Input f() const { return {previous}; }
@@ -91,9 +93,11 @@ struct Sources {
 [[nodiscard]] CombinerPortion combined(const CombineState& state, const Sources& s) {
     const Input a = argument(state.argument[0], s), b = argument(state.argument[1], s),
                 c = argument(state.argument[2], s);
+    // 1 - c: the argument's own mapping turned round.
     const Input not_c{c.source, c.mapping == Map::unsigned_invert ? Map::unsigned_identity : Map::unsigned_invert,
                       c.component};
-    constexpr Input minus_one{Reg::zero, Map::expand_normal};  // 2 * 0 - 1
+    // 2 * 0 - 1: expand_normal of the zero register.
+    constexpr Input minus_one{Reg::zero, Map::expand_normal};
     CombinerPortion p;
     switch (state.func) {
         case CombineFunc::replace: p = sum_of(a, unity); break;
@@ -124,6 +128,7 @@ Combiners texture_environment(std::span<const TexEnv> units) {
         all.stages.push_back(stage);
         previous = Reg::spare0;
     }
+    // The final stage passes the last stage on: A, B and C are zero, so only D is left.
     all.final_stage.d = {previous};
     all.final_stage.g = {previous};
     return all;

@@ -14,6 +14,7 @@
 
 namespace strata::pipeline {
 
+// GL_TEXTURE_ENV_MODE; `none` passes Cf and Af on, `combine` takes the two states below.
 enum class TexEnvMode : std::uint8_t { none, replace, modulate, decal, blend, add, combine };
 enum class CombineFunc : std::uint8_t { replace, modulate, add, add_signed, interpolate, subtract };
 enum class CombineSource : std::uint8_t { texture, constant, primary_color, previous };
@@ -21,24 +22,29 @@ enum class CombineOperand : std::uint8_t { src_color, one_minus_src_color, src_a
 
 struct CombineArgument {
     CombineSource source = CombineSource::texture;
-    CombineOperand operand = CombineOperand::src_color;  // of alpha: src_alpha or one_minus_src_alpha
+    // For alpha: src_alpha or one_minus_src_alpha alone.
+    CombineOperand operand = CombineOperand::src_color;
     friend bool operator==(const CombineArgument&, const CombineArgument&) = default;
 };
 
+// GL_COMBINE of colours or of alpha: a function of up to three arguments, and a factor behind it.
 struct CombineState {
     CombineFunc func = CombineFunc::modulate;
     std::array<CombineArgument, 3> argument{};
-    CombinerScale scale = CombinerScale::by_one;  // not by_half
+    // 1, 2 or 4: GL_RGB_SCALE and GL_ALPHA_SCALE have no half.
+    CombinerScale scale = CombinerScale::by_one;
     friend bool operator==(const CombineState&, const CombineState&) = default;
 };
 
 struct TexEnv {
     TexEnvMode mode = TexEnvMode::none;
-    Rgba color{0, 0, 0, 0};   // TEXTURE_ENV_COLOR
-    CombineState rgb, alpha;  // of COMBINE
+    Rgba color{0, 0, 0, 0};  // TEXTURE_ENV_COLOR
+    // Looked at by `combine` alone.
+    CombineState rgb, alpha;
     friend bool operator==(const TexEnv&, const TexEnv&) = default;
 };
 
+// The combiners of up to four units, in order; units with `none` take no stage.
 [[nodiscard]] Combiners texture_environment(std::span<const TexEnv> units);
 
 // The combiner of shadow-map peeling: colour stays, alpha becomes (1 - comparison) times alpha. `unit` holds the comparison

@@ -17,6 +17,7 @@ using rasterizer::FragmentBatch;
 using rasterizer::Lanes;
 using Coordinates = std::array<Lanes<float>, 4>;
 
+// One stage over one batch. Stages run in order, so the results of the stages before it are complete.
 struct StageRun {
     const ShaderStages& stages;
     const ShaderMachine& machine;
@@ -31,6 +32,7 @@ struct StageRun {
     [[nodiscard]] std::size_t input() const noexcept { return static_cast<std::size_t>(stage().previous); }
 };
 
+// The colour of operations that look nothing up: (0, 0, 0, 0).
 void clear(ColorLanes& rgba, std::size_t count) noexcept {
     for (Lanes<float>& channel : rgba) std::fill_n(channel.begin(), count, 0.0f);
 }
@@ -45,10 +47,13 @@ void divide(const StageRun& run, std::size_t component, Lanes<float>& out) noexc
         out[i] = rasterizer::divide(run.coordinate[component][i], run.coordinate[3][i], divide_rule(run.machine));
 }
 
+// One division: signed codes reach 32767/32768 and no further (texture-shader.md 4).
 float hilo_component(std::uint16_t k, bool is_signed) noexcept {
     return is_signed ? static_cast<float>(static_cast<std::int16_t>(k)) / 32768.0f : static_cast<float>(k) / 65535.0f;
 }
 
+// HILO textures are looked up nearest alone; the third component
+// of a signed one completes a unit vector (texture-shader.md 4).
 void look_up(const HiloTexture& texture, const DeviceProfile& profile, const Lanes<float>& s, const Lanes<float>& t,
              StageResult& own, std::size_t count) {
     TexelLanes column, row;
@@ -93,7 +98,8 @@ void projective_lookup(const StageRun& run) {
 
 // [0, 1] to 8 bits as the chip does it: 12 bits, of which 255/256 by a shift, all cut. 1 is 255.
 [[nodiscard]] constexpr std::uint8_t pass_through_code(float x) noexcept {
-    const auto fixed = static_cast<std::uint32_t>(x * 4096.0f);  // exact before the cut
+    // x has 24 bits and 4096 is a power of two, so only the cut loses anything.
+    const auto fixed = static_cast<std::uint32_t>(x * 4096.0f);
     return static_cast<std::uint8_t>((fixed - (fixed >> 8)) >> 4);
 }
 
@@ -106,6 +112,7 @@ void pass_through(const StageRun& run) {
         }
 }
 
+// A comparison with a NaN is false, so it kills under either mode.
 void cull(const StageRun& run) {
     for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < run.count; ++i) {
@@ -115,6 +122,7 @@ void cull(const StageRun& run) {
     clear(run.own().rgba, run.count);
 }
 
+// The coordinates are not divided by q; HILO texels are never stretched (texture-shader.md 3).
 void dot(const StageRun& run) {
     const StageResult& from = run.out.stage[run.input()];
     const bool is_colour = run.stages[run.input()].texture.hilo == nullptr;
@@ -138,6 +146,7 @@ class DepthRule {
     bool clamps;
 
     explicit DepthRule(const ShaderMachine& m) : to_code{conversion(m)}, clamps{m.depth_clamp} {}
+    // With depth clamp everything but NaN is accepted, and `code` clamps it.
     [[nodiscard]] bool accepts(float z) const noexcept {
         return rasterizer::is_in_depth_range(z, to_code.least, to_code.greatest) || (clamps && z == z);
     }
@@ -152,6 +161,7 @@ class DepthRule {
     }
 };
 
+// The quotient is the one of perspective_rq and depth_replace of the rasterizer, to the bit (texture-shader.md 7).
 void replace_depth(const StageRun& run) {
     const DepthRule rule{run.machine};
     for (std::size_t i = 0; i < run.count; ++i) {

@@ -23,6 +23,7 @@
 
 namespace strata::pipeline {
 
+// What a stage does; the names are NV_texture_shader's. Those that are missing here stand in texture-shader.md 10.
 enum class ShaderOp : std::uint8_t {
     none,
     texture_2d,
@@ -37,8 +38,10 @@ enum class ShaderOp : std::uint8_t {
 
 // A coordinate's test in CULL_FRAGMENT: the fragment dies if any of the four fails. 0 and -0 are not negative; NaN fails both.
 enum class CullMode : std::uint8_t {
-    gequal,  // the default: lives where the coordinate is at least 0
-    less     // lives where it is below 0
+    // The default: lives where the coordinate is at least 0.
+    gequal,
+    // Lives where it is below 0.
+    less
 };
 
 // How an unsigned colour enters a dot product: as k / 255, or stretched to [-1, 1].
@@ -64,8 +67,9 @@ struct BoundTexture {
     const Image* depth_image = nullptr;
     Target depth{};
     bool eight_bit_depth = false;  // DepthTexels::is_eight_bit
-    bool bottom_up = false;        // of depth_image; a target's follows from the frame
-    ShadowCompare compare{};       // of depth textures
+    // Of depth_image: row 0 is the last row of memory. A target's follows from the frame.
+    bool bottom_up = false;
+    ShadowCompare compare{};  // of depth textures
     CompareReference reference = CompareReference::r_over_q;
 
     [[nodiscard]] bool is_depth() const noexcept { return depth_image != nullptr || depth.exists(); }
@@ -73,7 +77,8 @@ struct BoundTexture {
 
 struct ShaderStage {
     ShaderOp op = ShaderOp::none;
-    int previous = 0;  // PREVIOUS_TEXTURE_INPUT_NV: an earlier stage
+    // PREVIOUS_TEXTURE_INPUT_NV: the number of an earlier stage, whose texel a dot product takes.
+    int previous = 0;
     std::array<CullMode, 4> cull{};
     DotMapping mapping = DotMapping::unsigned_identity;
     BoundTexture texture;
@@ -84,6 +89,7 @@ using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
 // The operations as they take effect: NONE for those that are not consistent (a texture that is missing or of another kind;
 // a previous input that is no earlier stage or holds no texel; a dot product that is not continued after one).
 [[nodiscard]] ShaderOps consistent_operations(const ShaderStages& stages);
+// Whether a stage that takes effect gives the fragment another depth.
 [[nodiscard]] bool replaces_depth(const ShaderOps& ops) noexcept;
 // The coordinates that the operations look at, as FragmentNeeds::units.
 [[nodiscard]] rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept;
@@ -91,7 +97,8 @@ using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
 // The state that all fragments of a pass share.
 struct ShaderMachine {
     const DeviceProfile* profile = nullptr;
-    rasterizer::DepthRequest depth;             // the buffer that a replaced depth is for
+    // The buffer that a replaced depth is for, by its format.
+    rasterizer::DepthRequest depth;
     float depth_near = 0.0f, depth_far = 1.0f;  // glDepthRange
     bool depth_clamp = false;
     std::array<DepthTexels, rasterizer::texture_units> texels;  // of the stages with depth textures
@@ -99,18 +106,23 @@ struct ShaderMachine {
 
 // The results that one stage hands to the next.
 struct StageResult {
-    ColorLanes rgba;                              // the texture's colour, for the combiners
-    std::array<rasterizer::Lanes<float>, 3> xyz;  // what a dot product multiplies with
+    // The texture's colour, for the combiners.
+    ColorLanes rgba;
+    // The texel as a dot product of a later stage multiplies it, not yet stretched.
+    std::array<rasterizer::Lanes<float>, 3> xyz;
     rasterizer::Lanes<float> dot;
 };
 
 struct ShaderResults {
     std::array<StageResult, rasterizer::texture_units> stage;
-    rasterizer::Lanes<std::uint32_t> alive;  // ~0, or 0 where the fragment died
-    rasterizer::Lanes<std::uint32_t> code;   // of the replaced depth, if there is one
+    // ~0, or 0 where a stage killed the fragment.
+    rasterizer::Lanes<std::uint32_t> alive;
+    // The replaced depth's code, valid where replaces_depth says so and the fragment lives.
+    rasterizer::Lanes<std::uint32_t> code;
 };
 
-// Throws NeedsFrame (depth_texels.h).
+// Runs the stages on all fragments of a batch, dead ones too: what
+// they leave there means nothing. Throws NeedsFrame (depth_texels.h).
 void run_texture_shader(const ShaderStages& stages, const ShaderOps& ops, const ShaderMachine& machine,
                         const rasterizer::FragmentBatch& in, ShaderResults& out);
 

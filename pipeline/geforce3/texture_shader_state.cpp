@@ -6,6 +6,7 @@ namespace {
 
 enum class Result : std::uint8_t { none, texel, scalar };  // what a later stage may take from a stage
 
+// There is a texture, and it has the target that the operation names.
 bool is_complete(const BoundTexture& texture, TextureTarget target) {
     if (texture.color != nullptr) return texture.color->target == target;
     if (texture.hilo != nullptr) return texture.hilo->target == target;
@@ -32,6 +33,8 @@ Result result_of(ShaderOp op) {
     return op == ShaderOp::dot_product ? Result::scalar : Result::none;
 }
 
+// `before` holds the operations of earlier stages as they take
+// effect: one that is not consistent gives nothing to later ones.
 bool is_consistent(const ShaderStages& stages, const ShaderOps& before, std::size_t stage) {
     const ShaderStage& s = stages[stage];
     if (is_lookup(s.op) && !is_complete(s.texture, target_of(s.op))) return false;
@@ -58,6 +61,7 @@ bool replaces_depth(const ShaderOps& ops) noexcept {
     return false;
 }
 
+// Coordinates that nobody divides by or multiplies with are not interpolated (texture-shader.md 8).
 rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept {
     constexpr unsigned s = 1, t = 2, r = 4, q = 8;
     unsigned mask = 0;

@@ -21,7 +21,7 @@ namespace strata::pipeline {
     return precision == AlphaTestPrecision::unorm8 || type == ChannelType::unorm8;
 }
 
-// Clears alive[i] where the test fails.
+// Clears alive[i] where the test fails; a test that is off, or `always`, touches nothing. Lanes [0, count).
 void alpha_test(const AlphaTest& state, bool eight_bit, const float* alpha, std::uint32_t* alive, int count) noexcept;
 
 // Its meaning; alpha_test is the same compiled for the chosen instruction set (stages_simd.cpp).

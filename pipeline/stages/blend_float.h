@@ -20,10 +20,12 @@
 namespace strata::pipeline {
 inline namespace strict {
 
+// The NaN of G80's arithmetic (numbers.md 5.1): a quiet one of positive sign with all other bits set.
 inline constexpr std::uint32_t canonical_nan = 0x7fffffff;
 
 [[nodiscard]] constexpr bool is_nan_bits(std::uint32_t bits) noexcept { return (bits & 0x7fffffffu) > 0x7f800000u; }
 
+// x, or the zero of its sign where its exponent field is 0.
 template <DenormalRule rule>
 [[nodiscard]] constexpr float flushed(float x) noexcept {
     if constexpr (rule == DenormalRule::keep) return x;
@@ -31,6 +33,7 @@ template <DenormalRule rule>
     return std::bit_cast<float>(bits & (0x80000000u | mask((bits & 0x7f800000u) != 0)));
 }
 
+// x, or the NaN above for any NaN: which payload an operation leaves differs between processors.
 [[nodiscard]] constexpr float canonical(float x) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     return std::bit_cast<float>(select(mask(is_nan_bits(bits)), canonical_nan, bits));
@@ -46,9 +49,12 @@ template <BlendEquation equation, MinMaxNan rule>
     // Equal operands differ at most as zeros do, in the sign: MAX takes it if both have it, MIN if one has.
     result = equation == BlendEquation::min ? result | (a_bits & are_equal) : result & (a_bits | ~are_equal);
     if (rule == MinMaxNan::propagate) result |= mask(is_nan_bits(a_bits)) & canonical_nan;
-    return canonical(std::bit_cast<float>(result));  // two NaN, or one that propagates
+    // A NaN is left where both operands are one, or where one propagates.
+    return canonical(std::bit_cast<float>(result));
 }
 
+// What blend_kernels.h asks of an arithmetic: zero and one, 1 - x, the lesser of two, and one blend equation. Operands
+// are flushed before they come here.
 template <DenormalRule denormals, MinMaxNan nan_rule>
 struct FloatArithmetic {
     static constexpr float zero = 0.0f, one = 1.0f;
@@ -64,7 +70,8 @@ struct FloatArithmetic {
         if constexpr (equation == BlendEquation::min || equation == BlendEquation::max)
             return extreme<equation, nan_rule>(s, d);
         if constexpr (equation == BlendEquation::signed_add || equation == BlendEquation::signed_reverse_subtract)
-            return d;  // 8-bit targets alone: check.h refuses the rest
+            // Signed equations are for 8-bit targets alone (fragment-stages.md 8.3).
+            return d;
         const float source = keeps_s ? s : flushed<denormals>(s * F);
         const float destination = keeps_d ? d : flushed<denormals>(d * G);
         float sum = 0;

@@ -21,6 +21,8 @@ struct BlendOperands {
     bool is_alpha = false;
 };
 
+// The factor of lane i, by the table of fragment-stages.md 8.1. `s` and `d`
+// are the channel's own values, so for alpha src_color means the alpha.
 template <class Arithmetic, BlendFactor f>
 [[nodiscard]] inline float factor(const BlendOperands& in, std::size_t i) noexcept {
     using enum BlendFactor;
@@ -38,10 +40,12 @@ template <class Arithmetic, BlendFactor f>
     if constexpr (f == one_minus_constant_color) return Arithmetic::one_minus(in.constant);
     if constexpr (f == constant_alpha) return in.constant_alpha;
     if constexpr (f == one_minus_constant_alpha) return Arithmetic::one_minus(in.constant_alpha);
-    if constexpr (f == src_alpha_saturate)  // of the colours
+    // min(As, 1 - Ad), of the colours; for alpha the factor is 1 (fill_factor).
+    if constexpr (f == src_alpha_saturate)
         return Arithmetic::lesser(in.src_alpha[i], Arithmetic::one_minus(in.dst_alpha[i]));
 }
 
+// Calls body(std::integral_constant<BlendFactor, f>): the switch stands outside of the loop over lanes.
 template <class Body>
 void with_factor(BlendFactor f, Body&& body) {
     using enum BlendFactor;
@@ -64,6 +68,7 @@ void with_factor(BlendFactor f, Body&& body) {
     }
 }
 
+// The same for equations.
 template <class Body>
 void with_equation(BlendEquation equation, Body&& body) {
     using enum BlendEquation;
@@ -89,7 +94,8 @@ void blend_fused(const BlendOperands& in, ValueLanes& out, std::size_t count) no
 
 template <class Arithmetic>
 void fill_factor(BlendFactor f, const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
-    const bool is_one = f == BlendFactor::src_alpha_saturate && in.is_alpha;  // (f, f, f, 1)
+    // The factor is (f, f, f, 1): 1 for alpha.
+    const bool is_one = f == BlendFactor::src_alpha_saturate && in.is_alpha;
     with_factor(is_one ? BlendFactor::one : f, [&](auto chosen) {
         for (std::size_t i = 0; i < count; ++i) out[i] = factor<Arithmetic, chosen()>(in, i);
     });
@@ -108,6 +114,7 @@ template <class Arithmetic>
     });
 }
 
+// Picks the loop of a term once for a channel. MIN and MAX ignore their factors, so any pair will do.
 template <class Arithmetic>
 void blend_channel(const BlendTerm& term, const BlendOperands& in, ValueLanes& out, std::size_t count) noexcept {
     using enum BlendEquation;

@@ -40,6 +40,7 @@ struct PlainHalves {
     }
 };
 
+// The rounding of a store: `Halves` knows the nearest even one alone.
 template <class Halves>
 void store(ChannelType type, HalfRounding rounding, const float* values, std::uint32_t* codes,
            std::size_t count) noexcept {
@@ -48,6 +49,7 @@ void store(ChannelType type, HalfRounding rounding, const float* values, std::ui
     encode(type, rounding, values, codes, count);
 }
 
+// Lanes of a batch as operands of the arithmetic, converted one by one.
 template <class T>
 void load(const Lanes<T>& source, Lanes<float>& operand, std::size_t count, auto convert) noexcept {
     for (std::size_t i = 0; i < count; ++i) operand[i] = convert(source[i]);
@@ -68,6 +70,7 @@ void blend_channels(const Job& job, const std::array<float, 4>& constant, const 
     }
 }
 
+// 8-bit targets: codes are loaded as whole numbers in binary32, blended, and stored again.
 template <BlendRounding rounding>
 void blend_unorm8(const Job& job) noexcept {
     alignas(64) ColorLanes s, d;
@@ -77,10 +80,12 @@ void blend_unorm8(const Job& job) noexcept {
         constant[c] = static_cast<float>(to_unorm8(job.state.constant[c]));
         if (job.writes(channel) || channel == 3)
             load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8(x)}); });
-        if (channel < job.channels)  // the mask is for lanes beyond the batch, which fill up a vector and hold anything
+        // The mask is for lanes beyond the batch, which fill up a vector and may hold any 32 bits.
+        if (channel < job.channels)
             load(job.codes[c], d[c], job.count,
                  [](std::uint32_t code) { return static_cast<float>(static_cast<int>(code & 0xff)); });
     }
+    // A target without alpha reads as alpha 1.
     if (job.channels < 4) d[3].fill(255.0f);
     blend_channels<Unorm8Arithmetic<rounding>>(job, constant, s, d, [&](std::size_t c, const Lanes<float>& out) {
         for (std::size_t i = 0; i < job.count; ++i)
@@ -88,6 +93,7 @@ void blend_unorm8(const Job& job) noexcept {
     });
 }
 
+// Float targets: operands are widened and flushed once, each result is rounded to its format once.
 template <class Halves, DenormalRule denormals, MinMaxNan nan_rule>
 void blend_float(const Job& job, ChannelType type, HalfRounding rounding) noexcept {
     const auto flush = [](float x) { return flushed<denormals>(x); };
@@ -122,6 +128,7 @@ void blend_float(const Job& job, ChannelType type, const DeviceProfile& profile)
     return blend_float<Halves, keep, propagate>(job, type, profile.half_rounding);
 }
 
+// Blending off is a conversion and no arithmetic: nothing is flushed, and NaN keeps its sign (fragment-stages.md 9.2).
 template <class Halves = PlainHalves>
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels, const ColorLanes& src,
            ColorCodes& codes, std::size_t count) noexcept {

@@ -30,6 +30,7 @@ struct Halves {
 using Halves = scalar::PlainHalves;
 #endif
 
+// Works on whole vectors of up to 16 lanes; what comes out beyond the count is scratch.
 [[gnu::flatten]] void blend_lanes(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
                                   const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) {
     const std::size_t whole_vectors = (static_cast<std::size_t>(count) + 15) & ~std::size_t{15};

@@ -27,6 +27,7 @@ template <BlendRounding rounding>
     return (biased + (biased >> 8)) >> 8;
 }
 
+// Codes 0..255 as binary32 whole numbers. `one` is 255, so products are in units of 1/255^2.
 template <BlendRounding rounding>
 struct Unorm8Arithmetic {
     static constexpr float zero = 0.0f, one = 255.0f;
@@ -40,19 +41,21 @@ struct Unorm8Arithmetic {
         return std::bit_cast<float>(std::max(std::bit_cast<std::int32_t>(a), std::bit_cast<std::int32_t>(b)));
     }
 
+    // The code as two's complement: 128..255 mean -128..-1.
     [[nodiscard]] static constexpr float signed_value(float code) noexcept {
         return code < 128.0f ? code : code - 256.0f;
     }
     [[nodiscard]] static constexpr float clamped(float v) noexcept { return v < 0.0f ? 0.0f : v > 255.0f ? 255.0f : v; }
 
-    template <BlendEquation equation, bool keeps_s = false,
-              bool keeps_d = false>  // as in blend_float.h; a product here
+    // keeps_s and keeps_d are there for the interface alone: s * 255 is a product like any other here.
+    template <BlendEquation equation, bool keeps_s = false, bool keeps_d = false>
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
         if constexpr (equation == BlendEquation::min) return lesser(s, d);
         if constexpr (equation == BlendEquation::max) return greater(s, d);
         if constexpr (equation == BlendEquation::signed_add) return clamped(d + signed_value(s));
         if constexpr (equation == BlendEquation::signed_reverse_subtract) return clamped(d - signed_value(s));
-        float sum = 0;  // in units of 1/255^2
+        // In units of 1/255^2; within +-130050, so exact.
+        float sum = 0;
         if constexpr (equation == BlendEquation::add) sum = s * F + d * G;
         if constexpr (equation == BlendEquation::subtract) sum = s * F - d * G;
         if constexpr (equation == BlendEquation::reverse_subtract) sum = d * G - s * F;

@@ -36,6 +36,8 @@ class ColorPlanes {
             value_[i] = triangle.record.front_facing ? v.front : v.back;
             w_[i] = geometry_.corners[triangle.record.vertex[i]].inverse_w;
         }
+        // Bits are compared, not values: a channel is constant if all corners have the same; the colour is grey if r,
+        // g and b have the same at each corner.
         std::uint32_t varying = 0, colorful = 0;
         for (std::size_t c = 0; c < 4; ++c) {
             varies_[c] = (bits(0, c) ^ bits(1, c)) | (bits(0, c) ^ bits(2, c));
@@ -70,6 +72,8 @@ class ColorPlanes {
     HWY_INLINE std::uint32_t bits(std::size_t i, std::size_t c) const { return bits_of(value_[i][c]); }
 
     // FilterPlane of each channel.
+    // Products with 1 / w in binary32, as every attribute's (attributes.md 1.1);
+    // slopes and errors of all four channels at once.
     HWY_INLINE void find_planes(bool is_exact) {
         inverse_w_ = FilterPlane{plane_of(w_), is_exact};
         for (std::size_t i = 0; i < 3; ++i)
@@ -98,6 +102,7 @@ class ColorPlanes {
         const V32 u = rounded<unsnapped>(where, b, plane, corners(c));
         return has_w_ ? hn::Div(u, inverse_w) : u;
     }
+    // The plane at a row, rounded once; what the filter leaves open is decided exactly.
     template <bool unsnapped, class Where>
     HWY_INLINE V32 rounded(const Where& where, const raster::Weights& b, const FilterPlane& plane,
                            const Corners& corners) const {

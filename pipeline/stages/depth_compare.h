@@ -17,8 +17,10 @@ namespace strata::pipeline {
 
 // A program adds these to the stored depth before it compares: a part of the depth range, and a number of codes.
 struct CompareEpsilon {
-    double absolute = 0.0;  // in depth, 0 to 1
-    int ulps = 0;           // at least 0
+    // A part of the depth range, 0 to 1.
+    double absolute = 0.0;
+    // Codes of the buffer, 0 or more.
+    int ulps = 0;
     friend bool operator==(const CompareEpsilon&, const CompareEpsilon&) = default;
 };
 
@@ -27,7 +29,9 @@ inline namespace strict {
 struct DepthCompare {
     rasterizer::DepthFormat format = rasterizer::DepthFormat::d32f;
     CompareEpsilon epsilon{};
-    bool has_reference = false;  // another path's depth is compared than is stored
+    // Another path's depth is compared than is stored.
+    bool has_reference = false;
+    // The profile's raster.quantize_reference (depth.md 6.2).
     bool quantizes = true;
 
     // Only the fragment's own code is asked for: no reference array is needed.

@@ -38,6 +38,7 @@ inline void write_depth(const std::uint32_t* code, const std::uint32_t* written,
     for (int i = 0; i < count; ++i) stored[i] = select(written[i], code[i], stored[i]);
 }
 
+// A test that is off writes nothing, whatever `write` says (GL 2.1 4.1.6).
 [[nodiscard]] constexpr bool writes_depth(const DepthTest& state) noexcept { return state.enabled && state.write; }
 
 }  // namespace strict

@@ -18,13 +18,17 @@
 namespace strata::pipeline {
 
 using Word = std::uint32_t;
-using CodeLanes = rasterizer::Lanes<Word>;  // one channel of a batch; masks too: 0 or ~0
+// One channel of a batch. Masks have the same type: 0 or ~0 a lane.
+using CodeLanes = rasterizer::Lanes<Word>;
 
-inline constexpr std::size_t spare_words = 16;  // a vector of AVX-512
+// A vector of AVX-512, the widest set.
+inline constexpr std::size_t spare_words = 16;
 
+// One word a pixel of a region, row by row, and spare words behind them.
 struct Plane {
     Word* words = nullptr;
-    std::size_t pixels = 0;  // words[pixels] is the first spare one
+    // words[pixels] is the first spare one.
+    std::size_t pixels = 0;
 };
 
 // Where a channel lies in its pixel's words; `bits` is the mask of one code, not shifted.
@@ -43,7 +47,9 @@ struct Texels {
         const int bit = channel * bits_per_channel;
         return {static_cast<std::size_t>(bit / 32), bit % 32, ~0u >> (32 - bits_per_channel)};
     }
+    // Words of a pixel, and with them planes of a sample: at most four.
     [[nodiscard]] constexpr std::size_t words() const noexcept { return field(channels - 1).word + 1; }
+    // Planes follow each other, each with its spare words.
     [[nodiscard]] constexpr Plane plane(std::size_t word) const noexcept {
         return {first.words + word * (first.pixels + spare_words), first.pixels};
     }
@@ -55,6 +61,7 @@ struct PixelLanes {
     std::size_t count = 0;
 };
 
+// Living fragments that came to a depth test, and those that passed.
 struct DepthResult {
     std::uint64_t arriving = 0, passed = 0;
 };
@@ -77,6 +84,7 @@ DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, 
 inline namespace strict {
 namespace scalar {
 
+// A living lane is ~0: one bit of it counts.
 [[nodiscard]] inline std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept {
     Word living = 0;
     for (std::size_t i = 0; i < count; ++i) living += alive[i] & 1u;

@@ -56,17 +56,20 @@ HWY_INLINE Group group_at(const PixelLanes& at, std::size_t i) {
     return {in_batch, pixel, at.pixel[i], is_run};
 }
 
+// Lanes that are not used go to spare words, one each: a gather or scatter may touch them without harm.
 HWY_INLINE hn::Vec<hn::RebindToSigned<Words>> spare_index(Plane plane, WordMask used, WordVec pixel) {
     const WordVec spare = counting(static_cast<Word>(plane.pixels));
     return hn::BitCast(hn::RebindToSigned<Words>{}, hn::IfThenElse(used, pixel, spare));
 }
 
+// The stored words of a group: one plain load where its pixels are neighbours, as in rows of large triangles.
 HWY_INLINE WordVec load(Plane plane, const Group& group) {
     const Words d;
     if (group.is_run) return hn::LoadU(d, plane.words + group.first);
     return hn::GatherIndex(d, plane.words, spare_index(plane, group.in_batch, group.pixel));
 }
 
+// Dead lanes keep their words. Where all are dead nothing is touched.
 HWY_INLINE void store(Plane plane, const Group& group, WordMask written, WordVec words) {
     const Words d;
     if (hn::AllFalse(d, written)) return;
@@ -113,6 +116,7 @@ HWY_INLINE void with_layout(const Texels& texels, Body&& body) {
     assert(!"every format has one of these layouts");
 }
 
+// The channels of one word, at every pixel of the batch.
 template <int channels, int bits>
 HWY_INLINE void gather_word(Plane plane, const PixelLanes& at, CodeLanes* codes) {
     const Words d;
@@ -132,7 +136,7 @@ void gather(const Texels& from, const PixelLanes& at, CodeLanes* codes) {
     });
 }
 
-// `written`: which channels of this word are replaced. If all, nobody looks at the old ones.
+// `written` names the channels of this word that are replaced. If it names all of them, the stored words are not read.
 template <int channels, int bits>
 HWY_INLINE void scatter_word(Plane plane, const PixelLanes& at, const Word* alive, unsigned written,
                              const CodeLanes* codes) {
@@ -183,6 +187,7 @@ HWY_INLINE WordMask passing(DepthFormat format, WordVec code, WordVec stored) {
     }
 }
 
+// Loads, compares, stores and counts in one walk over the lanes.
 template <CompareFunc func>
 DepthResult test(bool writes, DepthFormat format, Plane plane, const PixelLanes& at, const Word* codes, Word* alive) {
     const Words d;
@@ -249,6 +254,7 @@ template <bool flushes>
 void add_to_words(const Texels&, const PixelLanes&, const Word*, const rasterizer::Lanes<float>*) {}
 #endif
 
+// False on sets without half conversion: add_to_words has done nothing there.
 bool add(const Texels& to, const PixelLanes& at, const Word* alive, const rasterizer::Lanes<float>* source,
          bool flushes) {
     if (flushes)
@@ -258,6 +264,7 @@ bool add(const Texels& to, const PixelLanes& at, const Word* alive, const raster
     return has_halves;
 }
 
+// The plain loops, compiled for this set; arrays of a batch have room for whole vectors.
 [[gnu::flatten]] void decode_lanes(ChannelType type, const std::uint32_t* codes, float* values, std::size_t count) {
     scalar::decode(type, codes, values, padded(count));
 }

@@ -29,10 +29,14 @@ template <StencilOp op>
 // Lanes of a batch; masks are 0 or ~0. `front_facing` is read by a two-sided test alone and may be null otherwise.
 struct StencilLanes {
     const std::uint8_t* front_facing = nullptr;
-    const std::uint32_t* depth_pass = nullptr;  // what depth_test answered
-    std::uint32_t* alive = nullptr;             // in: who arrives; out: who passed stencil and depth
-    std::uint32_t* stored = nullptr;            // the buffer's values, updated; lanes that arrive dead keep theirs
-    std::uint32_t* saturated = nullptr;         // out, if given: ~0 where INCR or DECR met its limit, else 0
+    // What depth_test answered.
+    const std::uint32_t* depth_pass = nullptr;
+    // In: who arrives. Out: who passed stencil and depth.
+    std::uint32_t* alive = nullptr;
+    // The buffer's values, updated; lanes that arrive dead keep theirs.
+    std::uint32_t* stored = nullptr;
+    // Out, if given: ~0 where INCR or DECR met its limit, else 0.
+    std::uint32_t* saturated = nullptr;
     int count = 0;
 };
 

@@ -13,6 +13,7 @@ namespace scalar {
 
 using Mask = rasterizer::Lanes<std::uint32_t>;
 
+// Calls body with the operation as a constant; `keep` does not call it, because nothing would change.
 template <class Body>
 void with_op(StencilOp op, Body&& body) {
     using enum StencilOp;
@@ -39,6 +40,7 @@ inline void update(const StencilFace& face, StencilOp op, const Mask& chosen, co
     });
 }
 
+// Looks at the stored values before `update` changes them: 255 before INCR, 0 before DECR.
 inline void mark_saturated(StencilOp op, const Mask& chosen, const StencilLanes& lanes) noexcept {
     if (lanes.saturated == nullptr || (op != StencilOp::incr && op != StencilOp::decr)) return;
     const std::uint32_t limit = op == StencilOp::incr ? 255 : 0;
@@ -76,6 +78,7 @@ inline int test_face(const StencilFace& face, const Mask& subject, const Stencil
     return static_cast<int>(failed);
 }
 
+// With the test off the stencil buffer is not touched. Two faces touch disjoint lanes, so their order does not matter.
 inline int stencil_test(const StencilTest& state, const StencilLanes& lanes) noexcept {
     const auto count = static_cast<std::size_t>(lanes.count);
     if (lanes.saturated != nullptr) std::fill_n(lanes.saturated, count, 0u);

@@ -16,12 +16,16 @@ namespace strata::pipeline {
 
 // A region's pixels row by row, a word each, with rasterizer::row_padding more behind the last; of two halves the low one is first.
 struct SumPlanes {
-    std::array<std::uint32_t*, 2> sums;     // of r a and g a; of b a and a
-    std::uint32_t* count;                   // its high half is 0; null: not wanted
-    const std::uint32_t* opaque = nullptr;  // codes; null: every fragment passes
+    // The sums of r a and g a in the halves of a word; those of b a and a in another's.
+    std::array<std::uint32_t*, 2> sums;
+    // The count in the low half, 0 in the high one; null: not wanted.
+    std::uint32_t* count;
+    // Depth codes of the opaque surfaces; null: every fragment passes.
+    const std::uint32_t* opaque = nullptr;
 };
 
-// Only where rasterizer::row_walk_suits and colours are exact planes.
+// Only where rasterizer::row_walk_suits, which leaves out the sets that convert no halves, and where colours are exact
+// planes. `flushes` is DenormalRule::flush.
 rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
                                     const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
                                     const SumPlanes& planes, bool flushes) noexcept;

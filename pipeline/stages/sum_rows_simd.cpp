@@ -12,6 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
 
+// What a pass of sums keeps: where it adds, how depths become codes, and the counts.
 struct SumState {
     SumPlanes planes;
     rasterizer::DepthConversion<float> to_code;
@@ -30,12 +31,15 @@ constexpr std::int32_t lanes = hn::MaxLanes(F32{});
 alignas(64) constexpr std::int32_t zipped[16] = {0, lanes,     1, lanes + 1, 2, lanes + 2, 3, lanes + 3,
                                                  4, lanes + 4, 5, lanes + 5, 6, lanes + 6, 7, lanes + 7};
 
+// Lanes of two channels as pairs, in the order in which a word's halves lie.
 HWY_INLINE VPair paired(V32 low, V32 high) {
     return hn::TableLookupLanes(hn::Combine(Pair{}, high, low), hn::SetTableIndices(Pair{}, zipped));
 }
+// Words as pairs of binary32.
 HWY_INLINE VPair loaded(const std::uint32_t* words) {
     return hn::PromoteTo(Pair{}, hn::BitCast(HalfPair{}, hn::LoadU(U32{}, words)));
 }
+// Rounds to nearest even and stores the covered words alone.
 HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) {
     hn::BlendedStore(hn::BitCast(U32{}, hn::DemoteTo(HalfPair{}, sum)), hn::RebindMask(U32{}, covered), U32{}, words);
 }
@@ -56,7 +60,8 @@ HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* re
     }
     VPair low = hn::Add(paired(source[0], source[1]), loaded(red_green));
     VPair high = hn::Add(paired(source[2], source[3]), loaded(blue_alpha));
-    const VPair both = hn::Add(low, high);  // NaN where a sum is one, or where infinities meet
+    // One test for both: NaN where either sum is one, and where infinities of both signs meet.
+    const VPair both = hn::Add(low, high);
     if (HWY_UNLIKELY(!hn::AllTrue(Pair{}, hn::Eq(both, both)))) {
         for (VPair* v : {&low, &high}) *v = canonical(hn::RebindToUnsigned<Pair>{}, *v);
     }
@@ -74,11 +79,13 @@ HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
 
 template <bool is_tested, bool flushes>
 struct SumOf {
+    // The planes of one triangle. Where nothing is tested no depth is computed: is_tested is a constant of the pass.
     template <bool unsnapped>
     class Shade {
       public:
         HWY_INLINE Shade(SumState& state, const DrawnTriangle& triangle)
             : state_{state}, planes_{state.planes}, to_code_{state.to_code}, triangle_{triangle}, color_{triangle} {
+            // Without opaque surfaces nothing is tested, and the plane of depth is not needed.
             if constexpr (!is_tested) return;
             depth_ = RationalPlane{triangle.geometry.depths(triangle.index), 1.0, state.z_units};
             filter_ = raster::filter_of(depth_, triangle);
@@ -88,6 +95,7 @@ struct SumOf {
             raster::RowMask covered = row.covered;
             if constexpr (is_tested) {
                 covered = hn::And(covered, nearer(row, b));
+                // A row that lies wholly behind the opaque surfaces needs no colours.
                 if (hn::AllFalse(F32{}, covered)) return;
                 passed_ += hn::CountTrue(F32{}, covered);
             }

@@ -19,14 +19,17 @@ struct Target {
     friend constexpr bool operator==(Target, Target) = default;
 };
 
+// What a clear leaves: a colour, converted to the target's format like a source's; a depth, clamped to [0,1] unless
+// the profile stores it as it is (formats.md 5.5); a stencil value.
 struct ClearValue {
     Rgba color{0, 0, 0, 0};
     float depth = 1.0f;
     std::uint8_t stencil = 0;
 };
 
-using ColorCodes =
-    std::array<Lanes<std::uint32_t>, 4>;  // per channel: u8 codes, half bits or binary32 bits, zero-extended
+// A batch's stored colours, an array a channel: 8-bit codes, half bits or binary32 bits, zero-extended.
+using ColorCodes = std::array<Lanes<std::uint32_t>, 4>;
+// A batch's colours r g b a as binary32.
 using ColorLanes = std::array<Lanes<float>, 4>;
 
 }  // namespace strata::pipeline

@@ -18,11 +18,13 @@ namespace strata::pipeline {
 struct NeedsFrame {};
 
 struct DepthTexels {
-    const std::uint32_t* codes = nullptr;  // of `held`, row by row from the top
-    rasterizer::Rect held;                 // the pixels of the texture that are there
-    int width = 0, height = 0;             // of the texture
+    // Codes of the pixels in `held`, row by row from the top; the texture itself is width by height.
+    const std::uint32_t* codes = nullptr;
+    rasterizer::Rect held;
+    int width = 0, height = 0;
     DepthFormat format = DepthFormat::d24;
-    bool is_eight_bit = false;  // texels are 0..255, whatever the format: Heidrich's limited form (texturing.md 4)
+    // Texels are 0..255, whatever the format: Heidrich's limited form (texturing.md 4).
+    bool is_eight_bit = false;
     bool bottom_up = false;
 
     DepthTexels() = default;
@@ -36,6 +38,7 @@ struct DepthTexels {
     [[nodiscard]] bool exists() const noexcept { return codes != nullptr; }
     // The code of depth 1.0 in fixed-point texels.
     [[nodiscard]] std::uint32_t max() const noexcept { return is_eight_bit ? 255u : rasterizer::max_code(format); }
+    // The code at texel (column, row) of the whole texture; throws NeedsFrame where `held` does not have it.
     [[nodiscard]] std::uint32_t at(int column, int row) const {
         const int y = bottom_up ? height - 1 - row : row;
         if (column < held.x0 || column >= held.x1 || y < held.y0 || y >= held.y1) throw NeedsFrame{};

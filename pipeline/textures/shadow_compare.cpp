@@ -11,6 +11,7 @@ namespace {
 
 using rasterizer::Lanes;
 
+// A depth texture and the texels that each lane looks at.
 struct Lookup {
     const DepthTexels& depth;
     TexelLanes s, t;
@@ -25,6 +26,7 @@ void compare_nearest(const Lookup& at, const Lanes<std::uint32_t>& r, float fail
         result[i] = passed(r[i], at.texel(at.s.first[i], at.t.first[i])) ? 1.0f : fail;
 }
 
+// The answers are filtered, not the depths: each texel gives 1 or the fail value first (texturing.md 4.2).
 void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail, Lanes<float>& result,
                     std::size_t count, auto passed) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -64,6 +66,7 @@ void quantize(const DepthTexels& depth, const rasterizer::RasterRules& rules, co
     for (std::size_t i = 0; i < count; ++i) codes[i] = rasterizer::depth_code(double{r[i]}, to);
 }
 
+// Where the result goes, by texturing.md 4.3.
 void route(DepthTextureMode mode, const Lanes<float>& result, std::array<Lanes<float>, 4>& rgba,
            std::size_t count) noexcept {
     const bool color_varies = mode == DepthTextureMode::luminance || mode == DepthTextureMode::intensity;
@@ -100,6 +103,8 @@ void shadow_compare(const DepthTexels& depth, const ShadowCompare& state, const 
     with_compare(state.func, [&](auto chosen) {
         constexpr CompareFunc func = chosen();
         if (!is_float && !quantizes) {
+            // The hypothesis that R is compared as it is: its bits travel
+            // in the place of codes, and texels become values.
             for (std::size_t i = 0; i < n; ++i) r[i] = std::bit_cast<std::uint32_t>(at.r[i]);
             const double max = value_of(depth, depth.max());
             compare([units, max, &depth](std::uint32_t a, std::uint32_t b) {

@@ -9,6 +9,7 @@ CoordinateUnits shadow_units(const ShadowLight& light, const Matrix& camera_view
                              const DeviceProfile& profile) {
     const double n = state.depth_near, f = state.depth_far;
     const bool symmetric = state.clip_depth == rasterizer::ClipDepth::minus_one_to_one;
+    // From the light's clip space to texture coordinates 0..1 and to its depth range, as vertices.md 4.4 has it.
     const Matrix to_window = product(translation(0.5, 0.5, symmetric ? (f + n) * 0.5 : n),
                                      scaling(0.5, 0.5, symmetric ? (f - n) * 0.5 : f - n));
     const Matrix rows = product(to_window, product(light.projection, light.view));
@@ -36,6 +37,7 @@ void cast_shadow(const ShadowStage& stage, const DeviceProfile& profile, rasteri
                  std::array<rasterizer::Lanes<float>, 4>& scratch) {
     const auto& [s, t, r, q] = batch.unit[shadow_unit];
     const auto count = static_cast<std::size_t>(batch.count);
+    // Plain binary32 divisions (texturing.md 6); DivideRule does not apply.
     rasterizer::Lanes<float> over_q[3];
     for (std::size_t i = 0; i < count; ++i) {
         over_q[0][i] = s[i] / q[i];

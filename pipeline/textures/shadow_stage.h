@@ -13,6 +13,7 @@
 
 namespace strata::pipeline {
 
+// A light's finished map, and how it is compared.
 struct ShadowStage {
     DepthTexels map;
     ShadowCompare compare;

@@ -27,6 +27,7 @@ enum class PointSnap : std::uint8_t { none, to_256ths };
     return precision == TextureFilterPrecision::single ? PointSnap::to_256ths : PointSnap::none;
 }
 
+// One axis of a texture: its number of texels, and how coordinates beyond them come back.
 struct TexelAxis {
     TextureTarget target = TextureTarget::two_d;
     TextureWrap wrap = TextureWrap::repeat;
@@ -64,6 +65,7 @@ inline namespace strict {
     return rest < 0 ? rest + period : rest;
 }
 
+// The texel that stands for number `texel`, which may be any integer (texturing.md 2.3).
 [[nodiscard]] constexpr std::int32_t wrapped(const TexelAxis& axis, std::int64_t texel) noexcept {
     const std::int64_t size = axis.size;
     const TextureWrap wrap = axis.target == TextureTarget::rectangle ? TextureWrap::clamp_to_edge : axis.wrap;
@@ -78,6 +80,7 @@ inline namespace strict {
     return static_cast<std::int32_t>(std::clamp<std::int64_t>(texel, 0, size - 1));
 }
 
+// texturing.md 2.1; the shift by 8 floors, for negative numbers too.
 [[nodiscard]] constexpr std::int32_t nearest_texel(const TexelAxis& axis, PointSnap snap, float coordinate) noexcept {
     const double scaled = scaled_coordinate(axis, coordinate);
     return wrapped(axis, (snap == PointSnap::none ? floor_of(scaled) : nearest_even_of(scaled)) >> 8);
@@ -90,6 +93,7 @@ inline namespace strict {
     return std::clamp<std::int64_t>(position, 0, std::int64_t{256} * (axis.size - 1));
 }
 
+// The same for lanes [0, count) of a batch.
 inline void nearest_texels(const TexelAxis& axis, PointSnap snap, const rasterizer::Lanes<float>& coordinate,
                            TexelLanes& out, int count) noexcept {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)

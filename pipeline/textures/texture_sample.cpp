@@ -15,6 +15,7 @@ struct Footprint {
     const std::uint8_t *t00, *t10, *t01, *t11;
 };
 
+// A texture and the texels that each lane looks at; nearest lookups use `first` alone.
 struct Lookup {
     const Texture& texture;
     TexelLanes s, t;
@@ -71,6 +72,8 @@ void sample_bilinear_unorm8(const Lookup& lookup, ColorLanes& rgba, std::size_t 
     }
 }
 
+// texture_filter unorm8 after an sRGB decoding: the binary32 result
+// takes its only rounding to 8 bits here (texturing.md 3.2).
 void round_to_unorm8(ColorLanes& rgba, std::size_t count) noexcept {
     for (Lanes<float>& channel : rgba)
         for (std::size_t i = 0; i < count; ++i) channel[i] = from_unorm8(to_unorm8(channel[i]));

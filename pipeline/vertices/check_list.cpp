@@ -9,11 +9,13 @@
 namespace strata::pipeline {
 namespace {
 
+// The widest profile's limit; texel addresses hold for 2^15 texels a side (texturing.md 1).
 constexpr int greatest_size_px = 16384;
 
 void check_indices(const Requirements& list, const Mesh& mesh, std::size_t number) {
     const FieldName indices{"meshes", number, "indices"};
     if (mesh.indices.size() % 3 != 0) list.fail(indices, "three a triangle", mesh.indices.size());
+    // The greatest index first: one loop without branches, and a search only where it is too large.
     std::uint32_t greatest = 0;
     for (const std::uint32_t i : mesh.indices) greatest = std::max(greatest, i);
     if (mesh.indices.empty() || greatest < mesh.positions.size()) return;

@@ -10,6 +10,7 @@
 namespace strata::pipeline {
 
 // One pass over the indices of every mesh.
+// Sizes, indices, enums and floats that decide something; the sums of vertices and indices must fit 32 bits.
 void check(const DrawList& list);
 void check(const View& view);
 // Every field has a value that the table of profile_fields.h lists.

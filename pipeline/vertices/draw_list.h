@@ -18,17 +18,21 @@ using strata::Vec2;
 using strata::Vec3;
 
 // Object space. `normals` is never empty when the material is lit; `colors` and `texcoords` may be empty.
+// An attribute is empty or has one value for each position; three indices make a triangle.
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
     std::vector<Rgba> colors;
-    std::vector<Vec2> texcoords;  // the set that the material's base colour texture names, transform already applied
-    std::vector<std::uint32_t> indices;  // three a triangle
+    // Those that the material's base colour texture names, with its transform applied.
+    std::vector<Vec2> texcoords;
+    // Three a triangle.
+    std::vector<std::uint32_t> indices;
     friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
-enum class AlphaMode : std::uint8_t { opaque, mask, blend };  // glTF 2.0, 3.9.4
+// glTF 2.0, 3.9.4: `mask` cuts at the material's cutoff, `blend` is what makes a surface transparent.
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 // encoded: sRGB values are blended as they are, as the hardware did (default). linear: decoded first, encoded when a PNG is written.
 enum class ColorSpace : std::uint8_t { encoded, linear };
@@ -37,33 +41,43 @@ enum class ColorSpace : std::uint8_t { encoded, linear };
 struct Material {
     std::string name;
     Rgba front{1, 1, 1, 1};
-    Rgba back{1, 1, 1, 1};  // equal to front unless the surface has two colours (the teapot: red outside, green inside)
+    // Equal to front unless the surface has two colours (the teapot: red outside, green inside).
+    Rgba back{1, 1, 1, 1};
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
-    int texture = -1;  // index into DrawList::textures
+    // Index into DrawList::textures; -1 for none.
+    int texture = -1;
     bool double_sided = false;
     bool unlit = false;
     friend bool operator==(const Material&, const Material&) = default;
 };
 
+// A mesh with a material at a place in the world.
 struct Instance {
     std::uint32_t mesh = 0, material = 0;
     Matrix model = identity;
-    bool arrives_sorted = false;  // front to back at every pixel, as listed, from the scene's own view
+    // Its triangles come front to back at every pixel, as listed, from the scene's own view.
+    bool arrives_sorted = false;
     friend bool operator==(const Instance&, const Instance&) = default;
 };
 
 // A light that casts shadows: how it sees the scene, and how its shadow map is made and looked at. What it does not see
 // keeps `ambient` of its colour.
 struct ShadowLight {
-    Matrix view = identity, projection = identity;    // world to the light's eye, to its clip space
-    int size_px = 512;                                // of the square shadow map
-    float ambient = 0.5f;                             // 0 to 1
-    float offset_factor = 0.0f, offset_units = 0.0f;  // polygon offset of the shadow map's depths
-    bool percentage_closer = true;                    // four comparisons, weighted; false: the nearest texel's
+    // World to the light's eye, and that to the light's clip space.
+    Matrix view = identity, projection = identity;
+    // The side of the square shadow map, 1 to 16384.
+    int size_px = 512;
+    // The share of its colour that a surface in shadow keeps, 0 to 1.
+    float ambient = 0.5f;
+    // Polygon offset of the shadow map's depths.
+    float offset_factor = 0.0f, offset_units = 0.0f;
+    // Four comparisons, weighted; false: one, with the nearest texel.
+    bool percentage_closer = true;
     friend bool operator==(const ShadowLight&, const ShadowLight&) = default;
 };
 
+// A whole scene. Instances are drawn in their order, and each instance's triangles in the order of its indices.
 struct DrawList {
     std::optional<ShadowLight> light{};
     std::vector<Mesh> meshes;
@@ -72,9 +86,11 @@ struct DrawList {
     std::vector<Instance> instances;  // in submission order
 };
 
+// A camera: both matrices by columns, and the path by which positions go through them (vertices.md 2).
 struct View {
-    Matrix view = identity;        // world to eye
-    Matrix projection = identity;  // eye to clip
+    // World to eye, and eye to clip.
+    Matrix view = identity;
+    Matrix projection = identity;
     VertexPath vertex_path = VertexPath::separate;
 };
 

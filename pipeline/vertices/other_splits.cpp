@@ -34,6 +34,7 @@ using Quad = std::array<std::uint32_t, 4>;
     double longest = 0.0;  // squared
     for (std::size_t i = 0; i < 4; ++i)
         longest = std::max(longest, dot_product(side(i, (i + 1) % 4), side(i, (i + 1) % 4)));
+    // The distance of d from the plane times |normal|: squares are compared, so no root is taken.
     const double off = dot_product(normal, side(0, 3));  // times |normal|
     if (off * off > 0x1p-40 * longest * dot_product(normal, normal)) return false;
     for (std::size_t i = 0; i < 4; ++i)

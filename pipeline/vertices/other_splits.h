@@ -15,12 +15,14 @@
 
 namespace strata::pipeline {
 
+// k may be any integer: it counts modulo 3.
 [[nodiscard]] DrawList rotate_vertices(DrawList list, int k);
 
 struct Flipped {
     DrawList list;
     std::uint64_t quads = 0;  // whose diagonal changed
 };
+// A triangle belongs to one quad at most: the second of a pair is not looked at again.
 [[nodiscard]] Flipped flip_diagonals(DrawList list);
 
 // The viewport must stay within 0 .. 32768, every position within +-65536 pixels.

@@ -19,6 +19,7 @@ namespace strata::pipeline {
 
 namespace {
 
+// Of the upper 3 x 3. Its sign says whether an instance is mirrored, which turns facing (vertices.md 6).
 double linear_determinant(const Matrix& m) {
     const auto a = [&](std::size_t row, std::size_t column) { return m[column][row]; };
     return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) - a(0, 1) * (a(1, 0) * a(2, 2) - a(1, 2) * a(2, 0)) +
@@ -30,6 +31,7 @@ bool is_selected(const Material& material, Selection selection) {
     return (material.alpha_mode == AlphaMode::blend) == (selection == Selection::transparent);
 }
 
+// Appends an instance to the soup. Vertices and indices go in chunks of fixed size, each written by one thread.
 void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
             rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
@@ -85,6 +87,8 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
     return extras;
 }
 
+// Depths between which all fragments of a part lie (vertices.md 6).
+// With depth clamp a fragment may have any depth of the range.
 DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& primitives) {
     DrawPart part{primitives, 1, 0};
     if (geometry.state.depth_clamp) return {primitives, 0, 1};
@@ -100,12 +104,14 @@ DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& pri
         const auto z = geometry.depths(i);
         const auto [least, most] = std::minmax({z[0] / units, z[1] / units, z[2] / units});
         const double bound = depth_bound(geometry, std::span{geometry.all_triangles}.subspan(i, 1));
-        part.near = std::min(part.near, least - (bound - most));  // a fragment strays as far on either side
+        // A fragment may stray from its corners as far on the near side as the bound allows on the far side.
+        part.near = std::min(part.near, least - (bound - most));
         part.far = std::max(part.far, bound);
     }
     return part;
 }
 
+// MASK scales its alpha after the test, so that --alpha cannot change what is cut out.
 MaterialStage material_stage(const DrawList& list, const Material& material, float alpha_scale) {
     MaterialStage stage;
     if (material.texture >= 0) stage.texture = &list.textures[static_cast<std::size_t>(material.texture)];
@@ -131,7 +137,8 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
                      const DeviceProfile& profile, const PrepareOptions& options) {
     const FloatEnvironment ours;
     check(profile);
-    check(state);  // before the transform, whose quotient rows look at it
+    // Before the transform, whose quotient rows read the state.
+    check(state);
     rasterizer::TriangleSoup soup = transform(list, view, options);
     SubmissionOrder order;
     if (options.order) order = options.order(soup);
@@ -153,6 +160,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     return prepared;
 }
 
+// Stops as soon as everything that the list needs is found.
 MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles) {
     MaterialNeeds needs{.shadow = list.needs.shadow};
     for (std::size_t i = 0; i < triangles.size() && needs != list.needs; ++i) {

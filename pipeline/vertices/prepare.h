@@ -25,15 +25,20 @@ namespace strata::pipeline {
 // that is not used.
 struct MaterialStage {
     const Texture* texture = nullptr;  // into the draw list, which must outlive this
-    AlphaTest mask;                    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha
-    float alpha_scale = 1.0f;  // of what MASK keeps: after the test, so that it cuts at the material's own alpha
+    // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha.
+    AlphaTest mask;
+    // Of a MASK material: applied after the test, so that the cut is at the material's own alpha.
+    float alpha_scale = 1.0f;
 };
 
 // The values that some set of materials needs in every pass.
 struct MaterialNeeds {
-    bool texcoord = false;            // one of them has a texture
-    bool color = false;               // one of them tests its alpha, so that even a depth-only pass must shade
-    rasterizer::UnitMask shadow = 0;  // what a shadow lookup of every fragment's colour looks at
+    // One of them has a texture.
+    bool texcoord = false;
+    // One of them tests its alpha, so that a pass of depth alone must shade it.
+    bool color = false;
+    // The coordinates that a shadow lookup of every fragment's colour reads.
+    rasterizer::UnitMask shadow = 0;
     friend bool operator==(const MaterialNeeds&, const MaterialNeeds&) = default;
 };
 
@@ -44,9 +49,11 @@ struct DrawPart {
     friend bool operator==(const DrawPart&, const DrawPart&) = default;
 };
 
+// What passes draw, made once a frame. It points into the draw list, which must live as long.
 struct PreparedDraw {
     rasterizer::Geometry geometry;
-    std::vector<DrawPart> parts;  // in submission order, without gaps; empty unless the order made some
+    // In submission order, without gaps; empty unless the order made some.
+    std::vector<DrawPart> parts;
     std::vector<MaterialStage> materials;
     MaterialNeeds needs;  // of all of them
 };
@@ -55,25 +62,35 @@ struct PreparedDraw {
 // list.
 [[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
 
-enum class Selection : std::uint8_t { all, opaque, transparent };  // opaque: alphaMode OPAQUE and MASK
+// By the material: `opaque` are alphaMode OPAQUE and MASK, `transparent` is BLEND.
+enum class Selection : std::uint8_t { all, opaque, transparent };
 
 // The order in which a soup's triangles are submitted; `parts` as in PreparedDraw.
 struct SubmissionOrder {
-    std::vector<std::uint32_t> triangles;  // numbers in the soup; empty: as listed
+    // Numbers in the soup; empty: as listed.
+    std::vector<std::uint32_t> triangles;
     std::vector<PrimitiveRange> parts;
 };
 using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>;
 
+// What beside the list decides a frame's vertices. The defaults
+// draw all of it as listed, binned into tiles of 32 pixels.
 struct PrepareOptions {
     Selection selection = Selection::all;
-    float alpha_scale = 1.0f;  // --alpha: every alpha times this, at the vertex; a MASK material's after its test
-    bool depth_quotient =
-        false;           // also r and q of every vertex, for perspective_rq and depth_replace (quotient_rows.h)
-    Ordering order{};    // none: as listed
-    int tile_size = 32;  // 0: not binned yet
+    // --alpha: every alpha is multiplied by it, at the vertex; a MASK material's after its test.
+    float alpha_scale = 1.0f;
+    // Also r and q of every vertex, for perspective_rq and depth_replace (quotient_rows.h).
+    bool depth_quotient = false;
+    // None: as listed.
+    Ordering order{};
+    // 8, 16, 32, 64 or 128 pixels; 0 leaves the triangles unbinned.
+    int tile_size = 32;
+    // 0 takes all that the machine has; no result depends on it.
     int threads = 0;
-    CoordinateUnits units{};       // texture units that somebody looks at
-    bool receives_shadow = false;  // every colour is times the comparison of shadow_stage.h
+    // Texture units that a pass reads.
+    CoordinateUnits units{};
+    // Every colour is multiplied by the comparison of shadow_stage.h.
+    bool receives_shadow = false;
 };
 
 // Inverts nothing it need not: mirrored instances keep their winding and flip their facing. Throws InputError for a list, a view,

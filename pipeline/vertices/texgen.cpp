@@ -15,6 +15,7 @@ float row(const Rows& m, std::size_t r, const std::array<float, 4>& p) noexcept 
 
 // The matrix whose rows are the planes of a unit, over object coordinates.
 Matrix planes_of(const CoordinateUnit& unit, const Matrix& modelview) {
+    // Only eye planes are taken through the modelview: rows of the other kind are 0 in either matrix.
     Matrix object(0.0), eye(0.0);
     for (std::size_t r = 0; r < 4; ++r)
         for (std::size_t c = 0; c < 4; ++c)
@@ -84,6 +85,7 @@ UnitCoordinates VertexCoordinates::at(const Vec3& position, const Vec2& texcoord
         const Unit& unit = units_[u];
         if (!unit.enabled) continue;
         const std::array<float, 4> generated = unit.of_position(position);
+        // One product of matrices has taken the texture matrix in already.
         if (unit.all_generated) {
             all[u] = generated;
             continue;

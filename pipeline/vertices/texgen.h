@@ -21,6 +21,7 @@ namespace strata::pipeline {
 inline constexpr std::size_t shadow_unit = 3;
 inline constexpr rasterizer::UnitMask shadow_coordinates = 0xf << (4 * shadow_unit);
 
+// Whether and in which space a coordinate is generated: GL's OBJECT_LINEAR and EYE_LINEAR.
 enum class TexGenMode : std::uint8_t { off, object_linear, eye_linear };
 
 using Plane4 = Vec4d;
@@ -29,13 +30,15 @@ inline constexpr std::array<Plane4, 4> identity_planes{Plane4{1, 0, 0, 0}, Plane
 
 struct TexGen {
     TexGenMode mode = TexGenMode::off;
-    Plane4 plane{};  // an eye plane as `eye_plane` leaves it
+    // An eye plane as `eye_plane` leaves it, an object plane as it is.
+    Plane4 plane{};
     friend bool operator==(const TexGen&, const TexGen&) = default;
 };
 
 // What a unit does to its coordinates s, t, r, q.
 struct CoordinateUnit {
-    bool enabled = false;  // somebody looks at this unit
+    // Somebody looks at this unit; of the others nothing is computed.
+    bool enabled = false;
     std::array<TexGen, 4> gen{};
     Matrix matrix = identity;
     // Factors of s, t and r behind the texture matrix: 2^n - 1 where a quotient by q, or by another unit, is to be in the
@@ -70,8 +73,10 @@ class VertexCoordinates {
     struct Unit {
         bool enabled = false, all_generated = false;
         std::array<bool, 4> generated{};
-        VertexTransform of_position;             // all generated: matrix . planes . modelview; else planes . modelview
-        std::array<float, 16> of_coordinates{};  // the texture matrix, where some coordinate is given
+        // matrix . planes . modelview where all four are generated, else planes . modelview.
+        VertexTransform of_position;
+        // The texture matrix for a unit with some coordinate that is given.
+        std::array<float, 16> of_coordinates{};
     };
     std::vector<Unit> units_;
 };

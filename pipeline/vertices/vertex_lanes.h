@@ -9,6 +9,7 @@ namespace strata::pipeline {
 
 inline constexpr std::size_t vertex_lane_count = 16;
 
+// Sixteen vertices side by side, a component an array.
 struct VertexLanes {
     alignas(64) std::array<std::array<float, vertex_lane_count>, 4> position;  // x, y, z, w in clip space
     alignas(64) std::array<float, vertex_lane_count> light;                    // the factor

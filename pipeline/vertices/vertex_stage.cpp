@@ -67,6 +67,8 @@ rasterizer::ClipVertex VertexStage::vertex(std::size_t i, const std::array<float
 }
 
 void VertexStage::run(std::size_t begin, std::span<rasterizer::ClipVertex> out) const {
+    // The kernels know VertexPath::separate alone; every other
+    // path, and the remainder of a block, goes vertex by vertex.
     const VertexKernels* const kernels = clip_.separate_matrix() != nullptr ? vertex_kernels() : nullptr;
     std::size_t done = 0;
     for (; kernels != nullptr && done + vertex_lane_count <= out.size(); done += vertex_lane_count) {

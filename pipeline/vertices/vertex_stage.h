@@ -15,6 +15,7 @@
 
 namespace strata::pipeline {
 
+// One mesh with one material under one view. It keeps references: mesh and material must outlive it.
 class VertexStage {
   public:
     VertexStage(const Mesh& mesh, const Material& material, const View& view, const Matrix& model, float alpha_scale);
@@ -23,6 +24,7 @@ class VertexStage {
     void run(std::size_t begin, std::span<rasterizer::ClipVertex> out) const;
 
   private:
+    // 0.25 to 1 (but for roundings): the factor of a vertex's colours by its normal in object space.
     [[nodiscard]] float light_of(const Vec3& normal) const;
     [[nodiscard]] rasterizer::ClipVertex vertex(std::size_t i, const std::array<float, 4>& position, float light) const;
 

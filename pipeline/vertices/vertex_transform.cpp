@@ -13,12 +13,15 @@ using Row = std::array<float, 4>;
     return {m[r], m[4 + r], m[8 + r], m[12 + r]};
 }
 
+// The last addend is m3 * 1: a plain sum.
 [[nodiscard]] float fused(const Row& m, const Vec3& p) {
     const float first = m[0] * p[0];
     const float two = rasterizer::fused_multiply_add(m[1], p[1], first);
     return rasterizer::fused_multiply_add(m[2], p[2], two) + m[3];
 }
 
+// The two sums of pairs do not wait for each other: this is
+// what a compiler that may reassociate makes of four products.
 [[nodiscard]] float in_pairs(const Row& m, const Row& p) {
     return (m[0] * p[0] + m[1] * p[1]) + (m[2] * p[2] + m[3] * p[3]);
 }
@@ -29,6 +32,7 @@ using Row = std::array<float, 4>;
 [[nodiscard]] float cut_sum(float a, float b) {
     const rasterizer::TwoTerms s = rasterizer::two_sum(double{a}, double{b});
     const float f = rasterizer::cut_to_binary32(s.high);
+    // binary64 may have rounded the sum away from zero, onto a float: the cut is the next float toward zero then.
     const bool is_beyond = double{f} == s.high && s.low != 0.0 && (s.low > 0.0) != (s.high > 0.0);
     return is_beyond ? std::bit_cast<float>(std::bit_cast<std::uint32_t>(f) - 1) : f;
 }

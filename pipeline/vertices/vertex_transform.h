@@ -17,6 +17,7 @@
 
 namespace strata::pipeline {
 
+// A matrix that is applied to many positions, rounded to binary32 when it is made (but for `double`).
 class VertexTransform {
   public:
     // `whole` is outer * inner, in whichever order of products its caller has settled.
@@ -42,6 +43,7 @@ class VertexTransform {
     Matrix exact_;
 };
 
+// Each entry rounded once; by columns, m[4 c + r].
 [[nodiscard]] std::array<float, 16> to_binary32(const Matrix& m);
 
 }  // namespace strata::pipeline

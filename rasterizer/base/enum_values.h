@@ -29,6 +29,8 @@ template <auto value>
     return text.front() == '(' ? std::string_view{} : text.substr(text.rfind(':') + 1);
 }
 
+// How many values an enum has: the first number from 0 on for which the compiler knows no name. A gap in the numbers
+// would end the list there, so no enum of this house has one.
 template <class Enum, std::size_t number = 0>
 [[nodiscard]] consteval std::size_t count() {
     if constexpr (identifier<static_cast<Enum>(number)>().empty())
@@ -48,6 +50,7 @@ template <class Enum, std::size_t... number>
 
 }  // namespace enum_values_detail
 
+// Every value of an enum in the order of its numbers, as a std::array<Enum, n>.
 template <class Enum>
 inline constexpr auto enum_values =
     enum_values_detail::values<Enum>(std::make_index_sequence<enum_values_detail::count<Enum>()>{});
@@ -63,6 +66,7 @@ template <class Enum>
     return static_cast<std::size_t>(value) < enum_values<Enum>.size();
 }
 
+// The value with that identifier, letter for letter; empty if the enum has none.
 template <class Enum>
 [[nodiscard]] constexpr std::optional<Enum> enum_named(std::string_view name) noexcept {
     for (std::size_t i = 0; i < enum_names<Enum>.size(); ++i)

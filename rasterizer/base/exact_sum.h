@@ -23,8 +23,13 @@ inline namespace strict {
     return {static_cast<double>(value - low), static_cast<double>(low)};
 }
 
+// A sum that keeps every bit. Terms rise in magnitude and do not overlap, so the
+// last one decides the sign. 40 places are more than enough: three products of an
+// integer and two binary64 numbers, and one product more, need 32 (numbers.md 3.3).
 class ExactSum {
   public:
+    // Carries x through the terms from the smallest to the largest. What a step rounds off stays behind as a term; a
+    // term of value 0 is dropped, because `sign` looks at the last term alone.
     constexpr void add(double x) noexcept {
         int kept = 0;
         for (int i = 0; i < count_; ++i) {
@@ -44,6 +49,7 @@ class ExactSum {
         add(p.low);
         add(p.high);
     }
+    // Adds n a b. The product a b is a pair and n is a pair, so four exact products make up the whole.
     constexpr void add_product(std::int64_t n, double a, double b) noexcept {
         const TwoTerms p = two_product(a, b), m = as_terms(n);
         add_product(m.low, p.low);
@@ -51,6 +57,7 @@ class ExactSum {
         add_product(m.low, p.high);
         add_product(m.high, p.high);
     }
+    // -1, 0 or 1: the exact sign of the sum.
     [[nodiscard]] constexpr int sign() const noexcept {
         if (count_ == 0) return 0;
         return term_[count_ - 1] > 0.0 ? 1 : -1;

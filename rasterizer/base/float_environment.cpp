@@ -26,6 +26,8 @@ FloatEnvironment::~FloatEnvironment() { asm volatile("msr fpcr, %0" : : "r"(save
 
 #else
 
+// On other processors the C library can set the rounding alone:
+// if the host flushes denormals there, they stay flushed.
 FloatEnvironment::FloatEnvironment() noexcept : saved_{static_cast<std::uint64_t>(std::fegetround())} {
     std::fesetround(FE_TONEAREST);
 }

@@ -9,6 +9,8 @@
 
 namespace strata {
 
+// Sets our environment for the calling thread alone and restores the saved one at the end of the scope. A worker
+// thread needs one of its own (parallel.h).
 class FloatEnvironment {
   public:
     FloatEnvironment() noexcept;
@@ -17,6 +19,7 @@ class FloatEnvironment {
     FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
   private:
+    // The caller's MXCSR on x86, FPCR on AArch64, rounding mode elsewhere.
     std::uint64_t saved_;
 };
 

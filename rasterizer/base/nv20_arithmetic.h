@@ -33,15 +33,19 @@ namespace nv20 {
     return (std::bit_cast<std::uint32_t>(v) & 0x7f800000u) != 0x7f800000u;
 }
 
+// +0 for zeros and denormals of either sign: their exponent field is 0.
 [[nodiscard]] constexpr float flushed(float v) noexcept {
     return (std::bit_cast<std::uint32_t>(v) & 0x7f800000u) == 0 ? 0.0f : v;
 }
 
+// a b; +0 if a factor is zero or denormal, even beside an infinity or a NaN (numbers.md 4.2).
 [[nodiscard]] constexpr float multiply(float a, float b) noexcept {
     if (flushed(a) == 0.0f || flushed(b) == 0.0f) return 0.0f;
     return is_finite(a) && is_finite(b) ? flushed(cut_to_binary32(double{a} * double{b})) : a * b;
 }
 
+// Two to four addends in one aligned add, as a dot product has them
+// (numbers.md 4.3). If one is not finite, the plain IEEE sum from the left.
 template <std::size_t n>
 [[nodiscard]] constexpr float sum(const std::array<float, n>& addends) noexcept {
     static_assert(n >= 2 && n <= 4);
@@ -54,7 +58,8 @@ template <std::size_t n>
         }
         largest = std::max(largest, static_cast<int>(std::bit_cast<std::uint32_t>(v) >> 23 & 0xff));
     }
-    std::int64_t total = 0;  // in units of 2^(largest - 127 - 28)
+    // The cut addends in units of 2^(largest - 127 - 28). Each is below 2^29, so four of them stay below 2^31.
+    std::int64_t total = 0;
     for (const float v : addends) {
         const auto bits = std::bit_cast<std::uint32_t>(v);
         const auto exponent = static_cast<int>(bits >> 23 & 0xff);
@@ -68,12 +73,15 @@ template <std::size_t n>
     return flushed(cut_to_binary32(static_cast<double>(total) * unit));
 }
 
+// 1 / d (numbers.md 4.4). A zero or denormal d gives an infinity of its sign, an infinity gives +0, NaN stays, and a
+// result that would be denormal is +0.
 [[nodiscard]] constexpr float reciprocal(float d) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(d);
     const std::uint32_t fraction = bits & 0x7fffffu, field = bits >> 23 & 0xff, sign = bits & 0x80000000u;
     if (field == 0) return std::bit_cast<float>(sign | 0x7f800000u);
     if (!is_finite(d)) return fraction != 0 ? d : 0.0f;
     std::uint64_t mantissa = 0;
+    // A power of two only turns its exponent about the bias, 254 = 2 * 127; every other mantissa takes one more off.
     auto exponent = static_cast<int>(254 - field);
     if (fraction != 0) {
         const std::uint64_t m = fraction | 0x800000u, odd = 129 + 2 * (fraction >> 17);

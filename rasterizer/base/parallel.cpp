@@ -20,6 +20,7 @@ int thread_count(int threads) noexcept {
     return threads > 0 ? threads : tbb::info::default_concurrency();
 #else
     static_cast<void>(threads);
+    // The core-only build has the plain loop alone.
     return 1;
 #endif
 }
@@ -45,7 +46,9 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     };
 #ifdef STRATA_HAS_TBB
     if (threads != 1 && count > 1) {
-        std::optional<tbb::global_control> allowed;  // more threads than processors, without a word on standard error
+        // oneTBB limits itself to the number of processors, and warns on standard error where more threads are asked
+        // for; this raises the limit for the call.
+        std::optional<tbb::global_control> allowed;
         if (threads > tbb::info::default_concurrency())
             allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
         arena_of(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, call); });

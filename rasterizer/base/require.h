@@ -39,11 +39,13 @@ class Requirements {
   public:
     explicit Requirements(const char* thing) : thing_{thing} {}
 
+    // Throws unless low <= value <= high.
     template <std::integral Number>
     void within(const FieldName& field, Number value, std::type_identity_t<Number> low,
                 std::type_identity_t<Number> high) const {
         if (value < low || value > high) fail(field, std::to_string(low) + " to " + std::to_string(high), value);
     }
+    // Throws unless value < limit, where the limit is the size of the list that the value indexes.
     void below(const FieldName& field, std::uint64_t value, std::uint64_t limit) const {
         if (value >= limit) fail(field, "less than " + std::to_string(limit), value);
     }
@@ -51,6 +53,7 @@ class Requirements {
     void finite(const FieldName& field, float value) const {
         if ((std::bit_cast<std::uint32_t>(value) & 0x7f800000u) == 0x7f800000u) fail(field, "a finite number", value);
     }
+    // Throws if the number is no value of its enum; the message lists the names.
     template <class Enum>
     void listed(const FieldName& field, Enum value) const {
         if (is_listed(value)) return;
@@ -58,6 +61,7 @@ class Requirements {
         for (const std::string_view name : enum_names<Enum>) names += (names.empty() ? "" : ", ") + std::string{name};
         fail(field, "one of " + names, static_cast<int>(value));
     }
+    // Throws for every other rule; `found` is the number that broke it.
     [[noreturn]] void fail(const FieldName& field, const std::string& expected, auto found) const {
         fail(field.text(), expected, found);
     }

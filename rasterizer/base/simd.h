@@ -15,6 +15,7 @@
 
 namespace strata {
 
+// By rising width. `scalar` means the twins, `best` the last one that the processor has.
 enum class Simd : std::uint8_t { scalar, sse4, avx2, avx512, best };
 
 // What this processor has of the first four, in that order; `scalar` is always there.
@@ -33,7 +34,8 @@ class SimdScope {
     Simd before_;
 };
 
-[[nodiscard]] Simd chosen_simd() noexcept;  // of this thread; never `best`: the one that it stands for
+// The set that this thread uses; never `best`, but the one that it stands for.
+[[nodiscard]] Simd chosen_simd() noexcept;
 
 // For kernels: take the scalar twin.
 [[nodiscard]] inline bool simd_is_scalar() noexcept { return chosen_simd() == Simd::scalar; }

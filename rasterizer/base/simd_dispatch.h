@@ -13,6 +13,7 @@
 
 namespace strata {
 
+// Highway's bit for a set; 0 for `scalar` and for `best`, which chosen_simd() never answers.
 [[nodiscard]] constexpr std::int64_t target_of(Simd simd) noexcept {
     switch (simd) {
         case Simd::sse4: return HWY_SSE4;
@@ -24,6 +25,8 @@ namespace strata {
     return 0;
 }
 
+// The kernel for this thread's set. Entry 0 of a table stands for a choice that Highway has not made yet: its bit is
+// masked out.
 template <class Kernel, std::size_t count>
 [[nodiscard]] Kernel kernel_of(Kernel const (&table)[count]) noexcept {
     if constexpr (count == 1) {

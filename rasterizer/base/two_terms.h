@@ -19,6 +19,7 @@ struct TwoTerms {
     return {sum, b - (sum - a)};
 }
 
+// a + b, whichever of them is larger (numbers.md 3.1).
 [[nodiscard]] constexpr TwoTerms two_sum(double a, double b) noexcept {
     const double sum = a + b;
     const double b_seen = sum - a;
@@ -33,6 +34,7 @@ struct TwoTerms {
     return {high, a - high};
 }
 
+// a b. Products of halves are exact, and they are summed in an order in which no step rounds (numbers.md 3.2).
 [[nodiscard]] constexpr TwoTerms two_product(double a, double b) noexcept {
     const double product = a * b;
     const TwoTerms x = split(a), y = split(b);

@@ -14,6 +14,8 @@ namespace strata {
 [[nodiscard]] void* take_memory(std::size_t bytes);
 void give_memory(void* memory) noexcept;
 
+// For element types whose lifetime needs no constructor and no destructor.
+// Reading an element before it is written gives whatever the memory held.
 template <class T>
 struct UninitializedAllocator {
     // Their lifetime begins with the memory's (C++20 [intro.object], implicit-lifetime types).
@@ -30,6 +32,7 @@ struct UninitializedAllocator {
     }
     void deallocate(T* memory, std::size_t) noexcept { give_memory(memory); }
 
+    // An element without arguments is left as it is: this is why resize() does not touch the memory.
     template <class U>
     void construct(U*) noexcept {}
     template <class U, class... Args>
@@ -39,6 +42,7 @@ struct UninitializedAllocator {
     friend bool operator==(const UninitializedAllocator&, const UninitializedAllocator&) = default;
 };
 
+// A vector of a given size, and resize(), leave new elements unset: their writer sets each before anybody reads it.
 template <class T>
 using UninitializedVector = std::vector<T, UninitializedAllocator<T>>;
 

@@ -27,12 +27,12 @@ class TriangleEdges {
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule) noexcept
         : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2])) {}
 
-    [[nodiscard]] constexpr std::int64_t area() const noexcept {
-        return area_;
-    }  // twice the area: the sum of the edge values
+    // Twice the area in square subpixels: the sum of the edge values at any point.
+    [[nodiscard]] constexpr std::int64_t area() const noexcept { return area_; }
     [[nodiscard]] constexpr const Edge& edge(std::size_t i) const noexcept { return edge_[i]; }
     // 0 if the edge owns its ties, else 1: the edge takes the centre if E - tie >= 0.
     [[nodiscard]] constexpr std::int64_t tie(std::size_t i) const noexcept { return tie_[i]; }
+    // Two edge functions and the rest of the area: the three sum up exactly, so the first needs no products.
     [[nodiscard]] constexpr EdgeValues at(SubpixelPoint p) const noexcept {
         const std::int64_t e1 = edge_[1].at(p), e2 = edge_[2].at(p);
         return {area_ - e1 - e2, e1, e2};
@@ -64,9 +64,10 @@ class TriangleEdges {
     return {first(left), first(top), end(right), end(bottom)};
 }
 
+// Pixels [x0, x1) of a row that are covered, and the exact edge values at x0.
 struct PixelSpan {
-    int x0, x1;    // pixels [x0, x1)
-    EdgeValues e;  // exact edge values at x0
+    int x0, x1;
+    EdgeValues e;
 };
 
 // Edge values along the rows of a box of pixels.
@@ -82,7 +83,8 @@ class RowWalker {
             crossing_[i] = {rise, -width_ * rise, inverse, edges.tie(i), step_[i] < 0};
         }
     }
-    [[nodiscard]] const EdgeValues& step() const noexcept { return step_; }  // per pixel to the right
+    // What the edge values change by for a pixel to the right.
+    [[nodiscard]] const EdgeValues& step() const noexcept { return step_; }
     void next_row() noexcept {
         for (std::size_t i = 0; i < 3; ++i) value_[i] += down_[i];
     }
@@ -101,12 +103,14 @@ class RowWalker {
     }
 
   private:
+    // Where an edge crosses a row. `beyond` is -width * rise: an edge value below it stays negative through the whole
+    // row. A falling edge is left to the right: its end is where -E - 1 reaches 0.
     struct Crossing {
-        std::int64_t rise;    // |step|
-        std::int64_t beyond;  // what a row's width cannot make up for
-        double inverse;       // 1 / rise, or 0
+        std::int64_t rise;
+        std::int64_t beyond;
+        double inverse;
         std::int64_t tie;
-        bool falls;  // the edge is left to the right: its end is where -E - 1 reaches 0
+        bool falls;
     };
 
     // The least k >= 0 with e + k rise >= 0, at most the width, without a branch. The guess is never high, and low by

@@ -38,6 +38,7 @@ class Edge {
 
     // Clockwise and y down: a side that runs right has the interior below it (top), one that runs up has it on its
     // right (left).
+    // Whether centres exactly on a side of direction (dx, dy) belong to its triangle; a side has a length.
     [[nodiscard]] static constexpr bool owns_ties(std::int64_t dx, std::int64_t dy, TieRule rule) noexcept {
         const bool left = rule == TieRule::top_left || rule == TieRule::bottom_left;
         const bool top = rule == TieRule::top_left || rule == TieRule::top_right;

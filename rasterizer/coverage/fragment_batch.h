@@ -12,6 +12,8 @@
 
 namespace strata::rasterizer {
 
+// Fragments of a batch. Kernels write whole vectors, so a batch is handed
+// on before it is quite full (usable_capacity of small_triangles.h).
 inline constexpr int batch_capacity = 256;
 
 template <class T>

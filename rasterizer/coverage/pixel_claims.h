@@ -52,6 +52,7 @@ class PixelClaims {
         const unsigned shift = from.column % 32;
         const bool crosses = shift + width > 32;
         std::uint64_t twice = 0;
+        // Bits are written even if they are held already: the batch ends then, and its bits with it.
         const auto add = [&](std::uint64_t& to, std::uint32_t bits) {
             const std::uint64_t held = to >> 32 == batch_ ? to : number;
             twice |= held & bits;
@@ -66,6 +67,7 @@ class PixelClaims {
     }
 
   private:
+    // Kernels claim small triangles in eight rows, whatever their height.
     static constexpr int spare_rows = 8;
     std::size_t words_a_row_;
     std::vector<std::uint64_t> word_;

@@ -46,6 +46,7 @@ class SmallCoverage {
           count_{within_8 ? 4u : ((g.height[k] << log_width_) + 15) / 16},
           shape_{shapes[log_width_ - 2]} {
         const Block32 d;
+        // Edge values at the 16 pixels of the first block, and what they change by from a block to the next.
         hn::Vec<Block32> edge[3][block_parts], down[3];
         for (std::size_t i = 0; i < 3; ++i) {
             const auto value = hn::Set(d, g.value[i][k]), step = hn::Set(d, g.step[i][k]);
@@ -55,10 +56,12 @@ class SmallCoverage {
                                         hn::Mul(hn::Load(d, shape_.row + part * block_part), down_step));
             down[i] = hn::Set(d, g.down[i][k] << (4 - log_width_));
         }
+        // Columns beyond the box hold values that may have wrapped: their bits are cleared.
         const std::uint32_t in_box = ((1u << g.width[k]) - 1) * shape_.first_column;
         for (std::uint32_t b = 0; b < count(); ++b) {
             std::uint32_t covered = 0;
             for (std::size_t part = 0; part < block_parts; ++part) {
+                // A pixel is covered where none of the three values has its sign bit set.
                 covered |= not_negative(hn::Or(hn::Or(edge[0][part], edge[1][part]), edge[2][part]))
                            << part * block_part;
                 for (std::size_t i = 0; i < 3; ++i) edge[i][part] = hn::Add(edge[i][part], down[i]);

@@ -101,6 +101,8 @@ inline void find_boxes(const GroupRules& rules, TriangleGroup& __restrict g) noe
         g.y0[k] = static_cast<std::uint32_t>(y0);
         g.width[k] = static_cast<std::uint32_t>(width);
         g.height[k] = static_cast<std::uint32_t>(height);
+        // `room` is negative if the box is too wide or too high, the other difference if the corners lie too far
+        // apart: a set sign bit in either says that the triangle is not small.
         const std::int32_t room = std::min(TriangleGroup::max_width - width, TriangleGroup::max_height - height);
         const std::int32_t extent = std::max(right - left, bottom - top);
         g.small[k] = ~static_cast<std::uint32_t>(room | (TriangleGroup::max_extent - extent)) >> 31;
@@ -111,6 +113,7 @@ inline void find_areas(TriangleGroup& __restrict g) noexcept {
     for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
         const std::uint32_t area =
             (g.x[1][k] - g.x[0][k]) * (g.y[2][k] - g.y[0][k]) - (g.y[1][k] - g.y[0][k]) * (g.x[2][k] - g.x[0][k]);
+        // All ones for a negative area; (v ^ turned) - turned then negates v.
         g.turned[k] = 0 - (area >> 31);
         g.area[k] = (area ^ g.turned[k]) - g.turned[k];
     }
@@ -128,7 +131,8 @@ inline void find_edge(const GroupRules& rules, std::size_t i, TriangleGroup& __r
         const std::uint32_t dx = ((g.x[to][k] - g.x[from][k]) ^ turned) - turned;
         const std::uint32_t dy = ((g.y[to][k] - g.y[from][k]) ^ turned) - turned;
         const std::uint32_t by_dy = (dy ^ against_dy) - against_dy, by_dx = (dx ^ against_dx) - against_dx;
-        const std::uint32_t owner = dy != 0 ? by_dy : by_dx;  // owns its ties if positive; dx and dy are not both 0
+        // The edge owns its ties if this is positive; dx and dy are not both 0.
+        const std::uint32_t owner = dy != 0 ? by_dy : by_dx;
         const std::uint32_t tie = owner >> 31;
         g.tie[i][k] = tie;
         g.value[i][k] =
@@ -147,6 +151,7 @@ inline void set_up_group(const GroupRules& rules, TriangleGroup& group) noexcept
     for (std::size_t i = 0; i < 3; ++i) find_edge(rules, i, group);
 }
 
+// The meaning of SmallKernels::emit: coverage first, because the batch takes all of the triangle or nothing.
 inline bool emit_small(const TriangleGroup& g, std::size_t k, const RegionOrigin& origin, PixelClaims& claims,
                        FragmentBatch& batch) noexcept {
     std::array<std::uint32_t, TriangleGroup::max_height> covered{};

@@ -24,6 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 }
 
 // The numbers of the bits that are set in every byte, in ascending order.
+// A table instead of a loop over bits: the covered columns of eight neighbours are one load.
 struct BitNumbers {
     std::uint8_t at[256][8];
 };
@@ -70,6 +71,7 @@ HWY_INLINE void append(const SmallCoverage<within_8>& coverage, const TriangleGr
     batch.count = static_cast<int>(end);
 }
 
+// A box of at most 8 by 8 pixels claims eight rows, a number that the compiler knows; rows below the box have no bits.
 template <bool within_8>
 HWY_INLINE bool emit_covered(const TriangleGroup& g, std::size_t k, const RegionOrigin& origin, PixelClaims& claims,
                              FragmentBatch& batch) {

@@ -10,9 +10,13 @@ namespace strata::rasterizer {
 
 // A vertex in the window, shared by all triangles that it is a corner of.
 struct WindowCorner {
-    SubpixelPoint p;                   // snapped position, y down
-    std::array<float, 2> unsnapped{};  // position before snapping, for PlaneOrigin::unsnapped
-    float z = 0, inverse_w = 1;        // window z (rules.window_z units) before polygon offset; binary32 1 / w
+    // Snapped, y down: coverage, area and facing start from it,
+    // and planes unless PlaneOrigin::unsnapped says otherwise.
+    SubpixelPoint p;
+    // The position before snapping, in pixels.
+    std::array<float, 2> unsnapped{};
+    // Window z before polygon offset, in units of rules.window_z; binary32 1 / w.
+    float z = 0, inverse_w = 1;
 };
 
 // Pixels [x0, x1) x [y0, y1), counted from the viewport's corner.

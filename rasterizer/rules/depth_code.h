@@ -19,6 +19,8 @@ namespace strata::rasterizer {
 
 // d16f: 4 bits of exponent, 12 of mantissa, no sign; values below its smallest normal one are 0.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f };
+// How a value becomes a fixed-point code: cut, or to nearest
+// with a half going up. The float formats do not look at it.
 enum class DepthRounding : std::uint8_t { floor, nearest };
 
 // The ways in which formats make a code of a value.
@@ -46,6 +48,7 @@ inline namespace strict {
     return 0;  // unreachable: the enum is closed
 }
 
+// (2 - 2^-12) 2^8: the value of code 0xffff.
 inline constexpr float max_d16f = 511.9375f;
 
 [[nodiscard]] constexpr CodeKind code_kind(DepthFormat format) noexcept {
@@ -73,11 +76,14 @@ inline constexpr float max_d16f = 511.9375f;
     if (!(value > 0.0)) return 0;
     if (value >= max_d16f) return 0xffffu;
     constexpr std::uint64_t least = std::bit_cast<std::uint64_t>(0x1p-7);
+    // A code below has the exponent field 0, and the chip stores 0 in its place (depth.md 2.3).
     constexpr std::uint32_t least_normal = 0x1000;
     const auto bits = std::bit_cast<std::uint64_t>(value);
+    // Of binary64's 52 bits of mantissa 12 stay; the cut is the only rounding.
     const auto code = static_cast<std::uint32_t>(bits < least ? 0 : (bits - least) >> 40);
     return code < least_normal ? 0 : code;
 }
+// The value of a code, exact (depth.md 1.2).
 [[nodiscard]] constexpr float d16f_value(std::uint32_t code) noexcept {
     return code == 0 ? 0.0f : std::bit_cast<float>((code << 11) + 0x3c000000u);
 }
@@ -124,6 +130,7 @@ template <class Limit>
             rounds ? 0.5 : 0.0};
 }
 
+// The code of one depth, clamped to [0,1] (depth.md 2.1 to 2.3).
 [[nodiscard]] constexpr std::uint32_t to_depth_code(float z, DepthFormat format, DepthRounding rounding) noexcept {
     return depth_code(z, depth_conversion(format, rounding, 1.0f));
 }

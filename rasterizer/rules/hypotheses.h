@@ -12,6 +12,7 @@
 
 namespace strata::rasterizer {
 
+// Which of a fragment's values a constant can change at all.
 enum class Subject : std::uint8_t {
     window_depth,   // depths that are written
     texture_depth,  // depths made of r and q: replaced, or compared with a texel
@@ -25,7 +26,8 @@ struct NamedHypothesis {
     Subject subject{};
 };
 
-[[nodiscard]] std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules);  // depth_rounding among them
+// The alternatives of depth_hypothesis.h, and of depth_rounding.
+[[nodiscard]] std::vector<NamedHypothesis> depth_hypotheses(const RasterRules& rules);
 [[nodiscard]] std::vector<NamedHypothesis> interpolation_hypotheses(const RasterRules& rules);
 
 }  // namespace strata::rasterizer

@@ -23,17 +23,17 @@ struct Rect {
     return {a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1, a.y1 < b.y1 ? a.y1 : b.y1};
 }
 
-enum class ClipDepth : std::uint8_t {
-    minus_one_to_one,
-    zero_to_one
-};  // -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D)
+// The view volume in z: -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D).
+enum class ClipDepth : std::uint8_t { minus_one_to_one, zero_to_one };
 // Where clip-space +y points on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the
 // window.
 enum class YDirection : std::uint8_t { up, down };
 enum class CullFace : std::uint8_t { none, front, back, front_and_back };
-enum class FrontFace : std::uint8_t { counter_clockwise, clockwise };  // as seen in the window with y up, GL 2.1 2.14.1
+// The winding of front faces as seen in the window with y up (GL 2.1 2.14.1).
+enum class FrontFace : std::uint8_t { counter_clockwise, clockwise };
 
-struct PolygonOffset {  // glPolygonOffset; GL 2.1 3.5.5: o = m * factor + r * units
+// glPolygonOffset: o = m * factor + r * units (GL 2.1 3.5.5; coverage.md 9).
+struct PolygonOffset {
     bool enabled = false;
     float factor = 0.0f, units = 0.0f;
     friend bool operator==(const PolygonOffset&, const PolygonOffset&) = default;
@@ -46,21 +46,27 @@ struct ClipPlane {
 };
 
 struct RasterState {
-    Rect viewport;                              // also the surface: fragments outside it do not exist
-    float depth_near = 0.0f, depth_far = 1.0f;  // glDepthRange; near > far is a reversed range
+    // Where the view volume is mapped to, and the surface itself: fragments outside do not exist.
+    Rect viewport;
+    // glDepthRange, clamped to [0,1] where it is used; near > far is a reversed range.
+    float depth_near = 0.0f, depth_far = 1.0f;
     ClipDepth clip_depth = ClipDepth::minus_one_to_one;
     YDirection y_direction = YDirection::up;
     std::optional<Rect> scissor;
-    bool depth_clamp = false;        // ARB_depth_clamp: no clipping at near and far, depth clamped just before the test
-    CullFace cull = CullFace::back;  // for single-sided items; double-sided items are never culled
+    // ARB_depth_clamp: nothing is clipped at near and far; depth is clamped just before the test.
+    bool depth_clamp = false;
+    // For single-sided runs: a double-sided one is never culled.
+    CullFace cull = CullFace::back;
     FrontFace front_face = FrontFace::counter_clockwise;
     PolygonOffset polygon_offset;
     std::array<ClipPlane, 6> clip_planes{};
+    // The first so many planes count, 0 to 6.
     int clip_plane_count = 0;
     // Vertices carry window x, y (pixels) and z (rules.window_z units) beside their w, as a vertex program of NV2A leaves
     // them: no clip volume, no division, no viewport.
     bool window_positions = false;
-    DepthFormat depth_format = DepthFormat::d32f;  // vertex z in buffer units and the offset unit depend on it
+    // Vertex z in buffer units and the unit of polygon offset depend on it.
+    DepthFormat depth_format = DepthFormat::d32f;
     friend bool operator==(const RasterState&, const RasterState&) = default;
 };
 

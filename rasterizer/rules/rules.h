@@ -10,27 +10,25 @@
 
 namespace strata::rasterizer {
 
-enum class Snap : std::uint8_t { toward_zero, nearest_even };  // window x, y to 1/2^n pixel
+// How window x and y become multiples of 1/2^n pixel (coverage.md 4.1).
+enum class Snap : std::uint8_t { toward_zero, nearest_even };
 
 // Which sides of a triangle own a centre that lies exactly on them, in y-down memory order (edge.h).
 enum class TieRule : std::uint8_t { top_left, bottom_left, top_right, bottom_right };
 
-enum class ZClip : std::uint8_t {
-    per_primitive,
-    per_fragment
-};                                               // polygons are cut, or fragments outside n..f are dropped
-enum class WClip : std::uint8_t { clip, drop };  // a vertex with w <= 0: cut the polygon at w > 0, or drop it whole
+// Near and far cut the polygon, or they drop the fragments outside n..f (depth.md 5.2).
+enum class ZClip : std::uint8_t { per_primitive, per_fragment };
+// A triangle with a corner at w <= 0 is cut at w > 0, or dropped whole (coverage.md 2.1).
+enum class WClip : std::uint8_t { clip, drop };
 // x / w, or x * (1 / w), or that with NV20's vertex arithmetic (nv20_arithmetic.h).
 enum class WDivide : std::uint8_t { quotient, reciprocal, nv20 };
-enum class ViewportArithmetic : std::uint8_t { separate, fused };  // scale, then offset: two roundings or one
-enum class PlaneOrigin : std::uint8_t {
-    snapped,
-    unsnapped
-};  // attribute planes start at snapped or unsnapped positions
-enum class WindowZ : std::uint8_t {
-    unit_interval,
-    buffer_units
-};  // vertex window z in [0,1], or scaled by 2^n - 1 at the vertex
+// Scale, then offset: two roundings, or one of both together (coverage.md 3.3).
+enum class ViewportArithmetic : std::uint8_t { separate, fused };
+// Planes of depth and attributes go through the snapped corners, or through the binary32 positions (depth.md 3.7).
+enum class PlaneOrigin : std::uint8_t { snapped, unsnapped };
+// The units of vertex z: depth 1 is 1, or the depth buffer's greatest value (coverage.md 3.4).
+enum class WindowZ : std::uint8_t { unit_interval, buffer_units };
+// Vertex colours by the exact perspective plane, or by the chip's 8-bit weights (attributes.md 2.1).
 enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
 // Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), or 2^(e - 23)
 // always.
@@ -39,11 +37,14 @@ enum class OffsetUnit : std::uint8_t { format, float_exponent };
 // How a fragment's depth is computed (depth.md 4): depth_paths.h, window_z.h, plane.h.
 enum class DepthPath : std::uint8_t { window_z, perspective_rq, depth_replace, float32, float32_plane, exact };
 
+// The defaults are those of geforce8 (pipeline/reference/devices.md 2); a profile names what differs.
 struct RasterRules {
-    int subpixel_bits = 8;  // 4, 8 or 12
+    // n of the 1/2^n pixel: 4, 8 or 12.
+    int subpixel_bits = 8;
     Snap snap = Snap::nearest_even;
     TieRule tie_rule = TieRule::top_left;
-    int guard_band_px = 32768;  // positions outside +-guard_band_px are clipped in x and y; at most 32768
+    // x and y beyond +- this many pixels are clipped; 1 to 32768, the range for which edge functions are exact.
+    int guard_band_px = 32768;
     ZClip z_clip = ZClip::per_primitive;
     WClip w_clip = WClip::clip;
     WDivide w_divide = WDivide::quotient;

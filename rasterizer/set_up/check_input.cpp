@@ -35,6 +35,7 @@ void check_numbers(const Requirements& soup, const char* list, std::span<const s
     soup.below({list, static_cast<std::size_t>(wrong - numbers.begin())}, *wrong, limit);
 }
 
+// r and q take two places of a vertex and the texture units sixteen; there may be other values between them.
 void check_extras(const Requirements& soup, const VertexExtras& extras, std::size_t vertices) {
     const std::size_t needed = (extras.has_rq ? 2 : 0) + (extras.has_units ? 4 * texture_units : 0);
     soup.within("extras.stride", extras.stride, needed, max_extras);

@@ -11,6 +11,7 @@ namespace strata::rasterizer {
 
 inline constexpr int greatest_coordinate_px = 32768;
 
+// Ranges, enums and finite floats of every field that set-up reads.
 void check(const RasterState& state);
 // One pass over the indices and the order.
 void check(const TriangleSoup& soup);

@@ -43,6 +43,7 @@ Clipper::Clipper(const RasterState& state, const RasterRules& rules)
     }
 }
 
+// From the left in binary64, each step rounded (coverage.md 2.3): a vertex has one distance, whichever triangle asks.
 double Clipper::distance(const Plane& plane, const ClipVertex& v) noexcept {
     double d = plane.x * v.x;
     d = d + plane.y * v.y;
@@ -57,6 +58,8 @@ std::uint32_t Clipper::outside_planes(const ClipVertex& v) const noexcept {
     return mask;
 }
 
+// Always from the inside end to the outside end, so that both
+// triangles of a shared side get the same bits (coverage.md 2.4).
 ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_in, const ClipVertex& out,
                              double d_out) noexcept {
     const double t = d_in / (d_in - d_out);
@@ -78,6 +81,8 @@ ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_
     return v;
 }
 
+// One step of Sutherland and Hodgman. A corner on the plane is
+// kept and makes no second corner there (coverage.md 2.5).
 void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;

@@ -15,9 +15,12 @@
 
 namespace strata::rasterizer {
 
+// w; near and far; four of the guard band; six of the user.
 inline constexpr int max_clip_planes = 1 + 2 + 4 + 6;
+// [A] It keeps 1 / w and u / w finite (coverage.md 2.2).
 inline constexpr float least_w = 0x1p-64f;
 
+// A convex polygon in walking order. Each plane adds at most one corner to the three of the triangle.
 struct ClipPolygon {
     std::array<ClipVertex, 3 + max_clip_planes> corner;
     int count = 0;
@@ -25,6 +28,7 @@ struct ClipPolygon {
     std::array<std::array<float, max_extras>, 3 + max_clip_planes> extra{};  // the first extra_count of each corner
 };
 
+// The planes of one draw. Most vertices lie in the view volume and never meet a plane's equation.
 class Clipper {
   public:
     Clipper(const RasterState& state, const RasterRules& rules);
@@ -40,6 +44,7 @@ class Clipper {
 
   private:
     enum class Kind : std::uint8_t { w, z_is_minus_w, z_is_zero, z_is_w, other };  // what holds exactly on the plane
+    // Inside is where x X + y Y + z Z + w W + constant >= 0.
     struct Plane {
         double x, y, z, w, constant;
         Kind kind;

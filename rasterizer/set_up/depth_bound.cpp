@@ -30,7 +30,8 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
     double greatest = -std::numeric_limits<double>::infinity(), size = 0.0;
     const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
     const double beyond = geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
-    constexpr std::size_t ahead = 16;  // what is on its way meanwhile: a list names triangles here and there
+    // Memory is asked for this many triangles ahead, because a list names triangles here and there.
+    constexpr std::size_t ahead = 16;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const std::uint32_t i = triangles[k];
         if (k + 2 * ahead < triangles.size()) {

@@ -12,7 +12,8 @@
 namespace strata::rasterizer {
 namespace {
 
-constexpr std::size_t chunk_size = 1024;  // of vertices and of triangles
+// Vertices or triangles of a chunk. It is fixed, so no result depends on the number of threads (numbers.md 2.2).
+constexpr std::size_t chunk_size = 1024;
 
 // Calls body(chunk number, begin, end) for all of [0, count).
 template <class Body>
@@ -80,6 +81,7 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
     parallel_for(chunks.size(), threads, [&](std::size_t c) {
         const SetupChunk chunk = std::move(chunks[c]);
         const auto at = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
+        // A chunk numbers its new vertices from `given` on; they move behind those of the chunks before it.
         const auto moved = static_cast<std::uint32_t>(start[c].vertex - given);
         const auto triangles = at(geometry.triangles, start[c].triangle);
         std::ranges::copy(chunk.triangles, triangles);

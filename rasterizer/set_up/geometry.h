@@ -16,6 +16,7 @@ namespace strata::rasterizer {
 inline constexpr int color_channels = 4, texcoord_channels = 2;
 inline constexpr int attribute_count = color_channels + texcoord_channels;  // r g b a s t
 
+// A vertex as the vertex stage leaves it: clip space, or window x, y, z and w under RasterState::window_positions.
 struct ClipVertex {
     float x = 0, y = 0, z = 0, w = 1;
     std::array<float, 4> front{1, 1, 1, 1};  // colour of front-facing triangles
@@ -46,6 +47,7 @@ struct TriangleRun {
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
 };
 
+// What one draw hands in. Runs cover triples of `indices`; triangles are numbered through the runs, in their order.
 struct TriangleSoup {
     UninitializedVector<ClipVertex> vertices;
     UninitializedVector<std::uint32_t> indices;
@@ -77,6 +79,8 @@ struct SetupTriangle {
 };
 
 // Exact counts of the triangles that were dropped, by reason; `first_non_finite` is a source triangle.
+// A source triangle is in triangles_in and in at most one of culled, outside, degenerate and non_finite; `clipped`
+// counts those that were cut and not found outside (coverage.md 7.1).
 struct SetupCounters {
     std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, non_finite = 0;
     std::uint32_t first_non_finite = 0;
@@ -98,12 +102,14 @@ struct Geometry {
     UninitializedVector<std::uint32_t> bin_triangles;  // indices into triangles, ascending within a bin
     UninitializedVector<std::uint32_t> all_triangles;  // 0, 1, 2 ...: the list of a region that is the whole frame
 
+    // The triangles that may touch a tile, ascending; `tile` counts row by row.
     [[nodiscard]] std::span<const std::uint32_t> bin(std::size_t tile) const {
         return std::span{bin_triangles}.subspan(bin_start[tile], bin_start[tile + 1] - bin_start[tile]);
     }
     [[nodiscard]] std::array<SubpixelPoint, 3> points(const TriangleRecord& t) const noexcept {
         return {corners[t.vertex[0]].p, corners[t.vertex[1]].p, corners[t.vertex[2]].p};
     }
+    // Vertex z of the corners with polygon offset, in units of rules.window_z.
     [[nodiscard]] std::array<double, 3> depths(std::size_t i) const noexcept {
         if (!offset_z.empty()) return offset_z[i];
         const auto& [a, b, c] = triangles[i].vertex;

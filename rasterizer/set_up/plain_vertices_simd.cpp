@@ -17,6 +17,8 @@ using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 constexpr std::size_t lanes = hn::MaxLanes(F{});
 
+// A vertex is 14 floats: x y z w, then what is interpolated.
+// component_of[i] is the distance in floats from vertex 0 to vertex i.
 constexpr int components = sizeof(ClipVertex) / sizeof(float), first_attribute = 4;
 alignas(64) constexpr std::int32_t component_of[plain_vertex_count] = {0,   14,  28,  42,  56,  70,  84,  98,
                                                                        112, 126, 140, 154, 168, 182, 196, 210};
@@ -60,6 +62,8 @@ struct CornerLanes {
     alignas(64) float unsnapped_x[lanes], unsnapped_y[lanes], z[lanes], inverse_w[lanes];
 };
 
+// The corners of `lanes` vertices, and which of them are plain.
+// The others may hold anything: set_up_vertex writes them anew.
 HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vertices, CornerLanes& out) {
     const F d;
     const auto component = [&](int c)

@@ -26,6 +26,7 @@ inline namespace strict {
     return std::bit_cast<double>((std::uint64_t{exponent} - 127 - 23 + 1023) << 52);
 }
 
+// r of the rule, in vertex z units.
 [[nodiscard]] constexpr double offset_unit(const std::array<float, 3>& z, const RasterState& state,
                                            const RasterRules& rules) noexcept {
     if (rules.offset_unit == OffsetUnit::float_exponent || state.depth_format == DepthFormat::d32f)
@@ -45,6 +46,7 @@ inline namespace strict {
     return std::max(magnitude(dx), magnitude(dy));
 }
 
+// o of a triangle, which is added to all three corners.
 [[nodiscard]] constexpr double polygon_offset(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z,
                                               const RasterState& state, const RasterRules& rules) noexcept {
     const PolygonOffset& offset = state.polygon_offset;

@@ -47,6 +47,8 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       corners_(vertices.size()),
       marks_(vertices.size()) {}
 
+// The corner of a vertex that lies inside all planes, and its marks. A position that overflows drops its triangles; a
+// colour that does drops those alone that show its side.
 VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept {
     const WindowVertex w = window_.project(v);
     if (!all_finite(std::array{w.x, w.y, w.z, w.inverse_w}) || !products_finite(v.texcoord, w.inverse_w))
@@ -66,6 +68,7 @@ void TriangleSetup::set_up_vertex(std::size_t i) noexcept {
     marks_[i] = marks;
 }
 
+// Sixteen at a time by the kernel; what it does not find plain, and the rest, one by one with the same bits.
 void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept {
     std::size_t i = begin;
     for (; set_up_plain_ != nullptr && i + plain_vertex_count <= end; i += plain_vertex_count) {
@@ -95,6 +98,7 @@ bool TriangleSetup::is_culled(bool front) const noexcept {
     return false;  // unreachable: the enum is closed
 }
 
+// The order of the tests is the order in which fates count.
 TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTriangle& triangle,
                                              SetupChunk& out) const {
     const auto& [a, b, c] = piece.corner;
@@ -167,6 +171,8 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
     return fate;
 }
 
+// Outside of one plane with all three vertices: nothing needs to
+// be cut. Only the planes that some vertex is outside of cut it.
 void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     const auto& [a, b, c] = triangle.vertex;
     const VertexMarks any = marks_[a] | marks_[b] | marks_[c], crossed = any & marks_planes;
@@ -185,6 +191,7 @@ void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     count(fate, triangle, out.counters);
 }
 
+// Boxes and areas are found for a whole group at once. Marked triangles, and those with an offset, go the general way.
 void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
     TriangleGroup group;
     load_corners(

@@ -47,6 +47,8 @@ struct SetupChunk {
     SetupCounters counters;
 };
 
+// The set-up of one draw. set_up_vertices may run on many threads, each with a range of its own; after the last of
+// them has ended, `add` may, each with a chunk of its own.
 class TriangleSetup {
   public:
     TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices,
@@ -62,6 +64,7 @@ class TriangleSetup {
     [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
 
   private:
+    // What becomes of a source triangle, or of a piece of a clipped one (coverage.md 7.1).
     enum class Fate : std::uint8_t { kept, culled, outside, degenerate, non_finite };
 
     // Three vertices in the window, and all that is marked at any of them.

@@ -36,6 +36,7 @@ void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span
         return rest.first(std::min(size, rest.size()));
     };
     for (std::size_t at = 0; at < triangles.size(); at += size) {
+        // Records two groups ahead; corners one group ahead, whose records have come by then.
         for (const std::uint32_t t : part(at + 2 * size)) __builtin_prefetch(&geometry.triangles[t]);
         for (const std::uint32_t t : part(at + size))
             for (const std::uint32_t v : geometry.triangles[t].vertex) __builtin_prefetch(&geometry.corners[v]);

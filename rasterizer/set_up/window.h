@@ -43,10 +43,13 @@ struct WindowVertex {
 [[nodiscard]] constexpr std::int32_t snap(float v, int subpixel_bits, Snap rule) noexcept {
     const double scaled = double{v} * (1 << subpixel_bits);  // exact
     if (rule == Snap::toward_zero) return static_cast<std::int32_t>(scaled);
-    constexpr double round_at_one = 0x1.8p52;  // the unit in the last place of the sum is 1
+    // The unit in the last place of a sum with this number is 1, so the addition rounds to an integer, ties to even.
+    constexpr double round_at_one = 0x1.8p52;
     return static_cast<std::int32_t>((scaled + round_at_one) - round_at_one);
 }
 
+// Scale and offset of each axis for one draw, computed in binary64 where
+// depth is concerned and rounded once to binary32 (coverage.md 3.1).
 class WindowTransform {
   public:
     constexpr WindowTransform(const RasterState& state, const RasterRules& rules) noexcept
@@ -61,6 +64,8 @@ class WindowTransform {
               static_cast<float>((symmetric ? (n + f) * 0.5 : n) * units)};
     }
 
+    // Inside the planes of clip.h w is at least least_w. Window positions
+    // know no planes: what is not finite then is found by set-up.
     [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v) const noexcept {
         if (rules_.w_divide == WDivide::nv20) return project_nv20(v);
         const float inverse_w = 1.0f / v.w;
@@ -94,6 +99,7 @@ class WindowTransform {
         const float scaled = axis.scale * c;
         return scaled + axis.offset;
     }
+    // The same by the vertex engine's own product, sum and reciprocal (numbers.md 4.5).
     [[nodiscard]] constexpr WindowVertex project_nv20(const ClipVertex& v) const noexcept {
         const float inverse_w = nv20::reciprocal(v.w);
         const auto mapped = [&](const Axis& axis, float c) {

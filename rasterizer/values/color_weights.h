@@ -30,6 +30,7 @@ inline namespace strict {
     return static_cast<std::int32_t>(double{kept} * 255.0 + 0.5);
 }
 
+// The weights of one triangle. `area` is twice its area; edge values and area are in one unit, whichever.
 class ColorWeights {
   public:
     ColorWeights(const std::array<float, 3>& inverse_w, std::int64_t area,
@@ -65,6 +66,7 @@ class ColorWeights {
         for (double& b : p) b = cut(b * (by_weights ? cut(r, 28) : r), 24);
         return p;
     }
+    // 256ths of the outer corners are cut, and the middle one takes the rest: they always add up to 256.
     [[nodiscard]] static std::array<std::int32_t, 3> from(const Weights& b) noexcept {
         const std::size_t rest = remainder_vertex(b);
         const auto whole = [&](std::size_t i) {

@@ -10,6 +10,7 @@ namespace strata::rasterizer {
 inline namespace strict {
 namespace {
 
+// Weights of corners 0 and 2: corner 1 is the one that differences are taken from.
 struct OuterWeights {
     double b0, b2;
 };
@@ -38,6 +39,7 @@ struct CutSum {
         const double p0 = b.b0 * first, p2 = b.b2 * last;
         const int k = std::max(
             {exponent_of(middle), exponent_of(b.b0) + exponent_of(first), exponent_of(b.b2) + exponent_of(last)});
+        // The unit would leave binary64's exponents. Binary32 corners lead here only as zeros, infinities or NaN.
         if (k < -400 || k > 400) return (middle + p0) + p2;  // 0, infinities and NaN
         const double unit = power_of_two(k - 23), units = power_of_two(23 - k);
         const auto cut = [units](double v) { return static_cast<double>(static_cast<std::int64_t>(v * units)); };

@@ -16,6 +16,7 @@
 
 namespace strata::rasterizer {
 
+// Whether the chip's rule applies to a triangle; inverse_w are the three corners' values.
 [[nodiscard]] constexpr bool cuts_coordinates(const RasterRules& rules, const auto& inverse_w) noexcept {
     return rules.interpolation.texture_coordinates == CoordinateRule::cut_weights && inverse_w[0] == inverse_w[1] &&
            inverse_w[0] == inverse_w[2];

@@ -39,6 +39,7 @@ struct CutWeight {
     return 2;                           // all three
 }
 
+// 1 / area, cut to `bits` significant bits: once a triangle, by integers.
 class CutReciprocal {
   public:
     explicit constexpr CutReciprocal(std::uint64_t area, int bits = 28) noexcept
@@ -55,6 +56,7 @@ class CutReciprocal {
             }
         }
     }
+    // b = e / area of an edge value 0 <= e <= area, cut to 24 bits.
     [[nodiscard]] constexpr CutWeight weight(std::uint64_t e) const noexcept {
         if (e == 0) return {};
         int exponent = exponent_;

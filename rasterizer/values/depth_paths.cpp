@@ -11,6 +11,7 @@ namespace {
     return bits[0] == bits[1] && bits[0] == bits[2];
 }
 
+// Whether planes are divided at all; where every w is 1 the division would change no bit (attributes.md 1.3).
 [[nodiscard]] bool has_w(const std::array<float, 3>& inverse_w) noexcept {
     return !(inverse_w[0] == 1.0f && inverse_w[1] == 1.0f && inverse_w[2] == 1.0f);
 }
@@ -22,6 +23,7 @@ namespace {
     return plane;
 }
 
+// Rounded to binary32 first and then to the hypothesis' bits: two roundings, as depth.md 4.5 writes it.
 int rounded_plane(const RationalPlane& plane, const TriangleLanes& lanes, int bits, float* out) noexcept {
     const int fallbacks = round_plane(plane, lanes, out);
     for (int i = 0; i < lanes.count; ++i) out[i] = round_mantissa(out[i], bits);
@@ -76,6 +78,7 @@ int interpolate(const std::array<float, 3>& u, const std::array<float, 3>& inver
 
 int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
                    double* out) noexcept {
+    // The hypothesis of binary64 interpolants: planes are the filter's own value, so there are no exact fallbacks.
     if (hypothesis.interpolant_bits == full_double) {
         Lanes<double> q;
         interpolate_double(corners.r, corners.inverse_w, lanes, out);

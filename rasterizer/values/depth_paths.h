@@ -31,6 +31,7 @@ int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, c
                    double* out) noexcept;
 
 // In the units of vertex z.
+// DepthPath::float32_plane as the head has it. Its bits depend on the order of the corners (depth.md 4.7).
 void float32_plane_depth(const SetupTriangle& triangle, int subpixel_bits, PlaneAnchor anchor,
                          const TriangleLanes& lanes, double* out) noexcept;
 

@@ -38,6 +38,7 @@ inline namespace strict {
     return double{r} * double{d} > 1.0 ? toward_zero(r) : r;
 }
 
+// n / d by the rule of the hypothesis (depth.md 8.2); a zero divisor gives what IEEE 754 gives.
 [[nodiscard]] constexpr float divide(float n, float d, DivideRule rule) noexcept {
     switch (rule) {
         case DivideRule::exact: return n / d;

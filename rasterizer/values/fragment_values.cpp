@@ -42,6 +42,7 @@ void to_codes(const float* z, int count, const DepthConversion<float>& to, std::
 }
 
 // Lane `from` becomes lane `to`.
+// Only arrays that are filled before fragments are dropped: `primitive` is the same in all lanes of the triangle.
 void move_lane(std::size_t from, std::size_t to, FragmentBatch& batch, WeightLanes& weights) noexcept {
     batch.pixel[to] = batch.pixel[from];
     batch.x[to] = batch.x[from];
@@ -78,10 +79,12 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
                                 geometry.state.depth_far)},
       value_to_code_{depth_conversion(depth.format, rules_.depth_rounding, code_units_, geometry.state.depth_near,
                                       geometry.state.depth_far)} {
+    // A reference by the stored path itself is a copy of that code.
     needs_.code |= needs.reference;
     rejects_ = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
     clips_fragments_ = rules_.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
     const bool is_float = depth.format == DepthFormat::d32f;
+    // The codes of float32, those of d32f by any path, and references are made from shader_z.
     needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
                      (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
@@ -125,6 +128,7 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
         return true;
     }
     const RationalPlane plane{triangle.geometry.depths(triangle.index), 1.0, z_units_};
+    // round_plane converts a constant by itself, once (depth.md 3.2).
     if (plane.is_constant()) return false;
     const DepthLanes out{to_code_, needs_.shader_z ? &batch.shader_z[f] : nullptr,
                          needs_.code ? &batch.code[f] : nullptr, needs_attributes_ ? &weights.b1[f] : nullptr,
@@ -173,6 +177,7 @@ int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLan
     return fallbacks;
 }
 
+// DepthPath::exact: the plane in codes, rounded once, then clamped to the codes of the depth range (depth.md 4.3).
 int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes& lanes, const float* shader_z,
                                      std::uint32_t* out) const noexcept {
     switch (to_code_.kind) {
@@ -210,6 +215,8 @@ int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const Tri
     return 0;
 }
 
+// A path's depth as binary64 in the buffer's own units, before any
+// clamp: what is compared unquantised, and what value paths convert.
 int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                       const TriangleLanes& lanes, const float* shader_z, double* out) const {
     const DepthHypothesis& h = rules_.hypothesis;
@@ -243,6 +250,7 @@ int FragmentValues::fill_value_codes(const SetupTriangle& t, const DrawnTriangle
     return fallbacks;
 }
 
+// The compared depth (depth.md 6.1). Its code is made exactly as a pass that stored it by that path would make it.
 int FragmentValues::fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                    FragmentBatch& batch, const WeightLanes& weights) const {
     const auto f = static_cast<std::size_t>(first);
@@ -276,7 +284,8 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
     const bool cut = needs_.texcoord && cuts_coordinates(rules_, w);
     const std::size_t end = needs_.texcoord && !cut ? attribute_count : color_channels;
     AttributeLanes varying;
-    varying.has_w = !(w[0] == 1.0 && w[1] == 1.0 && w[2] == 1.0);  // else the quotient is the dividend
+    // Where every w is 1 the quotient is the dividend.
+    varying.has_w = !(w[0] == 1.0 && w[1] == 1.0 && w[2] == 1.0);
     varying.inverse_w = {w};
     for (std::size_t a = begin; a < end; ++a) {
         const auto value = [&](std::size_t i) {
@@ -301,7 +310,9 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
 
 int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const {
     if (!kernels_.attributes(varying, lanes)) return 0;
-    int fallbacks = 0;  // some lane is not certain: one plane after the other
+    // The kernel met a lane that its filter left open: each plane
+    // is done again, with the exact arithmetic where it is needed.
+    int fallbacks = 0;
     alignas(64) Lanes<float> inverse_w;
     if (varying.has_w) fallbacks += round_plane(varying.inverse_w, lanes, inverse_w.data());
     for (std::size_t k = 0; k < varying.count; ++k) {
@@ -312,6 +323,8 @@ int FragmentValues::fill_varying(const AttributeLanes& varying, const TriangleLa
     return fallbacks;
 }
 
+// The general way. Fragments are dropped as soon as they are known
+// to be outside, so later arrays are filled for those that are left.
 int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                 WeightLanes& weights) const {
     const auto f = static_cast<std::size_t>(first);

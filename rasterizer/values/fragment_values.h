@@ -35,6 +35,7 @@ struct DrawnTriangle {
     [[nodiscard]] TriangleEdges edges() const noexcept { return {geometry.points(record), geometry.rules.tie_rule}; }
 };
 
+// The values of one pass: what state, rules and needs decide is decided when it is made. It may serve many triangles.
 class FragmentValues {
   public:
     FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs);
@@ -88,14 +89,16 @@ class FragmentValues {
     RasterRules rules_;
     DepthRequest depth_;
     FragmentNeeds needs_;
-    double z_units_;                         // vertex z of depth 1.0
-    double code_units_;                      // the buffer's own units in depth 1.0
+    // Units of vertex z, and of the buffer, in depth 1.0.
+    double z_units_;
+    double code_units_;
     DepthConversion<float> to_code_;         // of shader_z
     DepthConversion<double> value_to_code_;  // of values in the buffer's own units
     bool clips_fragments_;
     bool rejects_;  // depth_replace
     bool needs_float_z_, needs_attributes_;
-    bool is_plain_;  // depth is shader_z and the code of it: what the kernel does
+    // The pass asks for no more than shader_z and its code by DepthPath::float32: one kernel does it all.
+    bool is_plain_;
 };
 
 }  // namespace strata::rasterizer

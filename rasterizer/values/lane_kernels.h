@@ -17,10 +17,12 @@ namespace strata::rasterizer {
 inline namespace strict {
 
 // Rows of one triangle on their way into a batch, from where it was interrupted.
+// Rows of one triangle on their way into a batch, from where it was interrupted: `row` comes next, `rows` is their
+// number, and pixels [..., taken) of that row are in the batch before. y0 is the surface's row of row 0.
 struct RowRun {
-    int row, rows;  // the next one and their number
-    int taken;      // pixels [..., taken) of that row are in the batch before
-    int y0;         // of row 0
+    int row, rows;
+    int taken;
+    int y0;
     int region_x0, region_y0, region_width;
     std::uint32_t primitive;
 };
@@ -150,6 +152,7 @@ inline bool round(const FilterPlane& plane, const double* __restrict b1, const d
     std::uint32_t unsure = 0;
     for (int i = 0; i < count; ++i) {
         const double v = plane.at(b1[i], b2[i]);
+        // The plane's value lies between the two ends. If both round to the same float, that is its rounding.
         const auto low = static_cast<float>(v - plane.error), high = static_cast<float>(v + plane.error);
         unsure |= std::bit_cast<std::uint32_t>(low) ^ std::bit_cast<std::uint32_t>(high);
         out[i] = low;

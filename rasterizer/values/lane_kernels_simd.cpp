@@ -67,6 +67,7 @@ void weights(const PixelWeights& w, const std::uint16_t* x, const std::uint16_t*
     weights_of<false>(w, x, y, count, b1, b2);
 }
 
+// The planes are filtered together, so each vector of weights is loaded once; `unsure` gathers over all of them.
 template <bool exact>
 HWY_INLINE bool attributes_of(const AttributeLanes& a, const TriangleLanes& lanes) {
     const F64 d;
@@ -134,6 +135,7 @@ HWY_INLINE bool depth_of(const PixelWeights& w, const FilterPlane& plane, const 
 
 bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
            const DepthLanes& out) noexcept {
+    // A short run of fragments has few vectors that lie within one row.
     const bool by_rows = count >= 64;
     if (w.kind == PixelWeights::Kind::unsnapped)
         return by_rows ? depth_of<true, true>(w, plane, x, y, count, out)

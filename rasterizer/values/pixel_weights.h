@@ -31,6 +31,7 @@ struct PixelWeights {
     EdgePlane e1, e2;
     double x0, y0, x1, y1, x2, y2;  // unsnapped corner 0, and corners 1 and 2 seen from it
 
+    // The wide kind is for edges whose values pass 2^53: then each is computed in 64-bit integers and rounded once.
     PixelWeights(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
         const TriangleEdges edges{geometry.points(triangle), geometry.rules.tie_rule};
@@ -70,6 +71,8 @@ struct PixelWeights {
         return {static_cast<double>(edge.step_x()) * unit, static_cast<double>(edge.step_y()) * unit,
                 static_cast<double>(edge.at(pixel_centre(0, 0, subpixel_bits)))};
     }
+    // From the value at the box's first pixel back to pixel (0,
+    // 0); the tie was taken off for coverage and is put back.
     [[nodiscard]] static EdgePlane plane(const TriangleGroup& g, std::size_t k, std::size_t i) noexcept {
         const auto number = [k](const TriangleGroup::PerTriangle& all) {
             return std::int64_t{static_cast<std::int32_t>(all[k])};
@@ -79,6 +82,7 @@ struct PixelWeights {
         return {static_cast<double>(right), static_cast<double>(down),
                 static_cast<double>(first - number(g.x0) * right - number(g.y0) * down)};
     }
+    // A bound of every intermediate of EdgePlane::at over 2^16 by 2^16 pixels.
     [[nodiscard]] static constexpr double size(const EdgePlane& e) noexcept {
         const auto magnitude = [](double v) { return v < 0.0 ? -v : v; };
         return magnitude(e.constant) + 0x1p16 * (magnitude(e.step_x) + magnitude(e.step_y));

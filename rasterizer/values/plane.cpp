@@ -54,6 +54,7 @@ std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::i
                          CodeRounding rounding) noexcept {
     const ExactSum sum = weighted_sum(plane, e);
     const double max = rounding.max;
+    // The estimate is within 2^-49 of V, so it misses the code by one at most; the comparisons are exact.
     double code = clamped_floor(quotient(sum, plane, area) + rounding.half, max);
     while (code > 0.0 && compare(sum, code - rounding.half, plane, area) < 0) code -= 1.0;
     while (code < max && compare(sum, code + 1.0 - rounding.half, plane, area) >= 0) code += 1.0;
@@ -74,6 +75,7 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
     }
     const FilterPlane filter{plane, lanes.is_exact};
     const bool unsure = scalar::round(filter, lanes.weight1, lanes.weight2, count, out);
+    // One pass finds whether any lane is open; nearly always none is.
     if (!unsure || !lanes.is_exact) return 0;
     int fallbacks = 0;
     for (int i = 0; i < count; ++i) {

@@ -28,6 +28,7 @@ struct RationalPlane {
     std::array<double, 3> v{};
     double numerator = 1.0, denominator = 1.0;  // N and D: integers up to 2^24 - 1
 
+    // By bits: 0 and -0 differ, and a NaN equals itself.
     [[nodiscard]] bool is_constant() const noexcept {
         const auto bits = [this](std::size_t i) { return std::bit_cast<std::uint64_t>(v[i]); };
         return bits(0) == bits(1) && bits(0) == bits(2);

@@ -36,6 +36,7 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
     }
     const DepthHypothesis& h = rules_.hypothesis;
     const bool cut = cuts_coordinates(rules_, w);
+    // Under the default hypothesis coordinates go with the other attributes through the kernel.
     const bool is_plain = h.interpolant_bits >= 24 && h.divide == DivideRule::exact;
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);

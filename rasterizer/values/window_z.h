@@ -39,6 +39,7 @@ struct Dyadic {
     bool is_negative = false;
 };
 
+// A finite float as an integer times a power of two; denormals keep the exponent of the least normal number.
 [[nodiscard]] constexpr Dyadic as_dyadic(float z) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(z);
     const std::uint32_t field = bits >> 23 & 0xff, fraction = bits & 0x7fffff;
@@ -73,6 +74,7 @@ struct Dyadic {
     return result;
 }
 
+// The chip's depth of one triangle: differences of corners are taken once, weights and sum at every fragment.
 class WindowZ24 {
   public:
     constexpr WindowZ24(const std::array<double, 3>& z, std::int64_t area,
@@ -84,6 +86,7 @@ class WindowZ24 {
             z_exponent_[i] = d.magnitude == 0 ? none : bit_width(d.magnitude) - 1 + d.exponent;
             for (std::size_t r = 0; r < 3; ++r) difference_[r][i] = difference(z_[i], z_[r]);
         }
+        // 39 bits of difference times 24 of weight fit in 64: then no 128-bit arithmetic is needed.
         is_narrow_ = std::ranges::all_of(std::array{difference_[0][1], difference_[0][2], difference_[1][2]},
                                          [](const Dyadic& d) { return bit_width(d.magnitude) <= 39; });
     }

@@ -12,6 +12,7 @@ namespace strata::rasterizer::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// What a depth pass keeps: the region's codes, how values become codes, and the counts.
 struct DepthState {
     DepthConversion<float> to_code;
     double z_units;
@@ -21,6 +22,8 @@ struct DepthState {
 
 template <bool is_fixed>
 struct DepthOf {
+    // The planes of one triangle. Members are copies and const, so
+    // that stores of codes cannot make the compiler read them again.
     template <bool unsnapped>
     class Shade {
       public:
@@ -36,6 +39,7 @@ struct DepthOf {
         HWY_INLINE void operator()(const Row& row, const Weights& b) {
             const V64 v = plane_at(plane_, b);
             auto unsure = hn::Zero(U32{});
+            // Planes from unsnapped corners have no exact value to fall back on: binary64 is the definition there.
             V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : rounded(v, hn::Set(F64{}, plane_.error), unsure);
             if constexpr (!unsnapped) z = decided(z, unsure, exact_, geometry_, index_, row);
             const auto code = codes<is_fixed>(z, to_code_);

@@ -82,14 +82,14 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
     return hn::Load(F32{}, values);
 }
 
-// The depth test LESS. Fixed-point codes are compared as integers; D32F codes are the bits of a binary32 and are
-// compared as floats.
+// LESS of stored codes. D32F codes compare as the floats that they are, because a clear may have left any float there.
 HWY_INLINE RowMask nearer(hn::Vec<U32> code, hn::Vec<U32> stored, bool is_fixed) {
     return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored))
                     : hn::Lt(hn::BitCast(F32{}, code), hn::BitCast(F32{}, stored));
 }
 
-// The terms of the weights that depend on the column alone, or on the row alone.
+// The terms of weights that depend on the column alone, or on the row alone, for up to `count` neighbours: `from`
+// gives those of row_lanes neighbours, `of` those of one in all lanes.
 template <int count>
 class TermTable {
   public:
@@ -109,6 +109,8 @@ concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b)
     shade(at, b);
 };
 
+// Draws the triangles of a list in a region. `State` is what the pass keeps; a Shade is made for each triangle (or
+// each max_span_rows rows of a large one) and dies after its finish().
 template <template <bool> class Shade, class State>
 class RowWalk {
   public:
@@ -196,8 +198,7 @@ class RowWalk {
             columns[part] = at.column_terms(numbers_from(x0 + static_cast<int>(part * row_lanes)));
             row_terms.set(part * row_lanes, at.row_terms(numbers_from(y0 + static_cast<int>(part * row_lanes))));
         }
-        // Locals, because a store to a target might change a member, for all that the compiler knows: it would be read
-        // anew each time.
+        // The compiler must assume that a store to a target changes any member: what the loop needs is read before it.
         const auto width = static_cast<std::size_t>(region_.width());
         const std::uint32_t first_row = coverage.first_row(), end_row = coverage.end_row(group_.height[k]);
         std::size_t first = pixel(x0, y0) + first_row * width;

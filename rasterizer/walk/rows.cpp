@@ -8,7 +8,8 @@ namespace strata::rasterizer {
 
 bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
-    // With two lanes of binary64 batches are faster.
+    // Of the sets, those with fewer than four lanes of binary64 are faster with batches. D16F has no vector
+    // conversion, and row tables hold max_row_pixels columns.
     return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && depth.format != DepthFormat::d16f &&
            !clips_fragments && geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
 }
@@ -26,6 +27,7 @@ void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uin
 FilterPlane constant_filter(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index) noexcept {
     FilterPlane filter;
     const TriangleEdges edges{geometry.points(geometry.triangles[index]), geometry.rules.tie_rule};
+    // Both slopes and the error are 0: every pixel gets this value.
     filter.w0 = constant_float(plane, edges.area());
     return filter;
 }

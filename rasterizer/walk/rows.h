@@ -15,8 +15,10 @@
 
 namespace strata::rasterizer {
 
-inline constexpr int max_row_pixels = 128;     // of a region: the largest tile
-inline constexpr std::size_t row_padding = 8;  // words behind the last pixel that rows may read, and write as they were
+// The widest region that rows can walk: the largest tile.
+inline constexpr int max_row_pixels = 128;
+// Words behind a region's last pixel. Rows read whole vectors there, and write back what they read.
+inline constexpr std::size_t row_padding = 8;
 
 // Whether rows can do what the batches of `geometry` would hold, in `region` and on the chosen instruction set.
 [[nodiscard]] bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;

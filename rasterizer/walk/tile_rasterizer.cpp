@@ -36,6 +36,7 @@ class TileRasterizer::Pass {
         for (std::size_t k = 0; k < triangles.size(); ++k) {
             if (group_.box(k).area() == 0) continue;
             const TriangleRecord& record = geometry_.triangles[triangles[k]];
+            // A batch has one material: what shades it is chosen once for all its fragments.
             if (record.material != batch_.material) {
                 flush();
                 batch_.material = record.material;
@@ -54,6 +55,8 @@ class TileRasterizer::Pass {
                                   group_.y0[k] - static_cast<std::uint32_t>(region.y0),
                                   static_cast<std::uint32_t>(region.width()), record.primitive};
         first_ = batch_.count;
+        // A pixel is held already, or the room is short: the batch goes
+        // on its way, and an empty one takes every small triangle.
         if (!small_.emit(group_, k, origin, owner_.claims_, batch_)) {
             flush();
             static_cast<void>(small_.emit(group_, k, origin, owner_.claims_, batch_));
@@ -77,6 +80,7 @@ class TileRasterizer::Pass {
         return {0, rows.height(), 0, rows.y0, region.x0, region.y0, region.width(), triangle.record.primitive};
     }
 
+    // The kernel stops where the batch is full or holds the next pixel, and goes on from there with an empty one.
     void emit(const DrawnTriangle& triangle, const Rect& rows) {
         find_spans(triangle.edges(), rows, rules_.subpixel_bits, spans_.data());
         RowRun run = row_run(triangle, rows);
@@ -103,7 +107,8 @@ class TileRasterizer::Pass {
     FragmentValues values_;
     GroupRules rules_;
     TriangleGroup group_;
-    int first_ = 0;  // the present triangle's first fragment in the batch that has no values yet
+    // The present triangle's first fragment in the batch that has no values yet.
+    int first_ = 0;
     std::array<RowSpan, max_span_rows + 1> spans_;
 };
 

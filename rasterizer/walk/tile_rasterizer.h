@@ -14,9 +14,11 @@
 
 namespace strata::rasterizer {
 
+// Walks one region; it may draw many lists, one after the other, and is used by one thread at a time.
 class TileRasterizer {
   public:
-    explicit TileRasterizer(Rect region);  // inside the viewport of the geometry it will walk
+    // The region lies inside the viewport of every geometry that it will walk.
+    explicit TileRasterizer(Rect region);
 
     // Rasterizes `triangles` (indices into geometry.triangles, ascending) and calls `sink` with every batch that has
     // fragments. Scissor and, with ZClip::per_fragment, the depth range have been applied.

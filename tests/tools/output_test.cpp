@@ -158,7 +158,7 @@ TEST_CASE("a locale with decimal commas changes no byte") {
     CHECK(profile({}) == profile(german));
 }
 
-TEST_CASE("--execution tiled is replay without fragment memory, and says so on standard error") {
+TEST_CASE("execution tiled is replay without fragment memory, and says so on standard error") {
     const Folder folder;
     const Ended tiled = render(folder, {"--execution", "tiled", "--fragment-memory", "1M", "--stats", "-"});
     CHECK(tiled.status == 0);

@@ -18,6 +18,7 @@ using strata::rasterizer::Rect;
 [[nodiscard]] DrawList squares_of(const std::vector<Material>& materials) {
     DrawList list;
     list.textures.resize(2);
+    for (Texture& texture : list.textures) texture.texels = {0, 0, 0, 0};
     list.materials = materials;
     for (std::uint32_t i = 0; i < materials.size(); ++i) {
         const float x = -0.9f + 0.3f * static_cast<float>(i);
@@ -88,7 +89,7 @@ TEST_CASE("each run of a soup names its instance, material and sides, and its in
     }
 }
 
-TEST_CASE("--alpha scales every alpha at the vertex, but a MASK material's behind its test") {
+TEST_CASE("the option --alpha scales every alpha at the vertex, but a MASK material's behind its test") {
     const DrawList list = squares_of(six_materials());
     const auto soup = transform(list, {}, {.alpha_scale = 0.25f});
     const PreparedDraw prepared =

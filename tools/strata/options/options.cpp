@@ -255,9 +255,9 @@ void accept_tiled(CLI::Option& execution, RunOptions& options) {
             words += (words.empty() ? "" : ",") + (word == "tiled" ? std::string("replay") : word);
         }
         if (has_tiled && has_replay)
-            throw CLI::ValidationError("--execution",
-                                       "expected replay once, found it beside 'tiled', which is replay "
-                                       "with --fragment-memory 0");
+            throw CLI::ValidationError(
+                "expected replay once, found it beside 'tiled', which is replay "
+                "with --fragment-memory 0");
         if (has_tiled) std::fputs("strata: warning: --execution tiled is replay with --fragment-memory 0\n", stderr);
         options.keeps_no_fragments = has_tiled;
         return words;
