@@ -58,7 +58,7 @@ struct Passes {
     [[nodiscard]] FrameFragments first(const RenderOptions& options, const Algorithm& algorithm) const {
         return keyed(machine.fragments(options, algorithm), algorithm.key);
     }
-    // As if what further passes draw were all.
+    // The fragments that further passes draw, as a frame without another first pass has them.
     [[nodiscard]] FrameFragments further(RenderOptions options, const Algorithm& algorithm) const {
         const DrawList& list = options.second_list != nullptr ? *options.second_list : machine.list;
         if (options.vertex_paths.second) options.vertex_paths.first = options.vertex_paths.second;

@@ -19,7 +19,7 @@ namespace strata::peeling {
 
 class PreparedLists {
   public:
-    // What does not change from list to list.
+    // The part that does not change from draw list to draw list.
     struct Settings {
         const pipeline::DrawList& list;
         pipeline::View view;

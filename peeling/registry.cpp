@@ -1,6 +1,13 @@
+// peeling/registry.cpp - the algorithms as tables, one a paper: an entry an algorithm, a field a line.
+//
+// Rule     An entry names what differs from the defaults of Algorithm (algorithms/algorithm.h), which says what each
+//          field means. The order of the entries is the order of every list and table that the command prints.
+// Tests    tests/peeling/refusals_test.cpp, passes_test.cpp; tests/house/book_covers.py: each name has a section in the
+//          book
 #include "peeling/registry.h"
 
 #include <algorithm>
+#include <span>
 
 #include "peeling/algorithms/runs.h"
 #include "peeling/closed/closed_form.h"
@@ -8,7 +15,7 @@
 namespace strata::peeling {
 
 using pipeline::DepthKey;
-using pipeline::Feature;
+using enum pipeline::Feature;
 using rasterizer::DepthPath;
 
 namespace {
@@ -22,19 +29,11 @@ int dual_independent_passes(int layers) { return (layers + 1) / 2 + 2; }
 constexpr rasterizer::FragmentNeeds code_and_color{.shader_z = false, .code = true, .color = true};
 constexpr rasterizer::FragmentNeeds z_and_color{.shader_z = true, .code = false, .color = true};
 
-std::vector<Algorithm> make_algorithms() {
-    const std::string everitt = "Everitt 2001", bavoil = "Bavoil and Myers 2008", carr = "Carr, Mech and Miller 2008";
-    const std::vector<Feature> programs{Feature::fragment_programs, Feature::separate_alpha_blend};
-    const std::vector<Feature> float_programs{Feature::float_targets, Feature::fragment_programs};
-    const std::vector<Feature> independent{Feature::independent_blend, Feature::separate_alpha_blend,
-                                           Feature::float_targets, Feature::fragment_programs};
-    const std::vector<Feature> blended_depth{Feature::float_targets, Feature::fragment_programs,
-                                             Feature::separate_alpha_blend};
-    const std::vector<Feature> rasterizer_stage{Feature::ordered_rmw, Feature::float_targets,
-                                                Feature::fragment_programs, Feature::separate_alpha_blend};
-    return {
+// Peels of the first paper, and the unsorted pictures that it starts from.
+std::span<const Algorithm> of_everitt() {
+    static const Algorithm table[] = {
         {.name = "unsorted",
-         .paper = everitt,
+         .paper = "Everitt 2001",
          .section = "Figure 1 (b)",
          .summary = "OVER in submission order; right where every pixel's fragments arrive back to front",
          .pass_formula = "1",
@@ -43,7 +42,7 @@ std::vector<Algorithm> make_algorithms() {
          .geometry_passes = one,
          .run = unsorted},
         {.name = "painter",
-         .paper = everitt,
+         .paper = "Everitt 2001",
          .section = "Introduction",
          .summary = "OVER of triangles sorted by centroid, far first; fails where triangles cross",
          .pass_formula = "1",
@@ -53,7 +52,7 @@ std::vector<Algorithm> make_algorithms() {
          .geometry_passes = one,
          .run = unsorted},
         {.name = "depth_units",
-         .paper = everitt,
+         .paper = "Everitt 2001",
          .section = "Multiple Depth Tests, Listing 1",
          .summary = "one layer a pass by two sequential depth units; layers composited back to front",
          .pass_formula = "N + 1",
@@ -64,9 +63,9 @@ std::vector<Algorithm> make_algorithms() {
          .geometry_passes = every_layer_and_one,
          .run = depth_units,
          .replayed = code_and_color,
-         .features = {Feature::sequential_depth_units}},
+         .features = {sequential_depth_units}},
         {.name = "shadow_map",
-         .paper = everitt,
+         .paper = "Everitt 2001",
          .section = "Shadow Mapping as Depth Test; An Invariance Issue",
          .summary =
              "one layer a pass by shadow comparison and alpha test; its two depths may differ in their last bits",
@@ -80,7 +79,7 @@ std::vector<Algorithm> make_algorithms() {
          .replayed = code_and_color,
          .compares = DepthPath::perspective_rq},
         {.name = "shadow_map_depth_replace",
-         .paper = everitt,
+         .paper = "Everitt 2001",
          .section = "An Invariance Issue, Listing 2",
          .summary = "the same with a depth replaced by a texture shader: stored and compared depth are one quotient",
          .pass_formula = "N + 1",
@@ -92,11 +91,18 @@ std::vector<Algorithm> make_algorithms() {
          .geometry_passes = every_layer_and_one,
          .run = shadow_map,
          .replayed = code_and_color,
-         .features = {Feature::depth_replace},
+         .features = {depth_replace},
          .stores = DepthPath::depth_replace,
          .compares = DepthPath::perspective_rq},
+    };
+    return table;
+}
+
+// Front to back and dual peeling, and the two approximations that need no order.
+std::span<const Algorithm> of_bavoil_and_myers() {
+    static const Algorithm table[] = {
         {.name = "front_to_back",
-         .paper = bavoil,
+         .paper = "Bavoil and Myers 2008",
          .section = "Depth Peeling; Under Blending",
          .summary = "one layer a pass, nearest first, blended UNDER",
          .pass_formula = "N + 1",
@@ -109,9 +115,9 @@ std::vector<Algorithm> make_algorithms() {
          .run = front_to_back,
          .closed_form = front_to_back_closed,
          .replayed = code_and_color,
-         .features = programs},
+         .features = {fragment_programs, separate_alpha_blend}},
         {.name = "dual",
-         .paper = bavoil,
+         .paper = "Bavoil and Myers 2008",
          .section = "Dual Depth Peeling",
          .summary = "nearest and farthest layer of every pass, blended on the fly under one MAX equation",
          .pass_formula = "1 + max(1, ceil(N/2))",
@@ -122,10 +128,10 @@ std::vector<Algorithm> make_algorithms() {
          .run = dual,
          .closed_form = dual_closed,
          .replayed = z_and_color,
-         .features = float_programs,
+         .features = {float_targets, fragment_programs},
          .render_targets = 3},
         {.name = "dual_independent",
-         .paper = bavoil,
+         .paper = "Bavoil and Myers 2008",
          .section = "Blending on the Fly (DirectX 10.1)",
          .summary = "dual peeling with a blend equation a target; no tie is lost",
          .pass_formula = "ceil(N/2) + 2",
@@ -135,10 +141,10 @@ std::vector<Algorithm> make_algorithms() {
          .geometry_passes = dual_independent_passes,
          .run = dual_independent,
          .replayed = z_and_color,
-         .features = independent,
+         .features = {independent_blend, separate_alpha_blend, float_targets, fragment_programs},
          .render_targets = 3},
         {.name = "weighted_average",
-         .paper = bavoil,
+         .paper = "Bavoil and Myers 2008",
          .section = "Weighted Average",
          .summary = "every colour replaced by the average weighted by alpha; an approximation",
          .pass_formula = "1",
@@ -146,10 +152,10 @@ std::vector<Algorithm> make_algorithms() {
          .key = DepthKey::shader_z,
          .geometry_passes = one,
          .run = weighted_average,
-         .features = float_programs,
+         .features = {float_targets, fragment_programs},
          .render_targets = 2},
         {.name = "weighted_sum",
-         .paper = bavoil,
+         .paper = "Bavoil and Myers 2008",
          .section = "Weighted Sum",
          .summary = "order-dependent terms ignored; darkens where alphas add up to more than 1",
          .pass_formula = "1",
@@ -157,9 +163,16 @@ std::vector<Algorithm> make_algorithms() {
          .key = DepthKey::shader_z,
          .geometry_passes = one,
          .run = weighted_sum,
-         .features = float_programs},
+         .features = {float_targets, fragment_programs}},
+    };
+    return table;
+}
+
+// Peels of runs that arrive in depth order, and the baseline that they are compared with.
+std::span<const Algorithm> of_carr() {
+    static const Algorithm table[] = {
         {.name = "layer_peel",
-         .paper = carr,
+         .paper = "Carr, Mech and Miller 2008",
          .section = "section 2, Table 1",
          .summary = "a pass finds the nearest layer left, another composites it: the baseline of Carr's paper",
          .pass_formula = "2 N + 1",
@@ -170,9 +183,9 @@ std::vector<Algorithm> make_algorithms() {
          .geometry_passes = find_and_composite,
          .run = layer_peel,
          .replayed = code_and_color,
-         .features = programs},
+         .features = {fragment_programs, separate_alpha_blend}},
         {.name = "hybrid",
-         .paper = carr,
+         .paper = "Carr, Mech and Miller 2008",
          .section = "Algorithm 1",
          .summary = "unordered meshes peeled, an ordered set (--sorted) composited between the peels",
          .pass_formula = "3 U + 2, U layers unordered",
@@ -182,9 +195,9 @@ std::vector<Algorithm> make_algorithms() {
          .compares_own_codes = true,
          .has_published_form = true,
          .run = hybrid,
-         .features = programs},
+         .features = {fragment_programs, separate_alpha_blend}},
         {.name = "coherent_stencil",
-         .paper = carr,
+         .paper = "Carr, Mech and Miller 2008",
          .section = "section 5 (A)",
          .summary = "runs of fragments in order, found by counting in the stencil buffer",
          .pass_formula = "1 + 6 an iteration",
@@ -194,9 +207,9 @@ std::vector<Algorithm> make_algorithms() {
          .has_published_form = true,
          .run = coherent_stencil,
          .replayed = code_and_color,
-         .features = programs},
+         .features = {fragment_programs, separate_alpha_blend}},
         {.name = "coherent_blend",
-         .paper = carr,
+         .paper = "Carr, Mech and Miller 2008",
          .section = "section 6 (B)",
          .summary = "the same runs, with the depth before the nearest shifted into the colour by blending",
          .pass_formula = "1 + 5 an iteration",
@@ -206,9 +219,9 @@ std::vector<Algorithm> make_algorithms() {
          .has_published_form = true,
          .run = coherent_blend,
          .replayed = code_and_color,
-         .features = blended_depth},
+         .features = {float_targets, fragment_programs, separate_alpha_blend}},
         {.name = "coherent_ideal",
-         .paper = carr,
+         .paper = "Carr, Mech and Miller 2008",
          .section = "Algorithm 2",
          .summary = "the same runs in two passes, by depths and a flag that the rasterizer reads and writes",
          .pass_formula = "2 an iteration - 1",
@@ -218,8 +231,15 @@ std::vector<Algorithm> make_algorithms() {
          .has_published_form = true,
          .run = coherent_ideal,
          .replayed = code_and_color,
-         .features = rasterizer_stage,
+         .features = {ordered_rmw, float_targets, fragment_programs, separate_alpha_blend},
          .render_targets = 2},
+    };
+    return table;
+}
+
+// What Carr's paper compares itself with, and at last the oracle.
+std::span<const Algorithm> of_others() {
+    static const Algorithm table[] = {
         {.name = "stencil_routed_k_buffer",
          .paper = "Myers and Bavoil 2007",
          .section = "",
@@ -230,7 +250,7 @@ std::vector<Algorithm> make_algorithms() {
          .compares_own_codes = true,
          .run = stencil_routed_k_buffer,
          .replayed = code_and_color,
-         .features = programs,
+         .features = {fragment_programs, separate_alpha_blend},
          .samples = 8},
         {.name = "k_buffer",
          .paper = "Bavoil et al. 2007",
@@ -241,7 +261,7 @@ std::vector<Algorithm> make_algorithms() {
          .compares_own_codes = true,
          .geometry_passes = one,
          .run = k_buffer,
-         .features = rasterizer_stage,
+         .features = {ordered_rmw, float_targets, fragment_programs, separate_alpha_blend},
          .render_targets = 6},
         {.name = "batched",
          .paper = "Wexler et al. 2005",
@@ -254,7 +274,7 @@ std::vector<Algorithm> make_algorithms() {
          .whole_frame = true,
          .compares_own_codes = true,
          .run = batched,
-         .features = programs},
+         .features = {fragment_programs, separate_alpha_blend}},
         {.name = "object_sorted",
          .paper = "Govindaraju et al. 2005",
          .section = "",
@@ -266,7 +286,7 @@ std::vector<Algorithm> make_algorithms() {
          .whole_frame = true,
          .compares_own_codes = true,
          .run = object_sorted,
-         .features = programs},
+         .features = {fragment_programs, separate_alpha_blend}},
         {.name = "a_buffer",
          .paper = "Carpenter 1984",
          .section = "the oracle",
@@ -280,12 +300,20 @@ std::vector<Algorithm> make_algorithms() {
          .geometry_passes = one,
          .run = a_buffer},
     };
+    return table;
+}
+
+std::vector<Algorithm> all_tables() {
+    std::vector<Algorithm> all;
+    for (const auto& table : {of_everitt(), of_bavoil_and_myers(), of_carr(), of_others()})
+        all.insert(all.end(), table.begin(), table.end());
+    return all;
 }
 
 }  // namespace
 
 const std::vector<Algorithm>& algorithms() {
-    static const std::vector<Algorithm> all = make_algorithms();
+    static const std::vector<Algorithm> all = all_tables();
     return all;
 }
 

@@ -131,7 +131,7 @@ struct Renderer::State {
 
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
 
-    // What an algorithm stores and compares.
+    // The depth paths that the algorithm stores and compares.
     [[nodiscard]] rasterizer::DepthRequest depth_of(const Algorithm& algorithm) const {
         rasterizer::DepthRequest request = depth;
         if (algorithm.stores) request.path = *algorithm.stores;

@@ -45,8 +45,8 @@ void sort_into_buckets(Numbers& numbers, const Keys& keys, int buckets) {
     }
     const double last = buckets - 1;
     const auto bucket = [&](std::uint32_t n) {
-        const double place = (keys[n] - least) / (greatest - least) * buckets;
-        return place > 0 ? std::min(std::floor(place), last) : 0.0;  // NaN where all keys are equal
+        const double position = (keys[n] - least) / (greatest - least) * buckets;
+        return position > 0 ? std::min(std::floor(position), last) : 0.0;  // NaN where all keys are equal
     };
     std::stable_sort(numbers.begin(), numbers.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return bucket(a) < bucket(b); });
@@ -60,16 +60,17 @@ std::uint64_t next_random(std::uint64_t& state) {
     return z ^ (z >> 31);
 }
 
-// `fraction` of the entries, rounded, change places in one cycle through all of them.
+// `fraction` of the entries, rounded, change positions in one cycle through all of them.
 void disorder(Numbers& numbers, double fraction, std::uint64_t seed) {
     const std::size_t moved = static_cast<std::size_t>(fraction * static_cast<double>(numbers.size()) + 0.5);
     if (moved < 2) return;
-    Numbers places(numbers.size());
-    std::iota(places.begin(), places.end(), 0u);
-    for (std::size_t i = 0; i < moved; ++i) std::swap(places[i], places[i + next_random(seed) % (places.size() - i)]);
-    const std::uint32_t first = numbers[places[0]];
-    for (std::size_t i = 0; i + 1 < moved; ++i) numbers[places[i]] = numbers[places[i + 1]];
-    numbers[places[moved - 1]] = first;
+    Numbers positions(numbers.size());
+    std::iota(positions.begin(), positions.end(), 0u);
+    for (std::size_t i = 0; i < moved; ++i)
+        std::swap(positions[i], positions[i + next_random(seed) % (positions.size() - i)]);
+    const std::uint32_t first = numbers[positions[0]];
+    for (std::size_t i = 0; i + 1 < moved; ++i) numbers[positions[i]] = numbers[positions[i + 1]];
+    numbers[positions[moved - 1]] = first;
 }
 
 void sort_numbers(Numbers& numbers, const Keys& keys, const Sort& sort) {

@@ -43,7 +43,8 @@ struct Algorithm {
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
     void (*run)(pipeline::Region&) = nullptr;
     bool (*closed_form)(pipeline::Region&) = nullptr;  // peeling/closed/closed_form.h; null if it has none
-    // What its geometry passes look at, all together: what replay captures. Empty: one pass, nothing to replay.
+    // All values of fragments that its geometry passes look at: replay captures these. Empty: one pass, so nothing is
+    // replayed.
     std::optional<rasterizer::FragmentNeeds> replayed{};
     std::vector<pipeline::Feature> features{};  // what a profile must have
     int render_targets = 1;

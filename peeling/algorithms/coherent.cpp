@@ -31,7 +31,9 @@ void note_composited(CoherentPeel& peel, const FragmentBatch& in, const Outputs&
 
 }  // namespace
 
-// Pass 3: how many fragments follow in order. The first that does not inverts the count, which stops it; so does 128.
+// Pass 3 counts, in the stencil, the fragments that arrive in depth order. The first fragment out of order inverts the
+// count. The stencil test (128 > count) then fails for every later fragment, as it also does once the count reaches
+// 128.
 void count_run(CoherentPeel& peel) {
     Region& region = peel.region;
     region.clear(peel.last_in_order, {.depth = 0.0f});

@@ -13,7 +13,8 @@ using namespace pipeline;
 
 namespace {
 
-// What is nearest behind `peeled`. A compare that is more than one of codes goes before the units, in the program.
+// Draws the nearest fragment behind `peeled`. A comparison of more than codes is done in the program, before the depth
+// units.
 Drawn peel(Region& region, Target peeled, Target nearest, Target layer, bool first) {
     const DepthCompare compare = region.frame().depth_compare();
     const bool in_program = !first && !compare.is_plain();

@@ -5,6 +5,10 @@
 // Passes     1 + max(1, ceil(N/2)) with the min-max exit; the paper's exit: floor(N/2) + 2. Ties at a peeled depth merge.
 // Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = 1 - transmittance),
 //            back = what lies behind far, over the background.
+// By default these passes are the definition and do not run: in replay execution, on 8-bit targets,
+//            peeling/closed/dual_closed.cpp finds what they leave from each pixel's sorted fragments.
+//            tests/peeling/execution_test.cpp and sequences_test.cpp prove the two equal: bits, counters, queries and
+//            trace. Where the closed form declines (its head says when), they run.
 #include <utility>
 
 #include "peeling/algorithms/runs.h"
@@ -35,10 +39,10 @@ Drawn peel(Region& region, const DualTargets& t) {
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
     return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        PeelLanes place;
-        classify(compare, in, own.color(0), own.depth(2), place);
-        write_min_max(in, place.is_between, out.color[0]);
-        write_layers(in, own.color(1), place, out.color[1], out.color[2]);
+        PeelLanes side;
+        classify(compare, in, own.color(0), own.depth(2), side);
+        write_min_max(in, side.is_between, out.color[0]);
+        write_layers(in, own.color(1), side, out.color[1], out.color[2]);
     });
 }
 
@@ -73,21 +77,6 @@ void trace_peel(Region& region, const DualTargets& t) {
         });
 }
 
-// The front over the back, alpha 1; the front's alpha is 1 - transmittance (algorithms.md 5).
-void publish(Region& region, Target front, Target back) {
-    const Target result = region.make_color();
-    PassState state;
-    state.color[0] = result;
-    state.reads = {front, back};
-    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = composited(own.color(0)[c][i], 1.0f - own.color(0)[3][i], own.color(1)[c][i]);
-        for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
-    }));
-    region.publish(result);
-}
-
 }  // namespace
 
 void dual(Region& region) {
@@ -108,7 +97,7 @@ void dual(Region& region) {
         // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
         if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::steady))) break;
     }
-    publish(region, t.front, t.back);
+    publish_over(region, t.front, FrontAlpha::covers, t.back);
 }
 
 }  // namespace strata::peeling

@@ -27,15 +27,15 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
     return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
-        PeelLanes place;
-        classify(compare, in, own.color(0), own.depth(1), place);
-        write_min_max(in, place.is_between, out.color[0]);
+        PeelLanes side;
+        classify(compare, in, own.color(0), own.depth(1), side);
+        write_min_max(in, side.is_between, out.color[0]);
         premultiply(in.color, out.color[1], lanes(in));
         out.color[2] = in.color;
         out.traced = true;
         for (std::size_t i = 0; i < lanes(in); ++i) {
-            const std::uint32_t is_near = place.is_near[i], is_far = place.is_far[i];
-            out.alive[i] &= is_near | is_far | place.is_between[i];
+            const std::uint32_t is_near = side.is_near[i], is_far = side.is_far[i];
+            out.alive[i] &= is_near | is_far | side.is_between[i];
             for (std::size_t c = 0; c < 4; ++c) {  // (0, 0, 0, 0) is neutral in both blends
                 if (is_near == 0) out.color[1][c][i] = 0.0f;
                 if (is_far == 0) out.color[2][c][i] = 0.0f;

@@ -66,9 +66,9 @@ class KBuffer {
         Entry fragment{depth_as_float(in.code[i], format_),
                        {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
         if (fragment.depth < pushed_out_[in.pixel[i]]) overflow_.add(in.pixel[i]);
-        std::size_t place = k;
-        for (; place > 0 && entries[place - 1].depth > fragment.depth; --place) entries[place] = entries[place - 1];
-        entries[place] = fragment;
+        std::size_t slot = k;
+        for (; slot > 0 && entries[slot - 1].depth > fragment.depth; --slot) entries[slot] = entries[slot - 1];
+        entries[slot] = fragment;
         const bool is_full = entries[k].depth != no_entry;
         push_out(in.pixel[i], is_full ? entries[0] : Entry{}, out, i);
         const std::size_t first = is_full ? 1 : 0;

@@ -30,7 +30,7 @@ struct Part {
     Rect rect;
 };
 
-// What was found in some parts, and which parts of them did not fit into the memory.
+// The findings in some parts of the frame, and the parts that did not fit into the memory.
 struct Looked {
     AuditResult found;
     std::vector<Part> left;

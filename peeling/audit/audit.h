@@ -24,7 +24,7 @@ namespace strata::peeling {
 struct AuditMemory {
     std::uint64_t bytes = 0;  // of all workers
     int workers = 1;          // as many as look at once
-    // Of one worker.
+    // Half of a worker's share is for traces, the other half for fragments.
     [[nodiscard]] std::uint64_t trace_bytes() const noexcept { return bytes / static_cast<unsigned>(workers) / 2; }
     [[nodiscard]] std::uint64_t fragments() const noexcept { return trace_bytes() / bytes_a_fragment; }
     static constexpr std::uint64_t bytes_a_fragment = 52;

@@ -16,7 +16,7 @@ struct AuditResult {
     int layers_max = 0;     // N: distinct visible keys of the deepest pixel
     int fragments_max = 0;  // M: visible fragments of the deepest pixel
     std::optional<std::uint64_t>
-        order_errors;                // places where the sequences differ; empty for an algorithm without an order
+        order_errors;                // positions where the sequences differ; empty for an algorithm without an order
     std::uint64_t lost_by_ties = 0;  // visible fragments that the tie policy does not keep
     PixelCount ties, misordered;     // pixels with equal keys; pixels with order errors
     double max_difference = 0;       // in 1/255, over r, g and b

@@ -84,7 +84,7 @@ void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTrac
     compare(fragments, pixel, are_alike(fragments, kept_, by_key_));
 }
 
-// What an alpha test GREATER 0 leaves.
+// The fragments that pass an alpha test GREATER 0.
 std::span<const KeyedFragment> PixelAudit::with_alpha(std::span<const KeyedFragment> fragments) {
     with_alpha_.clear();
     for (const KeyedFragment& f : fragments)

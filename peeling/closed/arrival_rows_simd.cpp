@@ -1,4 +1,5 @@
 // peeling/closed/arrival_rows_simd.cpp - arrival_rows.h for every instruction set.
+// How kernels are written: kernels.md. Tests: tests/peeling/closed/arrival_rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/closed/arrival_rows_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -51,7 +52,7 @@ struct AppendOf {
               filter_{raster::filter_of(depth_, triangle)},
               places_{to_.places} {}
 
-        // Of a large triangle, covered from the first lane on.
+        // Takes neighbours of a large triangle: they are covered from the first lane on.
         HWY_INLINE void operator()(const raster::Row& row, const raster::Weights& b) {
             const WordMask covered = hn::RebindMask(U32{}, row.covered);
             const WordVec count = hn::IfThenElseZero(covered, hn::LoadU(U32{}, to_.count + row.pixel));
@@ -62,7 +63,7 @@ struct AppendOf {
             if (HWY_UNLIKELY(!hn::AllFalse(U32{}, is_hidden))) hide(row.pixel, keys.key, is_hidden);
             put(row, words_of(keys.key, place_of(row, b)), is_visible, count);
         }
-        // Of a small one.
+        // Takes pixels of a small triangle, wherever they lie.
         HWY_INLINE void operator()(const raster::Pixels& pixels, const raster::Weights& b) {
             if (HWY_UNLIKELY(!has_places())) return;
             const Keys<U32> keys = keys_at(pixels, b);

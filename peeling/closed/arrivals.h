@@ -61,20 +61,20 @@ template <bool by_shader_z>
 }
 
 inline void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {
-    for (std::uint32_t k = 0; k < block.depth; ++k)
+    for (std::uint32_t k = 0; k < block.height; ++k)
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-            std::uint32_t rows = k < block.visible[lane] ? k : 0;
-            while (rows > 0 && block.place(lane, rows - 1) > block.place(lane, k)) --rows;
-            before[k * block_lanes + lane] = rows;
+            std::uint32_t levels = k < block.visible[lane] ? k : 0;
+            while (levels > 0 && block.place(lane, levels - 1) > block.place(lane, k)) --levels;
+            before[k * block_lanes + lane] = levels;
         }
 }
 
 }  // namespace scalar
 
-// A row is sixteen words. What is done with rows stands in `Rows`: the loops here, vectors in columns_simd.cpp.
+// A level is sixteen words. What is done with levels stands in `Levels`: the loops here, vectors in columns_simd.cpp.
 namespace scalar {
 
-struct Rows {
+struct Levels {
     // The lesser of each pair to `a`, the greater to `b`.
     static void exchange(std::uint64_t* a, std::uint64_t* b) noexcept {
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
@@ -89,49 +89,49 @@ struct Rows {
         std::copy_n(from.count + pixel, block_lanes, block.visible.begin());
         std::copy_n(from.hidden + pixel, block_lanes, block.hidden.begin());
         std::copy_n(from.at_surface + pixel, block_lanes, block.at_surface.begin());
-        block.depth = *std::ranges::max_element(block.visible);
-        return block.depth > 0 || *std::ranges::max_element(block.hidden) > 0;
+        block.height = *std::ranges::max_element(block.visible);
+        return block.height > 0 || *std::ranges::max_element(block.hidden) > 0;
     }
-    [[nodiscard]] static std::uint32_t nearest(const std::uint64_t* row) noexcept {
-        return static_cast<std::uint32_t>(*std::min_element(row, row + block_lanes) >> 32);
+    [[nodiscard]] static std::uint32_t nearest(const std::uint64_t* level) noexcept {
+        return static_cast<std::uint32_t>(*std::min_element(level, level + block_lanes) >> 32);
     }
-    // Row k: words where a column is that high, ~0 elsewhere.
+    // Level k: words where a column is that high, ~0 elsewhere.
     static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k,
-                     std::uint64_t* row) noexcept {
+                     std::uint64_t* level) noexcept {
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
-            row[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
+            level[lane] = k < visible[lane] ? words[lane] : ~std::uint64_t{0};
     }
-    // The same for all rows, each column from its end.
-    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
-                              std::uint64_t* rows) noexcept {
-        for (std::size_t k = 0; k < depth; ++k)
+    // Loads all levels, each column from its end.
+    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t height,
+                              std::uint64_t* levels) noexcept {
+        for (std::size_t k = 0; k < height; ++k)
             for (std::size_t lane = 0; lane < block_lanes; ++lane)
-                rows[k * block_lanes + lane] = k < visible[lane]
-                                                   ? from.word[(visible[lane] - 1 - k) * from.stride + pixel + lane]
-                                                   : ~std::uint64_t{0};
+                levels[k * block_lanes + lane] = k < visible[lane]
+                                                     ? from.word[(visible[lane] - 1 - k) * from.stride + pixel + lane]
+                                                     : ~std::uint64_t{0};
     }
-    static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) noexcept {
+    static void find_ties(const std::uint64_t* levels, std::size_t height, LaneWords& has_ties) noexcept {
         has_ties = {};
-        for (std::size_t i = block_lanes; i < depth * block_lanes; ++i) {
-            const std::uint64_t before = rows[i - block_lanes];
-            if ((rows[i] ^ before) >> 32 == 0 && rows[i] != ~std::uint64_t{0}) has_ties[i % block_lanes] = ~0u;
+        for (std::size_t i = block_lanes; i < height * block_lanes; ++i) {
+            const std::uint64_t before = levels[i - block_lanes];
+            if ((levels[i] ^ before) >> 32 == 0 && levels[i] != ~std::uint64_t{0}) has_ties[i % block_lanes] = ~0u;
         }
     }
 };
 
 }  // namespace scalar
 
-// Merge exchange compares the same rows whatever they hold, so sixteen columns go through it side by side.
-template <class Rows>
-[[gnu::always_inline]] inline void merge_exchange(std::uint64_t* rows, std::size_t depth) noexcept {
-    if (depth < 2) return;
+// Merge exchange compares the same levels whatever they hold, so sixteen columns go through it side by side.
+template <class Levels>
+[[gnu::always_inline]] inline void merge_exchange(std::uint64_t* levels, std::size_t height) noexcept {
+    if (height < 2) return;
     std::size_t top = 1;
-    while (top * 2 < depth) top *= 2;
+    while (top * 2 < height) top *= 2;
     for (std::size_t p = top; p > 0; p /= 2) {
         std::size_t r = 0, d = p;
         for (std::size_t q = top;; q /= 2) {
-            for (std::size_t i = 0; i + d < depth; ++i)
-                if ((i & p) == r) Rows::exchange(rows + i * block_lanes, rows + (i + d) * block_lanes);
+            for (std::size_t i = 0; i + d < height; ++i)
+                if ((i & p) == r) Levels::exchange(levels + i * block_lanes, levels + (i + d) * block_lanes);
             if (q == p) break;
             d = q - p;
             r = p;
@@ -141,38 +141,38 @@ template <class Rows>
 
 // Ascending. What was drawn in depth order, either way, but for a few fragments at a column's end, needs only those inserted. Far to
 // near it is loaded from the end, where columns of different heights begin together.
-template <class Rows>
+template <class Levels>
 [[gnu::always_inline]] inline void sort_words(const Arrivals& from, std::size_t pixel, const LaneWords& visible,
-                                              std::size_t depth, std::uint64_t* rows) noexcept {
+                                              std::size_t height, std::uint64_t* levels) noexcept {
     constexpr std::size_t few = 8;
-    const auto row = [rows](std::size_t k) { return rows + k * block_lanes; };
-    const auto rises = [row](std::size_t k) { return Rows::in_order(row(k), row(k + 1)); };
+    const auto level = [levels](std::size_t k) { return levels + k * block_lanes; };
+    const auto rises = [level](std::size_t k) { return Levels::in_order(level(k), level(k + 1)); };
     std::size_t rising = 0;
-    for (std::size_t k = 0; k < depth && k - rising <= few; ++k) {
-        Rows::load(from.word + k * from.stride + pixel, visible, static_cast<std::uint32_t>(k), row(k));
+    for (std::size_t k = 0; k < height && k - rising <= few; ++k) {
+        Levels::load(from.word + k * from.stride + pixel, visible, static_cast<std::uint32_t>(k), level(k));
         rising = k == rising && (k == 0 || rises(k - 1)) ? k + 1 : rising;
     }
-    if (depth - rising <= few) {
-        for (std::size_t k = rising; k < depth; ++k)
-            for (std::size_t at = k; at > 0 && !rises(at - 1); --at) Rows::exchange(row(at - 1), row(at));
+    if (height - rising <= few) {
+        for (std::size_t k = rising; k < height; ++k)
+            for (std::size_t at = k; at > 0 && !rises(at - 1); --at) Levels::exchange(level(at - 1), level(at));
         return;
     }
-    Rows::load_from_end(from, pixel, visible, depth, rows);
-    std::size_t first = depth - 1;
+    Levels::load_from_end(from, pixel, visible, height, levels);
+    std::size_t first = height - 1;
     while (first > 0 && rises(first - 1)) --first;
-    if (first > few) return merge_exchange<Rows>(rows, depth);
+    if (first > few) return merge_exchange<Levels>(levels, height);
     for (std::size_t k = first; k-- > 0;)
-        for (std::size_t at = k; at + 1 < depth && !rises(at); ++at) Rows::exchange(row(at), row(at + 1));
+        for (std::size_t at = k; at + 1 < height && !rises(at); ++at) Levels::exchange(level(at), level(at + 1));
 }
 
-template <class Rows>
-[[gnu::always_inline]] inline bool take_rows(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
-                                             std::uint64_t* rows) noexcept {
-    if (!Rows::find_heights(from, pixel, block)) return false;
-    sort_words<Rows>(from, pixel, block.visible, block.depth, rows);
-    Rows::find_ties(rows, block.depth, block.has_ties);
-    block.nearest = block.depth > 0 ? Rows::nearest(rows) : ~0u;
-    block.rows = rows;
+template <class Levels>
+[[gnu::always_inline]] inline bool take_levels(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
+                                               std::uint64_t* levels) noexcept {
+    if (!Levels::find_heights(from, pixel, block)) return false;
+    sort_words<Levels>(from, pixel, block.visible, block.height, levels);
+    Levels::find_ties(levels, block.height, block.has_ties);
+    block.nearest = block.height > 0 ? Levels::nearest(levels) : ~0u;
+    block.levels = levels;
     return true;
 }
 
@@ -180,11 +180,12 @@ template <class Rows>
 
 // Puts the living fragments of a batch down; false if there was no room for one of them: then `to` is of no more use.
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept;
-// The sixteen columns from `pixel` on, sorted into `rows`, of which there is room for as many as the highest has; all of `block` but
-// where it lies and where its colours are. False if no fragment is there.
+// The sixteen columns from `pixel` on, sorted into `levels`, of which there is room for as many as the highest has; all
+// of `block` but where it lies and where its colours are. False if no fragment is there.
 [[nodiscard]] bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block,
-                              std::uint64_t* rows) noexcept;
-// before[row * block_lanes + lane] = how many rows there are up to the last one below `row` whose fragment came earlier; 0 if none did.
+                              std::uint64_t* levels) noexcept;
+// For every fragment of the block, at [level * block_lanes + lane]: the number of levels up to the last one nearer than
+// it whose fragment arrived earlier; 0 if none did.
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept;
 
 }  // namespace strata::peeling

@@ -1,12 +1,11 @@
 // peeling/closed/block_passes.h - the passes of a peel over a block of columns without equal depths, on UNORM8 targets: the scalar twins
 // of block_passes_simd.cpp.
 //
-// Rule     Pass i takes row i from the front of a column, dual peeling also row i from its back, until they meet. Columns do not
-//          meet: the twins go from column to column, the vectors through many side by side; what is beyond a column's end
-//          changes nothing.
-//          Dual front: the UNDER of min_max.h, stored under MAX with the front that other fragments pass through. Dual back: the
-//          code of the far colour, OVER what is there, where its alpha is not 0. Front to back: the code of the colour times
-//          alpha, UNDER what is there.
+// Rule     Pass i takes level i of a column from the front, dual peeling also level i from its back, until they meet.
+//          Columns do not meet: the twins go from column to column, the vectors through many side by side; what is
+//          beyond a column's end changes nothing. Dual front: the UNDER of under_text-inl.h, stored under MAX with the
+//          front that other fragments pass through. Dual back: the code of the far colour, OVER what is there, where
+//          its alpha is not 0. Front to back: the code of the colour times alpha, UNDER what is there.
 // Tests    tests/peeling/closed/columns_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <algorithm>
@@ -14,13 +13,13 @@
 
 #include "peeling/closed/columns.h"
 #include "peeling/programs/programs.h"
+#include "peeling/programs/under.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/stages/blend_unorm8.h"
 
 namespace strata::peeling {
 
-using BlockCodes = std::array<LaneWords, 4>;                    // UNORM8 codes by channel
-enum class FrontAlpha : std::uint8_t { covers, lets_through };  // which of the two a front's alpha says
+using BlockCodes = std::array<LaneWords, 4>;  // UNORM8 codes by channel
 
 inline namespace strict {
 namespace scalar {
@@ -35,11 +34,11 @@ using Codes = std::array<std::uint32_t, 4>;
 
 // `others`: how many more fragments the pixel has, before and behind.
 inline void blend_near(const Color& color, std::uint32_t others, Codes& front) noexcept {
-    const float let_through = 1.0f - pipeline::unorm8_value(front[3]);
+    const float through = let_through(OneFloat{}, pipeline::unorm8_value(front[3]));
     for (std::size_t c = 0; c < 4; ++c) {
-        const float under = pipeline::unorm8_value(front[c]) + let_through * (color[3] * color[c]);
-        const float covered = 1.0f - let_through * (1.0f - color[3]);
-        front[c] = std::max(others > 0 ? front[c] : 0u, std::uint32_t{pipeline::to_unorm8(c == 3 ? covered : under)});
+        const float blended = c == 3 ? covered(OneFloat{}, through, color[3])
+                                     : under(pipeline::unorm8_value(front[c]), through, color[3], color[c]);
+        front[c] = std::max(others > 0 ? front[c] : 0u, std::uint32_t{pipeline::to_unorm8(blended)});
     }
 }
 
@@ -107,13 +106,12 @@ inline void codes_of(const std::uint32_t* words, BlockCodes& codes) noexcept {
 inline void composite(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning,
                       std::uint32_t* words) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const float alpha = pipeline::unorm8_value(front[3][lane]);
-        const float let_through = meaning == FrontAlpha::covers ? 1.0f - alpha : alpha;
+        const float through = through_front(meaning, pipeline::unorm8_value(front[3][lane]));
         words[lane] = 0xff000000u;
         for (std::size_t c = 0; c < 3; ++c) {
             const float behind = pipeline::unorm8_value(back[c][lane]);
             const std::uint32_t code =
-                pipeline::to_unorm8(composited(pipeline::unorm8_value(front[c][lane]), let_through, behind));
+                pipeline::to_unorm8(composited(pipeline::unorm8_value(front[c][lane]), through, behind));
             words[lane] |= code << (8 * c);
         }
     }
@@ -127,7 +125,7 @@ void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& bac
 void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding);
 // Sixteen words of an rgba8 target, red lowest.
 [[nodiscard]] BlockCodes codes_of(const std::uint32_t* words);
-// What the last quad of a peel stores there: the front over what is behind, alpha 1.
+// Stores there what the last quad of a peel stores: the front over the colour behind it, alpha 1.
 void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words);
 
 }  // namespace strata::peeling

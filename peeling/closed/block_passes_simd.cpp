@@ -1,4 +1,6 @@
-// peeling/closed/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at a time.
+// peeling/closed/block_passes_simd.cpp - the loops of block_passes.h for every instruction set: a vector of columns at
+// a time.
+// How kernels are written: kernels.md. Tests: tests/peeling/closed/columns_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/closed/block_passes_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -24,6 +26,12 @@ HWY_INLINE FloatVec float_of(WordVec code) { return hn::ConvertTo(Floats{}, hn::
 HWY_INLINE FloatVec value_of(WordVec code) { return pipeline::HWY_NAMESPACE::unorm8_values(Words{}, code); }
 HWY_INLINE WordVec code_of(FloatVec x) { return pipeline::HWY_NAMESPACE::unorm8_codes(Words{}, x); }
 
+struct AllLanes {
+    HWY_INLINE static FloatVec all(float v) { return hn::Set(Floats{}, v); }
+};
+
+#include "peeling/programs/under_text-inl.h"
+
 // Unorm8Arithmetic::combine with BlendEquation::add.
 template <pipeline::BlendRounding rounding>
 HWY_INLINE WordVec blended(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
@@ -41,7 +49,7 @@ class Columns {
     HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane) : block_{block}, lane_{lane} {
         visible_ = hn::LoadU(Words{}, &block.visible[lane]);
         alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
-        is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.depth)));
+        is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.height)));
     }
     HWY_INLINE void load(const BlockCodes& codes, WordVec (&to)[4]) const {
         for (std::size_t c = 0; c < 4; ++c) to[c] = hn::LoadU(Words{}, &codes[c][lane_]);
@@ -54,12 +62,12 @@ class Columns {
         WordVec front[4], back[4];
         load(front_codes, front);
         load(back_codes, back);
-        for (std::uint32_t pass = 0; 2 * pass < block_.depth; ++pass) {
+        for (std::uint32_t pass = 0; 2 * pass < block_.height; ++pass) {
             const WordMask has_near = hn::Lt(hn::Set(Words{}, 2 * pass), visible_);
-            blend_near(take(row(pass), has_near), has_near, front);
-            if (2 * pass + 1 == block_.depth) break;  // no column has a far one any more
+            blend_near(take(level(pass), has_near), has_near, front);
+            if (2 * pass + 1 == block_.height) break;  // no column has a far one any more
             const WordMask has_far = hn::Lt(hn::Set(Words{}, 2 * pass + 1), visible_);
-            const WordVec place = is_full_ ? row(block_.depth - 1 - pass) : far_places(pass, has_far);
+            const WordVec place = is_full_ ? level(block_.height - 1 - pass) : far_places(pass, has_far);
             blend_far(take(place, has_far), back);
         }
         store(front, front_codes);
@@ -69,8 +77,8 @@ class Columns {
     HWY_INLINE void front_alone(BlockCodes& front_codes) const {
         WordVec front[4];
         load(front_codes, front);
-        for (std::uint32_t pass = 0; pass < block_.depth; ++pass)
-            blend_front(take(row(pass), hn::Lt(hn::Set(Words{}, pass), visible_)), front);
+        for (std::uint32_t pass = 0; pass < block_.height; ++pass)
+            blend_front(take(level(pass), hn::Lt(hn::Set(Words{}, pass), visible_)), front);
         store(front, front_codes);
     }
 
@@ -79,18 +87,18 @@ class Columns {
         FloatVec channel[4];
     };
 
-    HWY_INLINE WordVec row(std::size_t k) const {
+    HWY_INLINE WordVec level(std::size_t k) const {
         WordVec place, key;
-        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.rows + k * block_lanes + lane_),
+        hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.levels + k * block_lanes + lane_),
                              place, key);
         return place;
     }
     HWY_INLINE WordVec far_places(std::uint32_t pass, WordMask has) const {
         const Words d;
-        const WordVec row = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
+        const WordVec level = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
         const WordVec column = hn::Add(hn::Set(d, static_cast<std::uint32_t>(lane_)), hn::Iota(d, 0));
-        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(row), column));
-        return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.rows), hn::BitCast(Signed{}, word));
+        const WordVec word = hn::ShiftLeft<1>(hn::Add(hn::ShiftLeft<4>(level), column));
+        return hn::GatherIndex(d, reinterpret_cast<const std::uint32_t*>(block_.levels), hn::BitCast(Signed{}, word));
     }
 
     // With gathers, or where the places are one or follow each other, without.
@@ -112,15 +120,13 @@ class Columns {
     }
 
     HWY_INLINE void blend_near(const Color& color, WordMask has, WordVec (&front)[4]) const {
-        const FloatVec one = hn::Set(Floats{}, 1.0f), alpha = color.channel[3];
-        const FloatVec let_through = hn::Sub(one, value_of(front[3]));
+        const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, value_of(front[3]));
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
         const WordMask others = hn::Ne(alive_, own);
         for (std::size_t c = 0; c < 4; ++c) {
-            const FloatVec under =
-                c == 3 ? hn::Sub(one, hn::Mul(let_through, hn::Sub(one, alpha)))
-                       : hn::Add(value_of(front[c]), hn::Mul(let_through, hn::Mul(alpha, color.channel[c])));
-            front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(under)));
+            const FloatVec blended = c == 3 ? covered(AllLanes{}, through, alpha)
+                                            : under(value_of(front[c]), through, alpha, color.channel[c]);
+            front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(blended)));
         }
     }
 
@@ -181,11 +187,12 @@ void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meani
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const FloatVec alpha = value_of(hn::LoadU(d, &front[3][lane]));
-        const FloatVec let_through = meaning == FrontAlpha::covers ? hn::Sub(hn::Set(Floats{}, 1.0f), alpha) : alpha;
+        const FloatVec through = meaning == FrontAlpha::covers ? let_through(AllLanes{}, alpha) : alpha;
         WordVec word = hn::Set(d, 0xff000000u);
         for (std::size_t c = 0; c < 3; ++c) {
-            const FloatVec behind = hn::Mul(let_through, value_of(hn::LoadU(d, &back[c][lane])));
-            const WordVec code = code_of(hn::Add(value_of(hn::LoadU(d, &front[c][lane])), behind));
+            const FloatVec near = value_of(hn::LoadU(d, &front[c][lane])),
+                           behind = value_of(hn::LoadU(d, &back[c][lane]));
+            const WordVec code = code_of(composited(near, through, behind));
             word = hn::Or(word, hn::ShiftLeftSame(code, static_cast<int>(8 * c)));
         }
         hn::StoreU(word, d, words + lane);

@@ -1,8 +1,8 @@
 // peeling/closed/closed_form.h - peels whose whole course a pixel's sorted fragments decide: run pixel by pixel instead of pass by pass.
 //
-// Rule     A closed form leaves what its algorithm's passes would leave, ties included: the same codes, by the same stage
-//          functions in the same order for every pixel, and the same counters, queries and trace. It offers itself: where it
-//          does not apply it returns false and has counted nothing, and the passes run.
+// Rule     A closed form leaves what its algorithm's passes would leave, ties included: the same codes, by the same
+//          stage functions in the same order for every pixel, and the same counters, queries and trace. It is tried
+//          before them; where it does not apply it returns false, has counted nothing, and the passes run.
 // Source   algorithms.md 0.7.
 // Tests    tests/peeling/execution_test.cpp, sequences_test.cpp: against literal execution
 #pragma once
@@ -17,7 +17,9 @@ namespace strata::peeling {
 [[nodiscard]] bool dual_closed(pipeline::Region& region);
 [[nodiscard]] bool front_to_back_closed(pipeline::Region& region);
 
-// A query that every layer answers, passes that see one depth of a fragment, and nothing that wants the layers one by one.
+// True if the frame is peeled to its end: every layer answers the query, all passes see the same depth of a fragment,
+// and the caller keeps no single layers. A closed form declines every other frame, and one without memory for
+// fragments.
 [[nodiscard]] inline bool peels_to_the_end(const pipeline::Frame& frame) {
     using pipeline::TerminationRule;
     const bool exact =

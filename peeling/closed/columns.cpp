@@ -110,7 +110,7 @@ class RegionColumns {
         return true;
     }
 
-    // By pixel, and by row what its fragments take of places.
+    // Counts the fragments of every pixel, and the places that the fragments of every row of pixels take.
     void find_coverage(std::span<std::uint32_t> coverage, std::span<std::uint32_t> places) {
         std::ranges::fill(coverage, 0u);
         std::ranges::fill(places, 0u);
@@ -123,13 +123,13 @@ class RegionColumns {
 
     // One piece of memory, cut anew for every band; another one where a single row needs more.
     void take_memory(const Band& band) {
-        const std::size_t words = band.ranks * band.stride(), rows = band.ranks * block_lanes;
+        const std::size_t words = band.ranks * band.stride(), levels = band.ranks * block_lanes;
         const std::size_t places = first_place + band.places + block_lanes;
-        const std::size_t needed = (words + rows) * word_bytes + places * color_bytes;
+        const std::size_t needed = (words + levels) * word_bytes + places * color_bytes;
         if (memory_.size() < needed) memory_ = shortcuts_.arena().take<std::byte>(needed);
         word_ = reinterpret_cast<std::uint64_t*>(memory_.data());
-        rows_ = word_ + words;
-        auto* const colors = reinterpret_cast<float*>(rows_ + rows);
+        levels_ = word_ + words;
+        auto* const colors = reinterpret_cast<float*>(levels_ + levels);
         for (std::size_t c = 0; c < 4; ++c) color_[c] = colors + c * places;
     }
 
@@ -160,7 +160,7 @@ class RegionColumns {
         });
     }
 
-    // Twice as many triangles each time: what does not fit is known soon.
+    // Each part has twice as many triangles as the one before: if they do not fit, that is known soon.
     [[nodiscard]] bool place_rows(const Band& band) {
         const std::uint64_t before = fragments_.rasterized;
         bool fits = true;
@@ -184,7 +184,7 @@ class RegionColumns {
         ColumnBlock block;
         for (std::size_t c = 0; c < 4; ++c) block.color[c] = color_[c];
         for (std::size_t pixel = 0; pixel < pixels; pixel += block_lanes) {
-            if (!take_block(arrivals_, pixel, block, rows_)) continue;
+            if (!take_block(arrivals_, pixel, block, levels_)) continue;
             block.first = first_of(band) + pixel;
             block.count = static_cast<int>(std::min(pixels - pixel, block_lanes));
             fragments_.nearest = std::min(fragments_.nearest, block.nearest);
@@ -202,7 +202,7 @@ class RegionColumns {
     Arrivals arrivals_;
     std::span<std::uint32_t> count_, hidden_, at_surface_;
     std::span<std::byte> memory_;
-    std::uint64_t *word_ = nullptr, *rows_ = nullptr;
+    std::uint64_t *word_ = nullptr, *levels_ = nullptr;
     std::array<float*, 4> color_{};
 };
 

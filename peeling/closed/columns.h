@@ -24,21 +24,21 @@ using LaneWords = std::array<std::uint32_t, block_lanes>;
 struct ColumnBlock {
     std::size_t first = 0;        // its first pixel in the region
     int count = 0;                // its pixels; the columns behind the region's last pixel are empty
-    std::uint32_t depth = 0;      // rows: of the highest column
+    std::uint32_t height = 0;     // levels: of the tallest column
     std::uint32_t nearest = ~0u;  // the least key
     LaneWords visible{};          // heights
     LaneWords hidden{};           // fragments at the opaque surface or behind it
     LaneWords at_surface{};       // of these, the ones exactly at it
     LaneWords has_ties{};         // not 0: a depth stands twice in the column
-    const std::uint64_t* rows =
-        nullptr;  // rows of sixteen: the key above, below it where the colour stands; ~0 above a column's end
+    // A level is sixteen words, one a column: above, the key; below, the place of the colour. ~0 above a column's end.
+    const std::uint64_t* levels = nullptr;
     std::array<const float*, 4> color{};
 
     [[nodiscard]] std::uint32_t key(std::size_t lane, std::size_t k) const noexcept {
-        return static_cast<std::uint32_t>(rows[k * block_lanes + lane] >> 32);
+        return static_cast<std::uint32_t>(levels[k * block_lanes + lane] >> 32);
     }
     [[nodiscard]] std::uint32_t place(std::size_t lane, std::size_t k) const noexcept {
-        return static_cast<std::uint32_t>(rows[k * block_lanes + lane]);
+        return static_cast<std::uint32_t>(levels[k * block_lanes + lane]);
     }
     [[nodiscard]] bool has_any_tie() const noexcept {
         std::uint32_t any = 0;

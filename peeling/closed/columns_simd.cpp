@@ -1,5 +1,6 @@
-// peeling/closed/columns_simd.cpp - arrivals.h for every instruction set. Loops that vectorise are compiled again; where the pixels of a
-// vector are neighbours with as many arrivals each, their words and counts are stored as vectors.
+// peeling/closed/columns_simd.cpp - arrivals.h for every instruction set. Loops that vectorise are compiled again;
+// where the pixels of a vector are neighbours with as many arrivals each, their words and counts are stored as vectors.
+// How kernels are written: kernels.md. Tests: tests/peeling/closed/columns_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/closed/columns_simd.cpp"
 #include "hwy/foreach_target.h"
@@ -134,36 +135,37 @@ bool append_batch(Arrivals& to, const pipeline::FragmentBatch& in, const std::ui
     return true;
 }
 
-HWY_INLINE WordVec places_at(const ColumnBlock& block, std::size_t row, std::size_t lane) {
+HWY_INLINE WordVec places_at(const ColumnBlock& block, std::size_t level, std::size_t lane) {
     WordVec place, key;
-    hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block.rows + row * block_lanes + lane), place,
-                         key);
+    hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block.levels + level * block_lanes + lane),
+                         place, key);
     return place;
 }
 
-// Downwards from each row, until every column that has an earlier arrival has found it.
+// Downwards from each level, until every column that has an earlier arrival has found it.
 void arrived_before(const ColumnBlock& block, std::uint32_t* before) {
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const WordVec visible = hn::LoadU(d, &block.visible[lane]);
         WordVec first = hn::Set(d, ~0u);
-        for (std::uint32_t k = 0; k < block.depth; ++k) {
+        for (std::uint32_t k = 0; k < block.height; ++k) {
             const WordVec place = places_at(block, k, lane);
             WordMask open = hn::And(hn::Lt(hn::Set(d, k), visible), hn::Lt(first, place));
-            WordVec rows = hn::Zero(d);
-            for (std::uint32_t row = k; !hn::AllFalse(d, open); --row) {
-                const WordMask found = hn::And(open, hn::Lt(places_at(block, row - 1, lane), place));
-                rows = hn::IfThenElse(found, hn::Set(d, row), rows);
+            WordVec levels = hn::Zero(d);
+            for (std::uint32_t level = k; !hn::AllFalse(d, open); --level) {
+                const WordMask found = hn::And(open, hn::Lt(places_at(block, level - 1, lane), place));
+                levels = hn::IfThenElse(found, hn::Set(d, level), levels);
                 open = hn::AndNot(found, open);
             }
-            hn::StoreU(rows, d, before + k * block_lanes + lane);
+            hn::StoreU(levels, d, before + k * block_lanes + lane);
             first = hn::Min(first, place);
         }
     }
 }
 
-// scalar::Rows. Not inline by itself: the loops of arrivals.h, which belong to no instruction set, come between it and its callers.
-struct VectorRows {
+// scalar::Levels. Not inline by itself: the loops of arrivals.h, which belong to no instruction set, come between it
+// and its callers.
+struct VectorLevels {
     using Wide = hn::CappedTag<std::uint64_t, block_lanes>;
     static constexpr std::size_t step = hn::MaxLanes(Wide{});
 
@@ -191,34 +193,34 @@ struct VectorRows {
             highest = hn::Max(highest, height);
             hidden = hn::Or(hidden, behind);
         }
-        block.depth = hn::GetLane(hn::MaxOfLanes(d, highest));
-        return block.depth > 0 || !hn::AllTrue(d, hn::Eq(hidden, hn::Zero(d)));
+        block.height = hn::GetLane(hn::MaxOfLanes(d, highest));
+        return block.height > 0 || !hn::AllTrue(d, hn::Eq(hidden, hn::Zero(d)));
     }
-    static std::uint32_t nearest(const std::uint64_t* row) {
-        auto least = hn::LoadU(Wide{}, row);
+    static std::uint32_t nearest(const std::uint64_t* level) {
+        auto least = hn::LoadU(Wide{}, level);
         for (std::size_t lane = step; lane < block_lanes; lane += step)
-            least = hn::Min(least, hn::LoadU(Wide{}, row + lane));
+            least = hn::Min(least, hn::LoadU(Wide{}, level + lane));
         return static_cast<std::uint32_t>(hn::GetLane(hn::MinOfLanes(Wide{}, least)) >> 32);
     }
-    static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* row) {
+    static void load(const std::uint64_t* words, const LaneWords& visible, std::uint32_t k, std::uint64_t* level) {
         for (std::size_t lane = 0; lane < block_lanes; lane += step) {
             const auto height = hn::PromoteTo(Wide{}, hn::LoadU(hn::Rebind<std::uint32_t, Wide>{}, &visible[lane]));
             const auto is_in = hn::Lt(hn::Set(Wide{}, k), height);
             hn::StoreU(hn::IfThenElse(is_in, hn::LoadU(Wide{}, words + lane), hn::Set(Wide{}, ~std::uint64_t{0})),
-                       Wide{}, row + lane);
+                       Wide{}, level + lane);
         }
     }
-    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
-                              std::uint64_t* rows) {
-        const bool is_full = std::ranges::all_of(visible, [depth](std::uint32_t height) { return height == depth; });
-        for (std::size_t k = 0; is_full && k < depth; ++k)
+    static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t height,
+                              std::uint64_t* levels) {
+        const bool is_full = std::ranges::all_of(visible, [height](std::uint32_t own) { return own == height; });
+        for (std::size_t k = 0; is_full && k < height; ++k)
             for (std::size_t lane = 0; lane < block_lanes; lane += step)
-                hn::StoreU(hn::LoadU(Wide{}, from.word + (depth - 1 - k) * from.stride + pixel + lane), Wide{},
-                           rows + k * block_lanes + lane);
-        if (!is_full) gather_from_end(from, pixel, visible, depth, rows);
+                hn::StoreU(hn::LoadU(Wide{}, from.word + (height - 1 - k) * from.stride + pixel + lane), Wide{},
+                           levels + k * block_lanes + lane);
+        if (!is_full) gather_from_end(from, pixel, visible, height, levels);
     }
-    static void gather_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t depth,
-                                std::uint64_t* rows) {
+    static void gather_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t height,
+                                std::uint64_t* levels) {
         using Index = hn::RebindToSigned<Wide>;
         const auto least = hn::Set(Index{}, static_cast<std::int64_t>(pixel)), none = hn::Set(Index{}, -1);
         const auto stride = hn::Set(Index{}, static_cast<std::int64_t>(from.stride));
@@ -228,20 +230,20 @@ struct VectorRows {
                 last[i] = (std::int64_t{visible[lane + i]} - 1) * static_cast<std::int64_t>(from.stride) +
                           static_cast<std::int64_t>(pixel + lane + i);
             auto index = hn::Load(Index{}, last);
-            for (std::size_t k = 0; k < depth; ++k, index = hn::Sub(index, stride)) {
+            for (std::size_t k = 0; k < height; ++k, index = hn::Sub(index, stride)) {
                 const auto is_in = hn::RebindMask(Wide{}, hn::Lt(none, hn::Sub(index, least)));
                 const auto word = hn::GatherIndex(Wide{}, from.word, hn::Max(index, least));
                 hn::StoreU(hn::IfThenElse(is_in, word, hn::Set(Wide{}, ~std::uint64_t{0})), Wide{},
-                           rows + k * block_lanes + lane);
+                           levels + k * block_lanes + lane);
             }
         }
     }
-    static void find_ties(const std::uint64_t* rows, std::size_t depth, LaneWords& has_ties) {
+    static void find_ties(const std::uint64_t* levels, std::size_t height, LaneWords& has_ties) {
         const auto none = hn::Set(Wide{}, ~std::uint64_t{0});
         for (std::size_t lane = 0; lane < block_lanes; lane += step) {
             auto tied = hn::Zero(Wide{}), before = none;
-            for (std::size_t k = 0; k < depth; ++k) {
-                const auto word = hn::LoadU(Wide{}, rows + k * block_lanes + lane);
+            for (std::size_t k = 0; k < height; ++k) {
+                const auto word = hn::LoadU(Wide{}, levels + k * block_lanes + lane);
                 const auto same = hn::Eq(hn::ShiftRight<32>(hn::Xor(word, before)), hn::Zero(Wide{}));
                 tied = hn::Or(tied, hn::IfThenZeroElse(hn::Eq(word, none), hn::VecFromMask(Wide{}, same)));
                 before = word;
@@ -252,8 +254,8 @@ struct VectorRows {
     }
 };
 
-[[gnu::flatten]] bool take_sorted(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) {
-    return take_rows<VectorRows>(from, pixel, block, rows);
+[[gnu::flatten]] bool take_sorted(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* levels) {
+    return take_levels<VectorLevels>(from, pixel, block, levels);
 }
 
 }  // namespace
@@ -274,9 +276,9 @@ bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t
     return to.by_shader_z ? scalar::append<true>(to, in, alive) : scalar::append<false>(to, in, alive);
 }
 
-bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* rows) noexcept {
-    if (simd_is_scalar()) return take_rows<scalar::Rows>(from, pixel, block, rows);
-    return kernel_of(HWY_DISPATCH_TABLE(take_sorted))(from, pixel, block, rows);
+bool take_block(const Arrivals& from, std::size_t pixel, ColumnBlock& block, std::uint64_t* levels) noexcept {
+    if (simd_is_scalar()) return take_levels<scalar::Levels>(from, pixel, block, levels);
+    return kernel_of(HWY_DISPATCH_TABLE(take_sorted))(from, pixel, block, levels);
 }
 
 void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {

@@ -1,5 +1,10 @@
-// peeling/closed/dual_closed.cpp - dual peeling as a closed form: pass i takes the i-th depth from the front and the i-th from the back.
+// peeling/closed/dual_closed.cpp - dual peeling as a closed form: pass i takes the i-th depth from the front and the
+// i-th from the back. It runs by default in place of the passes of peeling/algorithms/dual.cpp, which are its
+// definition: it leaves their bits, counters, queries and trace. tests/peeling/execution_test.cpp and
+// sequences_test.cpp compare the two.
 //
+// Declines   where closed_form.h says, on targets of other formats than rgba8, and on what Holds excludes: then the
+//            passes run.
 // Holds      for 8-bit targets, where MAX over codes does not ask for an order; for visible depths that MAX keeps as they are: not
 //            below the cleared -1, and not flushed as denormals.
 // Ties       a depth is one group: MAX over its fragments' blends, and over the front that every other fragment passes through.
@@ -91,9 +96,9 @@ class GroupPeel {
     [[nodiscard]] bool take(const DepthGroup& group, std::uint32_t member) {
         bool any = false;
         for (std::size_t i = 0; i < n_; ++i) {
-            near_place_.is_near[i] = group.begin[i] + member < group.end[i] ? ~0u : 0u;
-            any |= near_place_.is_near[i] != 0;
-            const bool has = near_place_.is_near[i] != 0;
+            member_.is_near[i] = group.begin[i] + member < group.end[i] ? ~0u : 0u;
+            any |= member_.is_near[i] != 0;
+            const bool has = member_.is_near[i] != 0;
             const std::size_t place = has ? block_.place(lane_[i], group.begin[i] + member) : 0;
             for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? block_.color[c][place] : 0.0f;
         }
@@ -105,7 +110,7 @@ class GroupPeel {
         for (std::size_t c = 0; c < 4; ++c) {
             encode(ChannelType::unorm8, region_.profile().half_rounding, values[c], codes_, static_cast<int>(n_));
             for (std::size_t i = 0; i < n_; ++i)
-                blended[c][i] = std::max(blended[c][i], codes_[i] & near_place_.is_near[i]);
+                blended[c][i] = std::max(blended[c][i], codes_[i] & member_.is_near[i]);
         }
     }
 
@@ -119,7 +124,7 @@ class GroupPeel {
             }
         }
         for (std::uint32_t member = 0; take(near_group_, member); ++member) {
-            scalar::write_layers(color_, front_values_, near_place_, blended_, unused_, n_);
+            scalar::write_layers(color_, front_values_, member_, blended_, unused_, n_);
             max_into(blended_, front_);
         }
     }
@@ -145,13 +150,13 @@ class GroupPeel {
     std::array<std::size_t, block_lanes> lane_;
     std::size_t n_;
     Lanes<std::uint32_t> near_, far_, codes_;
-    PeelLanes near_place_{};  // is_near: the group has the member that `take` took
+    PeelLanes member_{};  // is_near: the group has the member that `take` took
     DepthGroup near_group_, far_group_;
     ColorCodes front_, back_, dump_, blended_codes_;
     ColorLanes front_values_, color_, blended_, unused_;
 };
 
-// What MAX blending of (-z, z) onto (-1, -1) would not keep.
+// True if the region has a visible depth that MAX blending of (-z, z) onto (-1, -1) does not keep.
 bool has_foreign_depths(const RegionFragments& fragments, const DeviceProfile& profile) {
     const bool flushes = profile.denormals == DenormalRule::flush;
     return fragments.nearest < ordered_code(-1.0f) || (flushes && fragments.has_denormals);
@@ -181,10 +186,11 @@ struct Course {
     Region& region;
     const std::uint32_t* opaque;  // words of the region
     std::uint32_t* result;
-    std::vector<std::uint64_t> pixels_by_depths{};  // rows of sixteen: how many pixels have so many, by lane
+    std::vector<std::uint64_t>
+        pixels_by_depths{};  // sixteen counts, one a lane, for every number of depths: so many pixels have it
 
     void run(const ColumnBlock& block) {
-        if (block.depth == 0) return;
+        if (block.height == 0) return;
         count_depths(block);
         const BlockCodes opaque_codes = codes_of(opaque + block.first);
         BlockCodes front{}, back = opaque_codes;
@@ -201,10 +207,10 @@ struct Course {
             if (block.has_ties[lane] == 0) trace_pixel(region, block, lane);
     }
 
-    // Lane by lane, so that no count waits for the one before it; row 0 is nobody's.
+    // Lane by lane, so that no count waits for the one before it; those of 0 depths are nobody's.
     void count_depths(const ColumnBlock& block) {
-        if (pixels_by_depths.size() <= (block.depth + 1) * block_lanes)
-            pixels_by_depths.resize((block.depth + 1) * block_lanes);
+        if (pixels_by_depths.size() <= (block.height + 1) * block_lanes)
+            pixels_by_depths.resize((block.height + 1) * block_lanes);
         LaneWords depths = block.visible;
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
             if (block.has_ties[lane] != 0) depths[lane] = distinct(block, lane);
@@ -219,7 +225,8 @@ struct Course {
     }
 };
 
-// What the draws and the quad of `dual` count; its clears and copies are done, or counted here where they repeat.
+// The counters of the draws and the quad of `dual`. Clears and copies are really done, or counted here where they
+// repeat.
 Counters of_fates(const RegionFragments& fragments) {
     return {.fragments_rasterized = fragments.rasterized,
             .alpha_killed = fragments.masked,

@@ -1,5 +1,9 @@
-// peeling/closed/front_to_back_closed.cpp - front-to-back peeling as a closed form: pass i composites the i-th depth of every pixel.
+// peeling/closed/front_to_back_closed.cpp - front-to-back peeling as a closed form: pass i composites the i-th depth of
+// every pixel. It runs by default in place of the passes of peeling/algorithms/front_to_back.cpp, which are its
+// definition: it leaves their bits, counters, queries and trace. tests/peeling/execution_test.cpp and
+// sequences_test.cpp compare the two.
 //
+// Declines   where closed_form.h says: then the passes run.
 // Ties       the first arrival of a depth is its layer; the others are never seen.
 // Counters   pass i discards what lies at or before depth i - 1 (behind a pixel's last layer: at or before the opaque surface), and
 //            the depth test passes whatever is nearer than all that came before it and still counts. Fragment f does so in
@@ -21,7 +25,7 @@ using namespace pipeline;
 
 namespace {
 
-// What the passes count, summed over pixels. Index i is pass i, from 1.
+// The counts of the passes, summed over pixels. Index i is pass i, from 1.
 struct PassTallies {
     std::vector<std::uint64_t> first_passed,
         no_longer_passed;                  // fragments that begin, and cease, to pass the depth test there
@@ -40,10 +44,10 @@ class ColumnTallies {
     explicit ColumnTallies(PassTallies& tallies) : tallies_{tallies} {}
 
     void add(const ColumnBlock& block) {
-        tallies_.make_room(block.depth + 2);
-        if (columns_.size() <= block.depth) columns_.resize(block.depth + 1);
-        if (thresholds_.size() <= block.depth * block_lanes) thresholds_.resize((block.depth + 1) * block_lanes);
-        before_.resize(block.depth * block_lanes);
+        tallies_.make_room(block.height + 2);
+        if (columns_.size() <= block.height) columns_.resize(block.height + 1);
+        if (thresholds_.size() <= block.height * block_lanes) thresholds_.resize((block.height + 1) * block_lanes);
+        before_.resize(block.height * block_lanes);
         find_arrived_before(block, before_.data());
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
             if (block.has_ties[lane] != 0) {
@@ -57,7 +61,7 @@ class ColumnTallies {
         add_untied(block);
     }
 
-    // What untied columns of n fragments have in common, whatever their order of arrival.
+    // Adds the counts that all untied columns of n fragments share, whatever their order of arrival.
     void finish() {
         for (std::size_t n = 0; n < columns_.size(); ++n) {
             for (std::size_t k = 1; k <= n; ++k) {
@@ -76,7 +80,7 @@ class ColumnTallies {
         LaneWords heights;
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
             heights[lane] = block.has_ties[lane] != 0 ? 0 : block.visible[lane];
-        for (std::uint32_t k = 0; k < block.depth; ++k)
+        for (std::uint32_t k = 0; k < block.height; ++k)
             for (std::size_t lane = 0; lane < block_lanes; ++lane)
                 thresholds_[before_[k * block_lanes + lane] * block_lanes + lane] += k < heights[lane] ? 1 : 0;
     }
@@ -104,8 +108,8 @@ class ColumnTallies {
 
     PassTallies& tallies_;
     std::vector<std::uint64_t> columns_;  // untied ones, by height
-    std::vector<std::uint64_t>
-        thresholds_;  // of their fragments, rows of sixteen, by lane: how many begin to pass after so many depths
+    // Of their fragments: sixteen counts, one a lane, for every number of depths after which so many begin to pass.
+    std::vector<std::uint64_t> thresholds_;
     std::vector<std::uint32_t> before_;  // by place in the block
     std::vector<std::uint32_t> rank_;    // by place in a column: its depth, from 1
 };
@@ -168,7 +172,7 @@ class GroupComposite {
     ColorLanes color_, layer_;
 };
 
-// What the accumulated colour is cleared to, (0, 0, 0, 1), as codes.
+// The accumulated colour's clear value, (0, 0, 0, 1), as codes.
 BlockCodes cleared(const Region& region) {
     BlockCodes block{};
     Lanes<float> one;
@@ -263,7 +267,7 @@ class Rgba8Blocks {
     BlockCodes before_;
 };
 
-// The same in every other format, by the passes' own functions.
+// The blocks of a frame of any other format, composited by the passes' own stage functions.
 class OtherBlocks {
   public:
     explicit OtherBlocks(Region& region)

@@ -1,7 +1,7 @@
 // peeling/programs/average.h - the resolve of weighted_average.
 //
-// Rule     C = (sums.rgb / sums.a) (1 - t) + background t with t = (1 - sums.a / n)^n, all in binary32; the power by repeated
-//          squaring from the lowest bit of n, every product rounded. The background where n or sums.a is not above 0.
+// Rule     C = (sums.rgb / sums.a) (1 - t) + background t with t = (1 - sums.a / n)^n as average_text-inl.h computes
+//          them. The background where n or sums.a is not above 0.
 // Source   Bavoil and Myers 2008, "Weighted Average"; algorithms.md 7, erratum E8. The guard for sums.a = 0 is ours.
 // Tests    tests/peeling/programs/programs_test.cpp
 #pragma once
@@ -16,38 +16,34 @@ void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<flo
 
 namespace scalar {
 
-// n as an integer, 0 for what is not above 0. A binary32 count stops growing at 2^24, so the limit is never met.
-[[gnu::always_inline]] inline std::uint32_t whole_count(float n) noexcept {
-    const float positive = n > 0.0f ? n : 0.0f;
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(positive < 0x1p30f ? positive : 0x1p30f));
-}
+// The operations of average_text-inl.h on one lane.
+struct OneAverage {
+    static constexpr float all(float v) noexcept { return v; }
+    // n as an integer, 0 for what is not above 0. A binary32 count stops growing at 2^24, so the limit is never met.
+    static std::uint32_t whole(float n) noexcept {
+        const float positive = n > 0.0f ? n : 0.0f;
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(positive < 0x1p30f ? positive : 0x1p30f));
+    }
+    static constexpr bool any(std::uint32_t left) noexcept { return left != 0; }
+    static constexpr std::uint32_t halved(std::uint32_t left) noexcept { return left >> 1; }
+    static constexpr float if_odd(std::uint32_t left, float yes, float no) noexcept {
+        return (left & 1u) != 0 ? yes : no;
+    }
+};
+
+#include "peeling/programs/average_text-inl.h"
 
 inline void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,
                             const pipeline::ColorLanes& background, pipeline::ColorLanes& out,
                             std::size_t count) noexcept {
-    using pipeline::select;
-    pipeline::Lanes<std::uint32_t> left;
-    pipeline::Lanes<float> base, power;
-    std::uint32_t any_bits = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        left[i] = whole_count(n[i]);
-        any_bits |= left[i];
-        base[i] = 1.0f - sums[3][i] / n[i];
-        power[i] = 1.0f;
+        const float a = sums[3][i];
+        const bool has = n[i] > 0.0f && a > 0.0f;
+        const float t = transmittance(OneAverage{}, a, n[i]);
+        for (std::size_t c = 0; c < 3; ++c)
+            out[c][i] = has ? average_over(OneAverage{}, sums[c][i], a, t, background[c][i]) : background[c][i];
+        out[3][i] = 1.0f;
     }
-    for (; any_bits != 0; any_bits >>= 1)
-        for (std::size_t i = 0; i < count; ++i) {
-            power[i] = select(pipeline::mask((left[i] & 1u) != 0), power[i] * base[i], power[i]);
-            left[i] >>= 1;
-            base[i] = base[i] * base[i];
-        }
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t i = 0; i < count; ++i) {
-            const float color = (sums[c][i] / sums[3][i]) * (1.0f - power[i]) + background[c][i] * power[i];
-            const std::uint32_t has = pipeline::mask(n[i] > 0.0f) & pipeline::mask(sums[3][i] > 0.0f);
-            out[c][i] = select(has, color, background[c][i]);
-        }
-    for (std::size_t i = 0; i < count; ++i) out[3][i] = 1.0f;
 }
 
 }  // namespace scalar

@@ -1,4 +1,6 @@
-// peeling/programs/average_words.h - the resolve of weighted_average where its targets lie as words: halves in, 8-bit colour out.
+// peeling/programs/average_words.h - the resolve of weighted_average where its targets lie as words: halves in, 8-bit
+// colour out. It runs by default in place of the full-screen program of peeling/algorithms/weighted_average.cpp, on
+// sets that convert halves.
 //
 // Rule     What loading, resolve_average (average.h) and writing without blending leave, pixel by pixel.
 // Tests    tests/peeling/execution_test.cpp: against literal execution

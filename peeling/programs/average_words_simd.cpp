@@ -1,9 +1,13 @@
-// peeling/programs/average_words_simd.cpp - resolve_average_words for the sets that convert halves. Whole vectors: planes have spare words.
+// peeling/programs/average_words_simd.cpp - resolve_average_words for the sets that convert halves. Whole vectors:
+// planes have spare words.
+// How kernels are written: kernels.md. Tests: tests/peeling/execution_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/programs/average_words_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+#include "peeling/programs/average-inl.h"
 #include "peeling/programs/average_words.h"
+#include "pipeline/formats/half-inl.h"
 #include "pipeline/formats/unorm8-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -12,40 +16,20 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
-constexpr bool has_halves = true;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)  // has_halves of half-inl.h
 
-using Words = hn::ScalableTag<std::uint32_t>;
-using Floats = hn::Repartition<float, Words>;
-using Integers = hn::RebindToSigned<Words>;
+using average::Floats;
+using average::FloatVec;
+using average::Integers;
+using average::VectorLanes;
+using average::Words;
+using average::WordVec;
+using pipeline::HWY_NAMESPACE::half_values;
 using pipeline::HWY_NAMESPACE::unorm8_codes;
 using pipeline::HWY_NAMESPACE::unorm8_values;
-using WordVec = hn::Vec<Words>;
-using FloatVec = hn::Vec<Floats>;
 
-HWY_INLINE FloatVec widened(WordVec halves) {
-    const auto narrow = hn::DemoteTo(hn::Rebind<std::uint16_t, Words>{}, hn::BitCast(Integers{}, halves));
-    return hn::PromoteTo(Floats{}, hn::BitCast(hn::Rebind<hwy::float16_t, Floats>{}, narrow));
-}
-HWY_INLINE FloatVec low_half(WordVec words) { return widened(hn::And(words, hn::Set(Words{}, 0xffffu))); }
-HWY_INLINE FloatVec high_half(WordVec words) { return widened(hn::ShiftRight<16>(words)); }
-
-// (1 - a / n)^n of average.h.
-HWY_INLINE FloatVec transmittance(FloatVec a, FloatVec n) {
-    const Floats d;
-    const FloatVec one = hn::Set(d, 1.0f);
-    FloatVec base = hn::Sub(one, hn::Div(a, n)), power = one;
-    const FloatVec positive = hn::IfThenElseZero(hn::Gt(n, hn::Zero(d)), n);
-    const FloatVec whole = hn::IfThenElse(hn::Lt(positive, hn::Set(d, 0x1p30f)), positive, hn::Set(d, 0x1p30f));
-    WordVec left = hn::BitCast(Words{}, hn::ConvertTo(Integers{}, whole));
-    while (!hn::AllTrue(Words{}, hn::Eq(left, hn::Zero(Words{})))) {
-        const auto is_odd = hn::Ne(hn::And(left, hn::Set(Words{}, 1)), hn::Zero(Words{}));
-        power = hn::IfThenElse(hn::RebindMask(d, is_odd), hn::Mul(power, base), power);
-        left = hn::ShiftRight<1>(left);
-        base = hn::Mul(base, base);
-    }
-    return power;
-}
+HWY_INLINE FloatVec low_half(WordVec words) { return half_values(Words{}, hn::And(words, hn::Set(Words{}, 0xffffu))); }
+HWY_INLINE FloatVec high_half(WordVec words) { return half_values(Words{}, hn::ShiftRight<16>(words)); }
 
 void note_stuck(hn::Mask<Floats> stuck, std::size_t first, std::size_t pixels, StuckPixels& all) {
     alignas(8) std::uint8_t bits[8] = {};
@@ -68,13 +52,12 @@ StuckPixels resolve(const pipeline::ScreenWords& words) {
         const FloatVec a = high_half(blue_alpha), n = low_half(load(1, 0));
         const auto sound = hn::And(hn::Lt(n, hn::Set(df, 2048.0f)), hn::Le(a, hn::Set(df, 65504.0f)));
         if (HWY_UNLIKELY(!hn::AllTrue(df, sound))) note_stuck(hn::Not(sound), i, words.pixels, stuck);
-        const auto has = hn::And(hn::Gt(n, hn::Zero(df)), hn::Gt(a, hn::Zero(df)));
+        const auto has = average::has_average(a, n);
         WordVec result = hn::Or(background, hn::Set(d, 0xff000000u));  // a code is its own value's code
         if (!hn::AllFalse(df, has)) {
-            const FloatVec t = transmittance(a, n), opacity = hn::Sub(hn::Set(df, 1.0f), t);
+            const FloatVec t = average::transmittance(VectorLanes{}, a, n);
             const auto channel = [&](FloatVec sum, WordVec behind) HWY_ATTR {
-                const FloatVec color = hn::Mul(hn::Div(sum, a), opacity);
-                return unorm8_codes(d, hn::Add(color, hn::Mul(unorm8_values(d, behind), t)));
+                return unorm8_codes(d, average::average_over(VectorLanes{}, sum, a, t, unorm8_values(d, behind)));
             };
             const WordVec byte = hn::Set(d, 0xffu);
             WordVec mixed = hn::Or(hn::Set(d, 0xff000000u), channel(low_half(red_green), hn::And(background, byte)));
@@ -89,12 +72,10 @@ StuckPixels resolve(const pipeline::ScreenWords& words) {
     return stuck;
 }
 #else
-constexpr bool has_halves = false;
-
 StuckPixels resolve(const pipeline::ScreenWords&) { return {}; }
 #endif
 
-bool converts_halves() { return has_halves; }
+bool converts_halves() { return pipeline::HWY_NAMESPACE::has_halves; }
 
 }  // namespace
 }  // namespace strata::peeling::HWY_NAMESPACE

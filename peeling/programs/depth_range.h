@@ -11,7 +11,7 @@ namespace strata::peeling {
 
 using CodeLanes = pipeline::Lanes<std::uint32_t>;
 
-// Each discards what its name does not say; codes of one format order like depths.
+// Each discards all fragments but those that its name says. Codes of one format order like depths.
 inline void keep_behind(const pipeline::FragmentBatch& in, const CodeLanes& bound, pipeline::Outputs& out) noexcept {
     discard_peeled(in, bound, out);
 }

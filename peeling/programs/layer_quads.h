@@ -12,7 +12,7 @@ struct SavedLayers {
     std::vector<pipeline::Target> color, depth;  // near to far
 };
 
-// What a layer's quad does is counted with the iteration that made the layer, from 1.
+// The work of a layer's quad is counted with the iteration that made the layer; the first iteration is 1.
 void composite_quads(pipeline::Region& region, const SavedLayers& layers, pipeline::Target result);
 
 }  // namespace strata::peeling

@@ -24,11 +24,6 @@ inline namespace strict {
     return static_cast<std::size_t>(batch.count);
 }
 
-// What is in front, over what it lets through of what is behind; premultiplied.
-[[nodiscard]] inline float composited(float front, float let_through, float behind) noexcept {
-    return front + let_through * behind;
-}
-
 // out = (c a, a): what UNDER and additive blending expect.
 void premultiply(const pipeline::ColorLanes& color, pipeline::ColorLanes& out, std::size_t count) noexcept;
 void set(pipeline::ColorLanes& lanes, const pipeline::Rgba& value, std::size_t count) noexcept;

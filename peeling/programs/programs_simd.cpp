@@ -1,9 +1,11 @@
-// peeling/programs/programs_simd.cpp - the lane loops of programs.h and min_max.h, inlined (flatten) and compiled once an instruction
-// set, over whole vectors: the arrays of a batch have room for them. Tests: tests/peeling/programs/programs_test.cpp
+// peeling/programs/programs_simd.cpp - the lane loops of programs.h and min_max.h, inlined (flatten) and compiled once
+// an instruction set, over whole vectors: the arrays of a batch have room for them.
+// How kernels are written: kernels.md. Tests: tests/peeling/programs/programs_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "peeling/programs/programs_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+#include "peeling/programs/average-inl.h"
 #include "peeling/programs/average.h"
 #include "peeling/programs/min_max.h"
 #include "peeling/programs/programs.h"
@@ -32,22 +34,36 @@ constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::si
 }
 
 [[gnu::flatten]] void classify_lanes(const FloatLanes& z, const ColorLanes& min_max, const MaskLanes& opaque,
-                                     PeelLanes& place, std::size_t count) {
-    scalar::classify(z, min_max, opaque, place, padded(count));
+                                     PeelLanes& side, std::size_t count) {
+    scalar::classify(z, min_max, opaque, side, padded(count));
 }
 
 [[gnu::flatten]] void min_max_lanes(const FloatLanes& z, const MaskLanes& chosen, ColorLanes& out, std::size_t count) {
     scalar::write_min_max(z, chosen, out, padded(count));
 }
 
-[[gnu::flatten]] void layer_lanes(const ColorLanes& color, const ColorLanes& front, const PeelLanes& place,
+[[gnu::flatten]] void layer_lanes(const ColorLanes& color, const ColorLanes& front, const PeelLanes& side,
                                   ColorLanes& next_front, ColorLanes& back, std::size_t count) {
-    scalar::write_layers(color, front, place, next_front, back, padded(count));
+    scalar::write_layers(color, front, side, next_front, back, padded(count));
 }
 
-[[gnu::flatten]] void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background,
-                                    ColorLanes& out, std::size_t count) {
-    scalar::resolve_average(sums, n, background, out, padded(count));
+// Written out: the loop over the bits of n does not become vectors by itself.
+void average_lanes(const ColorLanes& sums, const FloatLanes& n, const ColorLanes& background, ColorLanes& out,
+                   std::size_t count) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const average::Floats d;
+    constexpr average::VectorLanes lanes;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto a = hn::LoadU(d, &sums[3][i]), number = hn::LoadU(d, &n[i]);
+        const auto has = average::has_average(a, number);
+        const auto t = average::transmittance(lanes, a, number);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto behind = hn::LoadU(d, &background[c][i]);
+            const auto color = average::average_over(lanes, hn::LoadU(d, &sums[c][i]), a, t, behind);
+            hn::StoreU(hn::IfThenElse(has, color, behind), d, &out[c][i]);
+        }
+        hn::StoreU(hn::Set(d, 1.0f), d, &out[3][i]);
+    }
 }
 
 }  // namespace
@@ -86,9 +102,9 @@ void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std
 }
 
 void classify(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& min_max,
-              const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& place) noexcept {
-    if (simd_is_scalar()) return scalar::classify(in.shader_z, min_max, opaque, place, lanes(in));
-    kernel_of(HWY_DISPATCH_TABLE(classify_lanes))(in.shader_z, min_max, opaque, place, lanes(in));
+              const pipeline::Lanes<std::uint32_t>& opaque, PeelLanes& side) noexcept {
+    if (simd_is_scalar()) return scalar::classify(in.shader_z, min_max, opaque, side, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(classify_lanes))(in.shader_z, min_max, opaque, side, lanes(in));
 }
 
 void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std::uint32_t>& mask,
@@ -97,10 +113,10 @@ void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std:
     kernel_of(HWY_DISPATCH_TABLE(min_max_lanes))(in.shader_z, mask, out, lanes(in));
 }
 
-void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& place,
+void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& side,
                   pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept {
-    if (simd_is_scalar()) return scalar::write_layers(in.color, front, place, next_front, back, lanes(in));
-    kernel_of(HWY_DISPATCH_TABLE(layer_lanes))(in.color, front, place, next_front, back, lanes(in));
+    if (simd_is_scalar()) return scalar::write_layers(in.color, front, side, next_front, back, lanes(in));
+    kernel_of(HWY_DISPATCH_TABLE(layer_lanes))(in.color, front, side, next_front, back, lanes(in));
 }
 
 void resolve_average(const pipeline::ColorLanes& sums, const pipeline::Lanes<float>& n,

@@ -1,33 +1,41 @@
 // peeling/programs/region_programs.h - passes that several algorithms end with or ask about, over a region.
 #pragma once
 #include "peeling/programs/programs.h"
+#include "peeling/programs/under.h"
 #include "pipeline/region/region.h"
 
 namespace strata::peeling {
 inline namespace strict {
 
-// What a one-layer peel may promise about a region whose count is 0. Such a pass leaves the opaque depth as what is peeled, and
-// a fragment that is stored before that but compared as behind it would have been found. Only a first pass that draws other
-// vertices and compares nothing may find nothing where the second finds such a fragment.
+// The promise that a one-layer peel may give about a region whose count is 0. Such a pass leaves the opaque depth as
+// what is peeled, and a fragment that is stored before that but compared as behind it would have been found. Only a
+// first pass that draws other vertices and compares nothing may find nothing where the second finds such a fragment.
 [[nodiscard]] inline pipeline::Idle idle_when_zero(const pipeline::Frame& frame) noexcept {
     return frame.second == nullptr || frame.depth_compare().is_plain() ? pipeline::Idle::when_zero : pipeline::Idle::no;
 }
 
-// Publishes accumulated.rgb + accumulated.a * background, alpha 1: the end of every front-to-back composite.
-inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated,
-                                    pipeline::Target background) {
+// Publishes the front over the colour behind it, alpha 1: the last quad of every peel that composites from the front.
+inline void publish_over(pipeline::Region& region, pipeline::Target front, FrontAlpha meaning,
+                         pipeline::Target behind) {
     using namespace pipeline;
     const Target result = region.make_color();
     PassState state;
     state.color[0] = result;
-    state.reads = {accumulated, background};
-    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    state.reads = {front, behind};
+    static_cast<void>(region.full_screen(state, [meaning](const FragmentBatch& in, const Loads& own, Outputs& out) {
+        Lanes<float> through;
+        for (std::size_t i = 0; i < lanes(in); ++i) through[i] = scalar::through_front(meaning, own.color(0)[3][i]);
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < lanes(in); ++i)
-                out.color[0][c][i] = composited(own.color(0)[c][i], own.color(0)[3][i], own.color(1)[c][i]);
+                out.color[0][c][i] = scalar::composited(own.color(0)[c][i], through[i], own.color(1)[c][i]);
         for (std::size_t i = 0; i < lanes(in); ++i) out.color[0][3][i] = 1.0f;
     }));
     region.publish(result);
+}
+
+inline void publish_over_background(pipeline::Region& region, pipeline::Target accumulated,
+                                    pipeline::Target background) {
+    publish_over(region, accumulated, FrontAlpha::lets_through, background);
 }
 
 }  // namespace strict

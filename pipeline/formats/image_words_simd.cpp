@@ -1,5 +1,6 @@
-// pipeline/formats/image_words_simd.cpp - image_words.h for every instruction set. A vector is 16 bytes, one pixel of codes: images lie no
-// further aligned, and what passes the caches by is gathered into lines whatever the width.
+// pipeline/formats/image_words_simd.cpp - image_words.h for every instruction set. A vector is 16 bytes, one pixel of
+// codes: images lie no further aligned, and what passes the caches by is gathered into lines whatever the width.
+// How kernels are written: kernels.md. Tests: tests/pipeline/formats/image_words_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/formats/image_words_simd.cpp"
 #include "hwy/foreach_target.h"

@@ -33,7 +33,7 @@ namespace strata::pipeline {
     return needs;
 }
 
-// The same with one value more, if the effect is one.
+// `needs` with the value of a fragment that `effect` names added; unchanged if the effect is a stage and no value.
 [[nodiscard]] inline rasterizer::FragmentNeeds with_value(rasterizer::FragmentNeeds needs, Effect effect) {
     needs.color |= effect == Effect::color;
     needs.texcoord |= effect == Effect::texcoord;

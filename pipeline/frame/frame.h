@@ -12,7 +12,8 @@
 
 namespace strata::pipeline {
 
-// What replay may hold of a region's fragments. Texture coordinates are not among its needs: colours are kept shaded.
+// The arrays and the memory that replay may take for a region's fragments. Texture coordinates are not among its needs:
+// colours are kept shaded.
 struct Replay {
     std::uint64_t bytes = 0;          // a region; 0: every pass rasterizes
     rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together

@@ -5,7 +5,8 @@
 
 namespace strata::pipeline {
 
-// What a pass may simulate though nobody calls for it: values of its fragments, and stages with a state that changes nothing.
+// Effects that a pass can be made to simulate though nobody calls for them: values of its fragments, and stages with a
+// state that changes nothing.
 enum class Effect : std::uint8_t {
     none,
     color,

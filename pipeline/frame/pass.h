@@ -41,7 +41,7 @@ struct PassState {
     bool saturates_by_design = false;  // a stencil count that stops at its limit is what the listing wants
 };
 
-// What a program may load: the declared reads, gathered at the fragments' own pixels.
+// The values that a program may load: the declared reads, gathered at the fragments' own pixels.
 class Loads {
   public:
     // Colour target number `read` of PassState::reads as binary32 channels; missing channels are 0, a missing alpha is 1.
@@ -60,8 +60,8 @@ class Loads {
 // Where a traced fragment joins the sequence that a pixel composites: at its far end (UNDER) or at its near end (OVER).
 enum class Side : std::uint8_t { none, front, back };
 
-// What a program leaves behind. Fragments start alive; colours are undefined until written, straight or premultiplied as the
-// blend state expects them.
+// The results of a program. Fragments start alive; colours are undefined until written, straight or premultiplied as
+// the blend state expects them.
 struct Outputs {
     std::array<ColorLanes, max_color_targets> color;
     Lanes<std::uint32_t> alive;  // ~0 or 0; a program discards with &=
@@ -100,7 +100,7 @@ class Count {
     std::uint64_t own_ = 0;
 };
 
-// What an algorithm promises about a region whose own count is zero.
+// An algorithm's promise about a region whose own count is zero.
 enum class Idle : std::uint8_t {
     no,         // further iterations may change its bits
     when_zero,  // they change none of its bits, and from the next one on they all count the same

@@ -2,7 +2,7 @@
 
 namespace strata::pipeline {
 
-// Whatever followed a "no" that did not end the loop belongs to the iteration in which it was said.
+// A body may go on after the frame's answer was no. Its work then still belongs to the iteration of that answer.
 void RegionBooks::join_tail() {
     const auto last = static_cast<std::size_t>(iterations);
     if (records.size() <= last + 1) return;

@@ -14,7 +14,7 @@
 
 namespace strata::pipeline {
 
-// What one iteration (or what stands before the first and after the last) did in one region.
+// The work of one iteration in one region; also that before the first iteration and after the last.
 struct IterationRecord {
     Counters counters;
     PassCount passes;

@@ -16,10 +16,10 @@ struct Termination {
     friend bool operator==(const Termination&, const Termination&) = default;
 };
 
-// What an algorithm orders fragments by (keys-and-counts.md 1.1).
+// The depth by which an algorithm orders fragments (keys-and-counts.md 1.1).
 enum class DepthKey : std::uint8_t { shader_z, stored_code };
 
-// Of a listing with errata: repaired as little as it takes, or as it was printed.
+// Which form of a listing with errata runs: repaired as little as it takes, or as it was printed.
 enum class Formulation : std::uint8_t { resolved, published };
 
 enum class Effects : std::uint8_t {

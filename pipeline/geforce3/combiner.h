@@ -115,7 +115,7 @@ struct Combiners {
     friend bool operator==(const Combiners&, const Combiners&) = default;
 };
 
-// What the combiners start from: colours in [0,1], rounded to 8 bits on the way in.
+// The registers that the combiners start with: colours in [0,1], rounded to 8 bits on the way in.
 struct CombinerSources {
     const ColorLanes* primary = nullptr;
     const ColorLanes* secondary = nullptr;       // null: 0

@@ -94,7 +94,7 @@ using ShaderOps = std::array<ShaderOp, rasterizer::texture_units>;
 // The coordinates that the operations look at, as FragmentNeeds::units.
 [[nodiscard]] rasterizer::UnitMask coordinates_of(const ShaderStages& stages, const ShaderOps& ops) noexcept;
 
-// What every fragment of a pass has in common.
+// The state that all fragments of a pass share.
 struct ShaderMachine {
     const DeviceProfile* profile = nullptr;
     // The buffer that a replaced depth is for, by its format.
@@ -104,7 +104,7 @@ struct ShaderMachine {
     std::array<DepthTexels, rasterizer::texture_units> texels;  // of the stages with depth textures
 };
 
-// What one stage hands on.
+// The results that one stage hands to the next.
 struct StageResult {
     // The texture's colour, for the combiners.
     ColorLanes rgba;

@@ -15,7 +15,7 @@ namespace strata::pipeline {
 
 namespace {
 
-// What stays of a region when its storage is gone.
+// The part of a region that is kept when its storage is given back.
 struct RegionRun {
     RegionBooks books;
     std::uint64_t fragments = 0;  // of all its runs
@@ -65,7 +65,7 @@ class FrameRun {
     }
 
     // Copies a part of the frame into its place; parts are disjoint, so threads do not meet.
-    void place(const Image& part, const rasterizer::Rect& at, Image& whole) const {
+    void copy_into(const Image& part, const rasterizer::Rect& at, Image& whole) const {
         const auto row = static_cast<std::size_t>(part.width) * static_cast<std::size_t>(part.channels());
         for (int y = 0; y < part.height; ++y)
             std::copy_n(part.codes.begin() + static_cast<std::ptrdiff_t>(part.index(0, y)), row,
@@ -258,8 +258,8 @@ class FrameRun {
                     kept.color = Image{part.color.format, whole.width(), whole.height()};
                     kept.depth = Image{part.depth.format, whole.width(), whole.height()};
                 }
-                place(part.color, rect(r), kept.color);
-                place(part.depth, rect(r), kept.depth);
+                copy_into(part.color, rect(r), kept.color);
+                copy_into(part.depth, rect(r), kept.depth);
             }
             result_.layers.push_back(std::move(kept));
         }

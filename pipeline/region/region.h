@@ -90,7 +90,7 @@ class Region {
         return draw_list(state, list == List::second && frame_.second != nullptr ? *frame_.second : *frame_.transparent,
                          program);
     }
-    // The same over a list that is not the frame's; whoever draws one needs a frame that is one region (surface.h).
+    // Draws a list that is not one of the frame's. Only a frame that is a single region may: surface.h.
     template <FragmentProgram P>
     Drawn draw(const PassState& state, const PreparedDraw& list, P&& program) {
         return draw_list(state, list, program);
@@ -110,7 +110,7 @@ class Region {
     // Adds to the trace what `program` marks for every pixel, with `read` as its only load. For the audit: not a pass.
     template <FragmentProgram P>
     void trace_pixels(Target read, P&& program);
-    // The same of one step that no pass shows.
+    // Adds one step to the trace that no pass shows.
     void trace(const TraceEntry& entry) { traced().push_back(entry); }
 
     // The frame's answer to "is the count above the limit that --termination sets?".
@@ -118,8 +118,8 @@ class Region {
     // A query for a branch within the iteration asks with Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle);
     void begin_iteration();
-    // Work after the last iteration that each iteration causes (the compositing of its layer) is counted with it: from now on
-    // counters go to the record of iteration `iteration`, from 1.
+    // A layer may be composited after the last iteration, but its cost belongs to the iteration that made it. From now
+    // on counters go to the record of `iteration`, counted from 1.
     void count_with(int iteration) { books_.counted_record = static_cast<std::size_t>(iteration); }
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1);
@@ -128,7 +128,7 @@ class Region {
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail);
     void report(Fault fault, std::string detail);  // no pixel is meant
 
-    // What an algorithm leaves: its final colour.
+    // Hands over the final colour, which is an algorithm's result.
     void publish(Target color) { books_.published = color; }
 
     // Every fragment of the transparent list in submission order, after MASK, before any test.

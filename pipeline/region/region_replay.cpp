@@ -101,7 +101,7 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     source_ = Source::rasterizer;
 }
 
-// What the material stage leaves is the same whether it runs or is remembered, and so are its counters.
+// The material stage gives the same colours whether it runs or is remembered, and so do its counters.
 void Region::shade_or_recall(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
     if (source_ != Source::store) {
         shade(list, batch, out);

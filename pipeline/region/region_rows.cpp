@@ -32,7 +32,7 @@ bool Region::draws_rows(const PassState& state, const PreparedDraw& list) {
     return is_plain && !is_recalled;
 }
 
-// What batches would have counted, with the test against the depth target.
+// Counts what a pass through batches would have counted, with its test against the depth target.
 void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& drawn) {
     const auto bytes = static_cast<std::uint64_t>(info(at(state.depth_target).format()).bytes_per_pixel);
     books_.fragments_drawn += drawn.fragments;

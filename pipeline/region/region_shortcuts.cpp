@@ -22,7 +22,8 @@ void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
                               rasterizer::BatchSink{add});
 }
 
-// Twice as many triangles each time: a program that has had enough soon is asked soon, and few batches end early for it.
+// Each part has twice as many triangles as the one before. A program that soon has enough is asked soon, and few
+// batches end early.
 void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
                                      const bool& goes_on) {
     const PreparedDraw& list = *region_.frame_.transparent;

@@ -22,7 +22,7 @@ struct ScreenWords {
     std::size_t pixels = 0;
 };
 
-// What a walk over a region's fragments row by row needs (rasterizer/walk/row_walk-inl.h).
+// The input of a walk over a region's fragments by rows of pixels (rasterizer/walk/row_walk-inl.h).
 struct RowSource {
     const rasterizer::Geometry& geometry;
     std::span<const std::uint32_t> triangles;
@@ -39,7 +39,8 @@ class RegionShortcuts {
     // the band's first. Once the program answers false it sees no more, and so does the caller.
     template <class P>
     [[nodiscard]] bool look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program);
-    // The same fragments without batches, where rows have their depths and colours; whoever walks them says how many they were.
+    // The input for walking those fragments by rows, without batches; empty where rows do not have their depths and
+    // colours. After its walk a caller reports the number of fragments to looked_at.
     [[nodiscard]] std::optional<RowSource> row_source() const;
     void looked_at(std::uint64_t fragments) noexcept { region_.books_.fragments_drawn += fragments; }
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept {

@@ -44,7 +44,7 @@ void narrow(Format format, ColorCodes& codes, int count) noexcept {
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
             codes[static_cast<std::size_t>(c)][i] = narrowed(format, c, codes[static_cast<std::size_t>(c)][i]);
 }
-// What a surface of 16 bits blends: colours already cut to its bits, alpha as it is (narrow.h).
+// The source of a blend on a 16-bit surface: colours already cut to its bits, alpha as it is (narrow.h).
 const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorLanes& cut, int count) noexcept {
     if (info(format).bytes_per_pixel != 2 || !is_narrow(format)) return source;
     for (std::size_t c = 0; c < 4; ++c)

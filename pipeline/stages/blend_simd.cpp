@@ -1,38 +1,29 @@
-// pipeline/stages/blend_simd.cpp - blending, one source for every instruction set: the loops of blend_lanes.h inlined (flatten)
-// and compiled for the set, over whole vectors, since the arrays of a batch have room for them.
-// Tests: tests/pipeline/stages/simd_stages_test.cpp
+// pipeline/stages/blend_simd.cpp - blending, one source for every instruction set: the loops of blend_lanes.h inlined
+// (flatten) and compiled for the set, over whole vectors, since the arrays of a batch have room for them.
+// How kernels are written: kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/blend_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+#include "pipeline/formats/half-inl.h"
 #include "pipeline/stages/blend_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
 
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
-namespace hn = hwy::HWY_NAMESPACE;
-
-// VCVTPH2PS and VCVTPS2PH round as half.h says, NaN included; the former makes a signalling NaN quiet.
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)  // has_halves of half-inl.h
 struct Halves {
-    using Float = hn::ScalableTag<float>;
-    using Half = hn::Rebind<hwy::float16_t, Float>;
-    using Code16 = hn::Rebind<std::uint16_t, Float>;
-    using Code32 = hn::Rebind<std::uint32_t, Float>;
+    using Words = hn::ScalableTag<std::uint32_t>;
+    using Floats = hn::RebindToFloat<Words>;
 
     static void decode(const std::uint32_t* codes, float* HWY_RESTRICT values, std::size_t count) {
-        const hn::RebindToSigned<Code32> words;
-        for (std::size_t i = 0; i < count; i += hn::Lanes(Float{})) {
-            const auto half = hn::DemoteTo(Code16{}, hn::BitCast(words, hn::LoadU(Code32{}, codes + i)));
-            hn::StoreU(hn::PromoteTo(Float{}, hn::BitCast(Half{}, half)), Float{}, values + i);
-        }
+        for (std::size_t i = 0; i < count; i += hn::Lanes(Words{}))
+            hn::StoreU(half_values(Words{}, hn::LoadU(Words{}, codes + i)), Floats{}, values + i);
     }
     static void encode_nearest(const float* values, std::uint32_t* HWY_RESTRICT codes, std::size_t count) {
-        for (std::size_t i = 0; i < count; i += hn::Lanes(Float{})) {
-            const auto half = hn::DemoteTo(Half{}, hn::LoadU(Float{}, values + i));
-            hn::StoreU(hn::PromoteTo(Code32{}, hn::BitCast(Code16{}, half)), Code32{}, codes + i);
-        }
+        for (std::size_t i = 0; i < count; i += hn::Lanes(Words{}))
+            hn::StoreU(half_codes(Words{}, hn::LoadU(Floats{}, values + i)), Words{}, codes + i);
     }
 };
 #else

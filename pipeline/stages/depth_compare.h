@@ -15,7 +15,7 @@
 
 namespace strata::pipeline {
 
-// What a program adds to the stored depth before it compares: a part of the depth range, and codes of the buffer.
+// A program adds these to the stored depth before it compares: a part of the depth range, and a number of codes.
 struct CompareEpsilon {
     // A part of the depth range, 0 to 1.
     double absolute = 0.0;

@@ -1,7 +1,8 @@
 // pipeline/stages/stages_simd.cpp - the stages between program and blending, one source for every instruction set.
 // Their meaning is namespace scalar of lane_words.h, convert.h, alpha_test.h and stencil_lanes.h. Where a plain loop
 // vectorises, the kernel is that loop, inlined (flatten) and compiled for the set; gather, scatter and counts are
-// written out. Tests: tests/pipeline/stages/simd_stages_test.cpp
+// written out.
+// How kernels are written: kernels.md. Tests: tests/pipeline/stages/simd_stages_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/stages_simd.cpp"
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 #include "pipeline/formats/convert.h"
+#include "pipeline/formats/half-inl.h"
 #include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/lane_words.h"
 #include "pipeline/stages/stencil_lanes.h"
@@ -211,36 +213,17 @@ DepthResult test_plane(const DepthTest& state, DepthFormat format, Plane plane, 
     return result;
 }
 
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)
-constexpr bool has_halves = true;
-
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2 && !defined(HWY_DISABLE_F16C)  // has_halves of half-inl.h
 using Floats = hn::Repartition<float, Words>;
 using FloatVec = hn::Vec<Floats>;
-using Half16 = hn::Rebind<hwy::float16_t, Floats>;
-using Code16 = hn::Rebind<std::uint16_t, Words>;
-
-// The machine's conversions round as half.h says (blend_simd.cpp).
-HWY_INLINE FloatVec widened(WordVec halves) {
-    const auto narrow = hn::DemoteTo(Code16{}, hn::BitCast(hn::RebindToSigned<Words>{}, halves));
-    return hn::PromoteTo(Floats{}, hn::BitCast(Half16{}, narrow));
-}
-HWY_INLINE WordVec rounded_to_half(FloatVec values) {
-    return hn::PromoteTo(Words{}, hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, values)));
-}
 
 // Source plus destination as blend_float.h adds them. A sum that is denormal in binary32 is a zero of its sign as a half,
 // flushed or not; a denormal source must be flushed, for the sign of its zero shows.
 template <bool flushes>
 HWY_INLINE WordVec sum_of_halves(FloatVec source, WordVec stored) {
     const Words d;
-    if constexpr (flushes) {
-        const WordVec bits = hn::BitCast(d, source);
-        const WordMask is_small = hn::Eq(hn::And(bits, hn::Set(d, 0x7f800000u)), hn::Zero(d));
-        source = hn::BitCast(Floats{}, hn::IfThenElse(is_small, hn::And(bits, hn::Set(d, 0x80000000u)), bits));
-    }
-    const FloatVec sum = hn::Add(source, widened(stored));
-    const FloatVec nan = hn::BitCast(Floats{}, hn::Set(d, 0x7fffffffu));
-    return rounded_to_half(hn::IfThenElse(hn::Eq(sum, sum), sum, nan));
+    if constexpr (flushes) source = flushed(d, source);
+    return half_codes(d, canonical(d, hn::Add(source, half_values(d, stored))));
 }
 
 template <bool flushes, int channels>
@@ -267,8 +250,6 @@ void add_to_words(const Texels& to, const PixelLanes& at, const Word* alive, con
         add_to_word<flushes, 2>(to.plane(word), at, alive, source + 2 * word);
 }
 #else
-constexpr bool has_halves = false;
-
 template <bool flushes>
 void add_to_words(const Texels&, const PixelLanes&, const Word*, const rasterizer::Lanes<float>*) {}
 #endif

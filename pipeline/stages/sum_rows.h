@@ -1,5 +1,6 @@
-// pipeline/stages/sum_rows.h - weighted sums of fragments straight into halves, row by row: what an additive pass of (c a, a) and 1
-// does through batches, programs and blending.
+// pipeline/stages/sum_rows.h - weighted sums of fragments straight into halves, row by row: what an additive pass of (c
+// a, a) and 1 does through batches, programs and blending. It runs by default in place of the draw of weighted_average
+// and weighted_sum (peeling/algorithms/), on sets that convert halves.
 //
 // Rule     Each fragment of the triangles, in submission order, whose code is LESS than the opaque one adds (c a, a) to the sums
 //          and 1 to the count, as add_halves of lane_words.h adds. Colours are those of FragmentValues::fill.

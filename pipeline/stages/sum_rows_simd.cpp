@@ -1,8 +1,10 @@
 // pipeline/stages/sum_rows_simd.cpp - add_sum_rows of sum_rows.h for the sets that convert halves.
+// How kernels are written: kernels.md. Tests: tests/peeling/execution_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/stages/sum_rows_simd.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+#include "pipeline/formats/half-inl.h"
 #include "pipeline/stages/color_planes-inl.h"
 #include "pipeline/stages/sum_rows.h"
 
@@ -24,8 +26,6 @@ struct SumState {
 using Pair = hn::Twice<F32>;
 using VPair = hn::Vec<Pair>;
 using HalfPair = hn::Rebind<hwy::float16_t, Pair>;
-using Half16 = hn::Rebind<hwy::float16_t, F32>;
-using Code16 = hn::Rebind<std::uint16_t, F32>;
 
 constexpr std::int32_t lanes = hn::MaxLanes(F32{});
 alignas(64) constexpr std::int32_t zipped[16] = {0, lanes,     1, lanes + 1, 2, lanes + 2, 3, lanes + 3,
@@ -44,16 +44,9 @@ HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) 
     hn::BlendedStore(hn::BitCast(U32{}, hn::DemoteTo(HalfPair{}, sum)), hn::RebindMask(U32{}, covered), U32{}, words);
 }
 
-// A denormal as the zero of its sign.
-HWY_INLINE V32 flushed(V32 v) {
-    const auto bits = hn::BitCast(U32{}, v);
-    const auto is_small = hn::Eq(hn::And(bits, hn::Set(U32{}, 0x7f800000u)), hn::Zero(U32{}));
-    return hn::BitCast(F32{}, hn::IfThenElse(is_small, hn::And(bits, hn::Set(U32{}, 0x80000000u)), bits));
-}
-
-// Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered lanes. Two
-// of its steps show only where a source is negative (a positive denormal and its zero become the same half, whatever they are
-// added to) or a sum is NaN: they are done for rows that have one.
+// Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered
+// lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same half,
+// whatever they are added to) or a sum is NaN: they are done for rows that have one.
 template <bool flushes>
 HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* red_green, std::uint32_t* blue_alpha) {
     const F32 d;
@@ -63,15 +56,14 @@ HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* re
                                   hn::Or(hn::BitCast(integers, source[2]), hn::BitCast(integers, source[3])));
         const auto negative = hn::RebindMask(d, hn::Lt(signs, hn::Zero(integers)));
         if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(covered, negative))))
-            for (V32& v : source) v = flushed(v);
+            for (V32& v : source) v = flushed(U32{}, v);
     }
     VPair low = hn::Add(paired(source[0], source[1]), loaded(red_green));
     VPair high = hn::Add(paired(source[2], source[3]), loaded(blue_alpha));
     // One test for both: NaN where either sum is one, and where infinities of both signs meet.
     const VPair both = hn::Add(low, high);
     if (HWY_UNLIKELY(!hn::AllTrue(Pair{}, hn::Eq(both, both)))) {
-        const VPair nan = hn::BitCast(Pair{}, hn::Set(hn::RebindToUnsigned<Pair>{}, 0x7fffffffu));
-        for (VPair* v : {&low, &high}) *v = hn::IfThenElse(hn::Eq(*v, *v), *v, nan);
+        for (VPair* v : {&low, &high}) *v = canonical(hn::RebindToUnsigned<Pair>{}, *v);
     }
     store(low, covered, red_green);
     store(high, covered, blue_alpha);
@@ -80,12 +72,9 @@ HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* re
 // Counts one more in the low halves of words. NaN comes out as it does above.
 HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
     const F32 d;
-    const auto codes = hn::DemoteTo(Code16{}, hn::BitCast(raster::I32{}, hn::LoadU(U32{}, words)));
-    V32 sum = hn::Add(hn::PromoteTo(d, hn::BitCast(Half16{}, codes)), hn::Set(d, 1.0f));
-    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum))))
-        sum = hn::IfThenElse(hn::Eq(sum, sum), sum, hn::BitCast(d, hn::Set(U32{}, 0x7fffffffu)));
-    const auto stored = hn::PromoteTo(U32{}, hn::BitCast(Code16{}, hn::DemoteTo(Half16{}, sum)));
-    hn::BlendedStore(stored, hn::RebindMask(U32{}, covered), U32{}, words);
+    V32 sum = hn::Add(half_values(U32{}, hn::LoadU(U32{}, words)), hn::Set(d, 1.0f));
+    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum)))) sum = canonical(U32{}, sum);
+    hn::BlendedStore(half_codes(U32{}, sum), hn::RebindMask(U32{}, covered), U32{}, words);
 }
 
 template <bool is_tested, bool flushes>

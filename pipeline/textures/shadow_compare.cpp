@@ -46,7 +46,7 @@ void compare_linear(const Lookup& at, const Lanes<std::uint32_t>& r, float fail,
 [[nodiscard]] double value_of(const DepthTexels& depth, std::uint32_t code) noexcept {
     return depth.is_eight_bit ? static_cast<double>(code) : rasterizer::buffer_value(code, depth.format);
 }
-// What R is multiplied with to be in buffer units.
+// The factor that turns R into buffer units.
 [[nodiscard]] double units_of(const DepthTexels& depth, const rasterizer::RasterRules& rules) noexcept {
     return rules.window_z == rasterizer::WindowZ::buffer_units ? 1.0 : value_of(depth, depth.max());
 }

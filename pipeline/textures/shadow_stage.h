@@ -23,7 +23,7 @@ struct ShadowStage {
 [[nodiscard]] CoordinateUnits shadow_units(const ShadowLight& light, const Matrix& camera_view,
                                            const rasterizer::RasterState& state, const DeviceProfile& profile);
 
-// How `light` has its map looked at. The image outlives the stage.
+// The stage that looks up the map of `light`. The image outlives the stage.
 [[nodiscard]] ShadowStage shadow_stage(const ShadowLight& light, const Image& map,
                                        const rasterizer::RasterState& state);
 

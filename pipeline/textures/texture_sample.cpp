@@ -35,7 +35,7 @@ struct Lookup {
     }
 };
 
-// What a texel byte means, a table a channel.
+// The value of a texel byte, in a table for each channel.
 using Decoder = std::array<const float*, 4>;
 
 Decoder decoder(const Texture& texture) noexcept {

@@ -62,7 +62,8 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .mirrored = linear_determinant(instance.model) < 0});
 }
 
-// What the options ask for beside the soup's vertices, in their order: r and q, texture units.
+// The values of a vertex that the options ask for beside position and colour, in this order: r and q, then texture
+// units.
 rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, const rasterizer::RasterState& state,
                                        const rasterizer::RasterRules& rules, const PrepareOptions& options) {
     rasterizer::VertexExtras extras;

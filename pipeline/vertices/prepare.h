@@ -21,7 +21,8 @@
 
 namespace strata::pipeline {
 
-// What a fragment of one material needs besides its interpolants; empty optionals are effects that nobody asked for.
+// The texture and state that fragments of one material need besides their interpolants; an empty optional is an effect
+// that is not used.
 struct MaterialStage {
     const Texture* texture = nullptr;  // into the draw list, which must outlive this
     // alphaMode MASK: alpha GEQUAL cutoff, applied to the shaded alpha.
@@ -30,7 +31,7 @@ struct MaterialStage {
     float alpha_scale = 1.0f;
 };
 
-// What some materials call for in every pass.
+// The values that some set of materials needs in every pass.
 struct MaterialNeeds {
     // One of them has a texture.
     bool texcoord = false;
@@ -57,7 +58,8 @@ struct PreparedDraw {
     MaterialNeeds needs;  // of all of them
 };
 
-// What the materials of some of a list's triangles call for: of a tile, it may be less than the list's.
+// The needs of the materials of some of a draw list's triangles. Those of one tile may be fewer than those of the whole
+// list.
 [[nodiscard]] MaterialNeeds needs_of(const PreparedDraw& list, std::span<const std::uint32_t> triangles);
 
 // By the material: `opaque` are alphaMode OPAQUE and MASK, `transparent` is BLEND.

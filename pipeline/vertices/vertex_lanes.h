@@ -22,7 +22,7 @@ struct VertexKernels {
                   VertexLanes& out) noexcept;
 };
 
-// Those of the chosen set; null for scalar.
+// The kernels of the chosen instruction set; null for scalar, which has none.
 [[nodiscard]] const VertexKernels* vertex_kernels() noexcept;
 
 }  // namespace strata::pipeline

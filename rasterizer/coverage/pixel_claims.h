@@ -39,13 +39,13 @@ class PixelClaims {
         return true;
     }
 
-    struct Place {
+    struct Origin {
         std::size_t row, column;
     };
     // Claims what `bits_of(row)` names, bit 0 at the column of `from`, in `rows` rows of at most 16 pixels; false as above.
     // Up to `spare_rows` of them may lie below the region, with no bits.
     template <class BitsOf>
-    [[nodiscard, gnu::always_inline]] bool claim_rows(Place from, unsigned width, unsigned rows,
+    [[nodiscard, gnu::always_inline]] bool claim_rows(Origin from, unsigned width, unsigned rows,
                                                       const BitsOf& bits_of) noexcept {
         std::uint64_t* word = &word_[from.row * words_a_row_ + from.column / 32];
         const std::uint64_t number = std::uint64_t{batch_} << 32;

@@ -36,8 +36,8 @@ constexpr BlockShape shape_of(std::uint32_t width) {
 }
 constexpr BlockShape shapes[3] = {shape_of(4), shape_of(8), shape_of(16)};
 
-// What of a small triangle is covered, a bit a pixel, block after block. `within_8` knows that the box lies in 8 x 8
-// pixels: four blocks, whose loops end where the compiler can see it.
+// The covered pixels of a small triangle as bits, one a pixel, block after block. `within_8` knows that the box lies in
+// 8 x 8 pixels: four blocks, whose loops end where the compiler can see it.
 template <bool within_8>
 class SmallCoverage {
   public:
@@ -85,7 +85,7 @@ class SmallCoverage {
         return within_8 ? 8 - static_cast<std::uint32_t>(std::countl_zero(bits_[0])) / 8 : height;
     }
     // The numbers of the covered pixels, ascending: pixels() of them, and room for block_part more.
-    HWY_INLINE void list(std::uint32_t* numbers) const {
+    HWY_INLINE void write_numbers(std::uint32_t* numbers) const {
         const Block32 d;
         for (std::uint32_t first = 0; first < 16 * count(); first += block_part) {
             const std::uint64_t own = bits_[first / 64] >> first % 64 & ((1u << block_part) - 1);
@@ -95,7 +95,7 @@ class SmallCoverage {
             numbers += std::popcount(own);
         }
     }
-    // Of pixels by number, within the box.
+    // Column and row, within the box, of pixels that are given by their numbers.
     template <class Vec>
     HWY_INLINE Vec column(Vec number) const {
         return hn::And(number, hn::Set(hn::DFromV<Vec>{}, (1u << log_width()) - 1));

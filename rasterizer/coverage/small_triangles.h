@@ -27,13 +27,13 @@ inline constexpr int usable_capacity = batch_capacity - 16;  // loops over lanes
 struct alignas(64) TriangleGroup {
     static constexpr int size = 16, max_width = 16, max_height = 15, max_extent = 1 << 14;
     static_assert(max_width * max_height <= usable_capacity);
-    using Row = std::array<std::uint32_t, size>;
+    using PerTriangle = std::array<std::uint32_t, size>;
 
-    std::array<Row, 3> x, y;    // snapped corners: what comes in
-    Row x0, y0, width, height;  // pixel centres in the box and the clip; 0 by 0 if there are none
-    Row small;                  // 1: all that follows holds
-    Row area, turned;           // twice the area, without its sign; its sign as a mask
-    std::array<Row, 3> value, step, down, tie;
+    std::array<PerTriangle, 3> x, y;    // snapped corners: what comes in
+    PerTriangle x0, y0, width, height;  // pixel centres in the box and the clip; 0 by 0 if there are none
+    PerTriangle small;                  // 1: all that follows holds
+    PerTriangle area, turned;           // twice the area, without its sign; its sign as a mask
+    std::array<PerTriangle, 3> value, step, down, tie;
 
     [[nodiscard]] Rect box(std::size_t k) const noexcept {
         const auto left = static_cast<int>(x0[k]), top = static_cast<int>(y0[k]);
@@ -55,15 +55,15 @@ void load_corners(std::span<const WindowCorner> corners, std::size_t count, cons
     }
 }
 
-// What is the same for all triangles of a draw.
+// The rules and the rectangle that all groups of a draw share.
 struct GroupRules {
     Rect clip;
     int subpixel_bits;
     TieRule tie_rule;
 };
 
-// Where the pixels of a triangle go.
-struct RegionPlace {
+// Where a small triangle begins in the region.
+struct RegionOrigin {
     std::uint32_t column, row;  // of the box's first pixel in the region
     std::uint32_t width;        // of the region
     std::uint32_t primitive;
@@ -71,15 +71,15 @@ struct RegionPlace {
 
 struct SmallKernels {
     void (*set_up)(const GroupRules& rules, TriangleGroup& group) noexcept;
-    // The same without the edges: boxes, what is small, areas.
+    // Sets up all but the edges: boxes, areas, and which triangles are small.
     void (*set_up_boxes)(const GroupRules& rules, TriangleGroup& group) noexcept;
     // Appends the pixels of small triangle `k`; false if the batch must be flushed first: then it holds one of them, or
     // has no room.
-    bool (*emit)(const TriangleGroup& group, std::size_t k, const RegionPlace& place, PixelClaims& claims,
+    bool (*emit)(const TriangleGroup& group, std::size_t k, const RegionOrigin& origin, PixelClaims& claims,
                  FragmentBatch& batch) noexcept;
 };
 
-// Those of the chosen set. Ask once a draw.
+// The kernels of the chosen instruction set. A draw asks once, not once a group.
 [[nodiscard]] const SmallKernels& small_kernels() noexcept;
 
 namespace scalar {
@@ -152,7 +152,7 @@ inline void set_up_group(const GroupRules& rules, TriangleGroup& group) noexcept
 }
 
 // The meaning of SmallKernels::emit: coverage first, because the batch takes all of the triangle or nothing.
-inline bool emit_small(const TriangleGroup& g, std::size_t k, const RegionPlace& place, PixelClaims& claims,
+inline bool emit_small(const TriangleGroup& g, std::size_t k, const RegionOrigin& origin, PixelClaims& claims,
                        FragmentBatch& batch) noexcept {
     std::array<std::uint32_t, TriangleGroup::max_height> covered{};
     int count = 0;
@@ -166,16 +166,16 @@ inline bool emit_small(const TriangleGroup& g, std::size_t k, const RegionPlace&
     }
     const auto bits_of = [&](std::uint32_t row) { return covered[row]; };
     if (batch.count + count > usable_capacity ||
-        !claims.claim_rows({place.row, place.column}, g.width[k], g.height[k], bits_of))
+        !claims.claim_rows({origin.row, origin.column}, g.width[k], g.height[k], bits_of))
         return false;
     auto at = static_cast<std::size_t>(batch.count);
     for (std::uint32_t row = 0; row < g.height[k]; ++row)
         for (std::uint32_t column = 0; column < g.width[k]; ++column) {
             if ((covered[row] >> column & 1) == 0) continue;
-            batch.pixel[at] = (place.row + row) * place.width + place.column + column;
+            batch.pixel[at] = (origin.row + row) * origin.width + origin.column + column;
             batch.x[at] = static_cast<std::uint16_t>(g.x0[k] + column);
             batch.y[at] = static_cast<std::uint16_t>(g.y0[k] + row);
-            batch.primitive[at++] = place.primitive;
+            batch.primitive[at++] = origin.primitive;
         }
     batch.count += count;
     return true;

@@ -78,7 +78,7 @@ class ChunkedBins {
           chunks_{std::clamp<std::size_t>(std::min(triangles / 4096, (std::size_t{1} << 19) / tiles), 1, 64)},
           next_(chunks_ * tiles) {}
 
-    // Calls body(first triangle, end, row of the chunk) for every chunk.
+    // Calls body(first triangle, end, the chunk's counts by tile) for every chunk.
     template <class Body>
     void for_chunks(int threads, const Body& body) {
         parallel_for(chunks_, threads, [&](std::size_t c) {

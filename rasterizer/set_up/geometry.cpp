@@ -57,18 +57,18 @@ void add(SetupCounters& sum, const SetupCounters& part) {
     sum.non_finite += part.non_finite;
 }
 
-// Where each chunk's triangles and new vertices go.
-struct Place {
+// The indices of a chunk's first triangle and first new vertex.
+struct ChunkStart {
     std::size_t triangle = 0, vertex = 0;
 };
 
 // Puts the chunks one behind the other, each freed as soon as it is copied; the vertices that each made are renumbered.
 void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometry) {
     const std::size_t given = geometry.vertices.size();
-    std::vector<Place> place(chunks.size());
-    Place end{0, given};
+    std::vector<ChunkStart> start(chunks.size());
+    ChunkStart end{0, given};
     for (std::size_t c = 0; c < chunks.size(); ++c) {
-        place[c] = end;
+        start[c] = end;
         end = {end.triangle + chunks[c].triangles.size(), end.vertex + chunks[c].vertices.size()};
         add(geometry.counters, chunks[c].counters);
     }
@@ -82,17 +82,17 @@ void concatenate(std::vector<SetupChunk>& chunks, int threads, Geometry& geometr
         const SetupChunk chunk = std::move(chunks[c]);
         const auto at = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
         // A chunk numbers its new vertices from `given` on; they move behind those of the chunks before it.
-        const auto moved = static_cast<std::uint32_t>(place[c].vertex - given);
-        const auto triangles = at(geometry.triangles, place[c].triangle);
+        const auto moved = static_cast<std::uint32_t>(start[c].vertex - given);
+        const auto triangles = at(geometry.triangles, start[c].triangle);
         std::ranges::copy(chunk.triangles, triangles);
         for (auto t = triangles; !chunk.vertices.empty() && t != triangles + std::ssize(chunk.triangles); ++t)
             for (std::uint32_t& v : t->vertex) v += v < given ? 0 : moved;
-        if (!chunk.offset_z.empty()) std::ranges::copy(chunk.offset_z, at(geometry.offset_z, place[c].triangle));
-        std::ranges::copy(chunk.vertices, at(geometry.vertices, place[c].vertex));
-        std::ranges::copy(chunk.corners, at(geometry.corners, place[c].vertex));
-        std::ranges::copy(chunk.extras, at(geometry.extras.values, place[c].vertex * geometry.extras.stride));
-        const auto first = at(geometry.all_triangles, place[c].triangle);
-        std::iota(first, first + std::ssize(chunk.triangles), static_cast<std::uint32_t>(place[c].triangle));
+        if (!chunk.offset_z.empty()) std::ranges::copy(chunk.offset_z, at(geometry.offset_z, start[c].triangle));
+        std::ranges::copy(chunk.vertices, at(geometry.vertices, start[c].vertex));
+        std::ranges::copy(chunk.corners, at(geometry.corners, start[c].vertex));
+        std::ranges::copy(chunk.extras, at(geometry.extras.values, start[c].vertex * geometry.extras.stride));
+        const auto first = at(geometry.all_triangles, start[c].triangle);
+        std::iota(first, first + std::ssize(chunk.triangles), static_cast<std::uint32_t>(start[c].triangle));
     });
 }
 

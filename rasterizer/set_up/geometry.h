@@ -78,7 +78,7 @@ struct SetupTriangle {
     bool front_facing = true;
 };
 
-// What was dropped on the way, exact counts; `first_non_finite` is a source triangle.
+// Exact counts of the triangles that were dropped, by reason; `first_non_finite` is a source triangle.
 // A source triangle is in triangles_in and in at most one of culled, outside, degenerate and non_finite; `clipped`
 // counts those that were cut and not found outside (coverage.md 7.1).
 struct SetupCounters {

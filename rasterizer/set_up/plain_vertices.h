@@ -25,7 +25,7 @@ struct PlainVertexRules {
 // Bit i of the answer: vertex i of the sixteen is plain, and its corner is written.
 using SetUpPlain = std::uint32_t (*)(const PlainVertexRules& rules, const ClipVertex* vertices, WindowCorner* corners);
 
-// That of the chosen set; null for scalar. Ask once a draw.
+// The kernel of the chosen instruction set; null for scalar, which has none. A draw asks once.
 [[nodiscard]] SetUpPlain set_up_plain() noexcept;
 
 }  // namespace strata::rasterizer

@@ -1,4 +1,5 @@
 // rasterizer/set_up/plain_vertices_simd.cpp - plain_vertices.h for every instruction set.
+// How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once a target
@@ -50,7 +51,7 @@ HWY_INLINE VF map(const PlainVertexRules& r, std::size_t axis, VF c, VF w, VF in
     return hn::Add(hn::Mul(hn::Set(F{}, r.scale[axis]), divided), hn::Set(F{}, r.offset[axis]));
 }
 
-// What is snapped is a binary32 times a power of two: exact, as in window.h.
+// Snapping multiplies a binary32 by a power of two, which is exact (window.h).
 HWY_INLINE hn::Vec<I> snapped(const PlainVertexRules& r, VF c) {
     const VF scaled = hn::Mul(c, hn::Set(F{}, r.subpixels));
     return r.rounds ? hn::NearestInt(scaled) : hn::ConvertTo(I{}, scaled);

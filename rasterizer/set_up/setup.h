@@ -19,8 +19,9 @@
 
 namespace strata::rasterizer {
 
-// What the fate of a triangle depends on at each of its vertices, found once a vertex: bits 0 .. max_clip_planes - 1 name
-// the planes that it is outside of; the others what of it is not finite.
+// What may go wrong with a triangle at one of its vertices, found once for each vertex and not for each triangle. Bits
+// 0 .. max_clip_planes - 1 name the clip planes that the vertex lies outside of; the bits below name which of its
+// values are not finite.
 using VertexMarks = std::uint32_t;
 inline constexpr VertexMarks marks_planes = (1u << max_clip_planes) - 1;
 inline constexpr VertexMarks marks_input = 1u << max_clip_planes;  // as given
@@ -35,7 +36,8 @@ struct SourceTriangle {
     const TriangleRun* run = nullptr;
 };
 
-// What a run of source triangles becomes. The vertices that clipping makes are numbered from the soup's last one on.
+// The triangles that set-up makes of a run of source triangles. Vertices made by clipping are numbered from the soup's
+// last one on.
 struct SetupChunk {
     std::vector<TriangleRecord> triangles;
     std::vector<std::array<double, 3>> offset_z;

@@ -1,5 +1,5 @@
-// rasterizer/set_up/triangle_walk.h - the triangles of a list, a group at a time, and the rows of a large one: what every walk over a
-// region starts with. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
+// rasterizer/set_up/triangle_walk.h - the triangles of a triangles, a group at a time, and the rows of a large one:
+// what every walk over a region starts with. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
 #pragma once
 #include <algorithm>
 #include <span>
@@ -24,18 +24,18 @@ struct RowSpan {
     return rules;
 }
 
-// Sets up `list` (indices into geometry.triangles) group after group in `group` and calls visit(the group's part of it)
-// for each. What the next ones need is on its way meanwhile.
+// Sets up `triangles` (indices into geometry.triangles) group after group in `group` and calls visit(the group's part
+// of it) for each. Triangles and corners of the groups to come are prefetched meanwhile.
 template <class Visit>
-void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span<const std::uint32_t> list,
+void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span<const std::uint32_t> triangles,
                     TriangleGroup& group, const Visit& visit) {
     constexpr std::size_t size = TriangleGroup::size;
     const SmallKernels& kernels = small_kernels();
     const auto part = [&](std::size_t at) {
-        const auto rest = list.subspan(std::min(at, list.size()));
+        const auto rest = triangles.subspan(std::min(at, triangles.size()));
         return rest.first(std::min(size, rest.size()));
     };
-    for (std::size_t at = 0; at < list.size(); at += size) {
+    for (std::size_t at = 0; at < triangles.size(); at += size) {
         // Records two groups ahead; corners one group ahead, whose records have come by then.
         for (const std::uint32_t t : part(at + 2 * size)) __builtin_prefetch(&geometry.triangles[t]);
         for (const std::uint32_t t : part(at + size))
@@ -59,7 +59,7 @@ void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span
     return true;
 }
 
-// What is covered of each of `rows`, at most max_span_rows of them.
+// The covered span of each of `rows`; at most max_span_rows rows.
 inline void find_spans(const TriangleEdges& edges, const Rect& rows, int subpixel_bits, RowSpan* spans) noexcept {
     RowSpan* const end = spans + rows.height();
     if (covers(edges, rows, subpixel_bits)) return std::fill(spans, end, RowSpan{rows.x0, rows.x1});

@@ -45,7 +45,7 @@ class FragmentValues {
     // exact fallbacks.
     [[nodiscard]] int fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const;
 
-    // What DepthPath::float32 makes of shader_z.
+    // How DepthPath::float32 makes a code of shader_z.
     [[nodiscard]] const DepthConversion<float>& to_code() const noexcept { return to_code_; }
 
   private:
@@ -71,7 +71,7 @@ class FragmentValues {
     // Depth as a value in the buffer's own units, not clamped.
     [[nodiscard]] int fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                         const TriangleLanes& lanes, const float* shader_z, double* out) const;
-    // Of a value in the buffer's own units.
+    // The code of a depth in the buffer's own units.
     [[nodiscard]] std::uint32_t code_of(double value) const noexcept { return depth_code(value, value_to_code_); }
     // The stored path, if it is one of depth_paths.h; drops what depth_replace rejects.
     [[nodiscard]] int fill_value_codes(const SetupTriangle& t, const DrawnTriangle& triangle, int first,

@@ -27,7 +27,7 @@ struct RowRun {
     std::uint32_t primitive;
 };
 
-// What `depth` makes of a plane of depth: its binary32 value, and the code of that.
+// The arrays that the kernel `depth` fills from a plane of depth: binary32 values, and the codes of those.
 struct DepthLanes {
     DepthConversion<float> to_code;  // fixed point or D32F
     float* shader_z;                 // null: not wanted
@@ -71,7 +71,7 @@ struct LaneKernels {
                   int count, const DepthLanes& out) noexcept;
 };
 
-// Those of the chosen set. Ask once a draw.
+// The kernels of the chosen instruction set. A draw asks once, not once a triangle.
 [[nodiscard]] const LaneKernels& lane_kernels() noexcept;
 
 namespace scalar {

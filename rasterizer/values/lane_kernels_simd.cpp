@@ -1,4 +1,6 @@
-// rasterizer/values/lane_kernels_simd.cpp - the kernels of lane_kernels.h for every instruction set; their meaning stands there.
+// rasterizer/values/lane_kernels_simd.cpp - the kernels of lane_kernels.h for every instruction set; their meaning
+// stands there.
+// How kernels are written: kernels.md. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/values/lane_kernels_simd.cpp"
 #include <bit>

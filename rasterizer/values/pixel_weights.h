@@ -74,8 +74,8 @@ struct PixelWeights {
     // From the value at the box's first pixel back to pixel (0,
     // 0); the tie was taken off for coverage and is put back.
     [[nodiscard]] static EdgePlane plane(const TriangleGroup& g, std::size_t k, std::size_t i) noexcept {
-        const auto number = [k](const TriangleGroup::Row& row) {
-            return std::int64_t{static_cast<std::int32_t>(row[k])};
+        const auto number = [k](const TriangleGroup::PerTriangle& all) {
+            return std::int64_t{static_cast<std::int32_t>(all[k])};
         };
         const std::int64_t right = number(g.step[i]), down = number(g.down[i]);
         const std::int64_t first = number(g.value[i]) + number(g.tie[i]);

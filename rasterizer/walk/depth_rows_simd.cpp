@@ -1,4 +1,5 @@
 // rasterizer/walk/depth_rows_simd.cpp - draw_depth_rows of rows.h for every instruction set.
+// How kernels are written: kernels.md. Tests: tests/rasterizer/walk/rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/depth_rows_simd.cpp"
 #include "hwy/foreach_target.h"  // compiles this file once a target
@@ -42,9 +43,9 @@ struct DepthOf {
             V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : rounded(v, hn::Set(F64{}, plane_.error), unsure);
             if constexpr (!unsnapped) z = decided(z, unsure, exact_, geometry_, index_, row);
             const auto code = codes<is_fixed>(z, to_code_);
-            std::uint32_t* const place = codes_ + row.pixel;
-            const auto passed = hn::And(row.covered, nearer(code, hn::LoadU(U32{}, place), is_fixed));
-            hn::BlendedStore(code, hn::RebindMask(U32{}, passed), U32{}, place);
+            std::uint32_t* const stored = codes_ + row.pixel;
+            const auto passed = hn::And(row.covered, nearer(code, hn::LoadU(U32{}, stored), is_fixed));
+            hn::BlendedStore(code, hn::RebindMask(U32{}, passed), U32{}, stored);
             passed_ += hn::CountTrue(F32{}, passed);
         }
         HWY_INLINE void finish(std::uint64_t pixels) {

@@ -59,8 +59,8 @@ HWY_INLINE std::uint32_t bits_of(RowMask mask) {
     return bytes[0];
 }
 
-// The slow paths take copies. If they took the plane by reference,
-// the compiler would keep it in memory in the fast path, too.
+// The slow paths below take copies of the plane. If they took it by reference, the compiler would keep it in memory in
+// the fast path, too.
 HWY_INLINE FilterPlane filter_of(const RationalPlane& plane, const DrawnTriangle& triangle) {
     if (HWY_UNLIKELY(plane.is_constant()))
         return constant_filter(RationalPlane{plane}, triangle.geometry, triangle.index);
@@ -117,9 +117,9 @@ class RowWalk {
     HWY_INLINE RowWalk(State& state, const Geometry& geometry, const Rect& region)
         : state_{state}, geometry_{geometry}, region_{region}, rules_{group_rules(geometry, region)} {}
 
-    void draw(std::span<const std::uint32_t> list) {
-        const auto visit = [this](std::span<const std::uint32_t> triangles) HWY_ATTR { draw_group(triangles); };
-        for_each_group(geometry_, rules_, list, group_, visit);
+    void draw(std::span<const std::uint32_t> triangles) {
+        const auto visit = [this](std::span<const std::uint32_t> group) HWY_ATTR { draw_group(group); };
+        for_each_group(geometry_, rules_, triangles, group_, visit);
     }
 
   private:
@@ -165,7 +165,7 @@ class RowWalk {
         const U32 d;
         const I32 di;
         alignas(64) std::uint32_t numbers[(within_8 ? 64 : 256) + block_part];
-        coverage.list(numbers);
+        coverage.write_numbers(numbers);
         const int x0 = static_cast<int>(group_.x0[k]), y0 = static_cast<int>(group_.y0[k]);
         const auto first = hn::Set(d, static_cast<std::uint32_t>(pixel(x0, y0)));
         const auto width = hn::Set(d, static_cast<std::uint32_t>(region_.width()));

@@ -51,15 +51,15 @@ class TileRasterizer::Pass {
     void draw_small(std::uint32_t index, std::size_t k) {
         const TriangleRecord& record = geometry_.triangles[index];
         const Rect& region = owner_.region_;
-        const RegionPlace place{group_.x0[k] - static_cast<std::uint32_t>(region.x0),
-                                group_.y0[k] - static_cast<std::uint32_t>(region.y0),
-                                static_cast<std::uint32_t>(region.width()), record.primitive};
+        const RegionOrigin origin{group_.x0[k] - static_cast<std::uint32_t>(region.x0),
+                                  group_.y0[k] - static_cast<std::uint32_t>(region.y0),
+                                  static_cast<std::uint32_t>(region.width()), record.primitive};
         first_ = batch_.count;
         // A pixel is held already, or the room is short: the batch goes
         // on its way, and an empty one takes every small triangle.
-        if (!small_.emit(group_, k, place, owner_.claims_, batch_)) {
+        if (!small_.emit(group_, k, origin, owner_.claims_, batch_)) {
             flush();
-            static_cast<void>(small_.emit(group_, k, place, owner_.claims_, batch_));
+            static_cast<void>(small_.emit(group_, k, origin, owner_.claims_, batch_));
         }
         if (batch_.count > first_) fill({geometry_, index, group_, k});
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <regex>
 
+#include "scenes/files/image_io.h"
 #include "tests/tools/program.h"
 #include "tools/strata/reproduce/reproduce_chart.h"
 
@@ -73,6 +74,22 @@ TEST_CASE("a page holds its sections in order, their tables and pictures, and ev
     CHECK(count_of(page, "<table>") == 1);
     CHECK(page.find("<h2>A") < page.find("<h2>Second"));
     CHECK(folder.files() == std::vector<std::string>{"index.html", "numbers.csv"});
+}
+
+TEST_CASE(
+    "a picture's file holds straight colours: those of a finished frame are divided by alpha, a layer's are not") {
+    const Folder folder;
+    Image image{Format::rgba8, 1, 1};
+    image.codes = {60, 30, 0, 128};
+    using strata::tools::ColorForm;
+    static_cast<void>(strata::tools::write_picture(folder / "", "frame.png", "", image));
+    static_cast<void>(strata::tools::write_picture(folder / "", "layer.png", "", image, ColorForm::straight));
+    const auto codes = [&](const char* file) {
+        const Image read = strata::scenes::read_images(folder / file).front().image;
+        return std::vector<std::uint32_t>(read.codes.begin(), read.codes.end());
+    };
+    CHECK(codes("frame.png") == std::vector<std::uint32_t>{120, 60, 0, 128});  // 60 * 255 / 128 is 119.5
+    CHECK(codes("layer.png") == std::vector<std::uint32_t>{60, 30, 0, 128});
 }
 
 TEST_CASE("a table's file quotes fields with commas, quotes or ends of lines, and no others") {

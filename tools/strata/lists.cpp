@@ -30,7 +30,8 @@ std::vector<std::string> profiles_that_run(const peeling::Algorithm& algorithm) 
     return names;
 }
 
-// The words for what a profile must have: those that refuse a profile that has nothing.
+// The features that an algorithm needs, in the words in which a profile is refused: a profile without any feature is
+// refused for each of them.
 std::vector<std::string> needs_of(const peeling::Algorithm& algorithm) {
     pipeline::DeviceProfile nothing;
     nothing.has_d24 = nothing.has_sequential_depth_units = false;

@@ -34,7 +34,7 @@ struct Columns {
     ColumnBlock block;
 
     Columns(Random& random, std::uint32_t depth, Order order, Heights heights) : words(depth * block_lanes) {
-        block.depth = depth;
+        block.height = depth;
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
             const std::uint32_t height = heights == Heights::equal || lane == 3 ? depth : below(random, depth + 1);
             block.visible[lane] = height;
@@ -63,12 +63,12 @@ struct Columns {
         std::vector<std::uint64_t> rows(words.size());
         LaneWords heights = block.visible, none{};
         const Arrivals from{.stride = block_lanes,
-                            .ranks = block.depth,
+                            .ranks = block.height,
                             .word = words.data(),
                             .count = heights.data(),
                             .hidden = none.data(),
                             .at_surface = none.data()};
-        if (take_block(from, 0, block, rows.data()) != (block.depth > 0)) rows.clear();
+        if (take_block(from, 0, block, rows.data()) != (block.height > 0)) rows.clear();
         return rows;
     }
 };
@@ -112,7 +112,7 @@ struct Scene {
     Scene(Random& random, std::uint32_t depth, bool full) : rows(depth * block_lanes, ~std::uint64_t{0}) {
         for (auto& channel : color)
             for (std::size_t i = 0; i <= rows.size(); ++i) channel.push_back(random_channel(random));
-        block.depth = depth;
+        block.height = depth;
         block.count = block_lanes;
         std::vector<std::uint32_t> places(rows.size());
         for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<std::uint32_t>(i);
@@ -124,7 +124,7 @@ struct Scene {
             for (std::size_t k = 0; k < block.visible[lane]; ++k)
                 rows[k * block_lanes + lane] = (100 + k) << 32 | places[k * block_lanes + lane];
         }
-        block.rows = rows.data();
+        block.levels = rows.data();
         for (std::size_t c = 0; c < 4; ++c) block.color[c] = color[c].data();
     }
 
@@ -305,8 +305,8 @@ TEST_CASE("fragments come up again sorted by depth and arrival, with their colou
                     tied |= k > 0 && expected[k].key == expected[k - 1].key;
                 }
                 wrong += tied == (block.has_ties[lane] != 0) ? 0 : 1;
-                for (std::size_t k = expected.size(); k < block.depth; ++k)
-                    wrong += block.rows[k * block_lanes + lane] == ~std::uint64_t{0} ? 0 : 1;
+                for (std::size_t k = expected.size(); k < block.height; ++k)
+                    wrong += block.levels[k * block_lanes + lane] == ~std::uint64_t{0} ? 0 : 1;
             }
         }
     }

@@ -1,10 +1,11 @@
 // tools/strata/effects/effects_costs.h - how long the effects of a plan take.
 //
-// Rule     All runs warm, one after the other in turn, the median of each. A stage's cost is what the run takes
-//          longer when it simulates the stage once more, or though nobody calls for it, with a state that changes
-//          nothing (pipeline/frame/effects.h); likewise a value's that is left out. A value that is called for: walks
-//          over all fragments with and without it, times the passes that have it. Replay is a saving of its own and
-//          does not join Effects::all: effects are timed without it.
+// Rule     Every kind of run is repeated, the kinds taking turns on warm caches; its time is the median. A stage costs
+//          the difference that one more stage of its kind makes, with a state that changes nothing; that measures
+//          stages which nobody calls for, too (pipeline/frame/effects.h). A value that is left out is measured in the
+//          same way. A value that passes do call for costs the difference between two walks over all fragments, one
+//          with it and one without, times the number of those passes. Effects are timed without replay, since
+//          Effects::all does not use it.
 // Tests    tests/tools/effects_test.cpp
 #pragma once
 namespace strata::tools {

@@ -49,8 +49,8 @@ Section layers(const ReproduceOptions& options, const Teapot& teapot) {
         // Pixels whose layer has a fragment: their alpha is not 0.
         for (std::size_t p = 0; p < color.codes.size(); p += 4) covered += color.codes[p + 3] != 0 ? 1 : 0;
         section.sheet.rows.push_back({std::to_string(i), std::to_string(covered)});
-        section.pictures.push_back(
-            write_picture(options.folder, fmt::format("layer{}.png", i), fmt::format("layer {}", i), color));
+        section.pictures.push_back(write_picture(options.folder, fmt::format("layer{}.png", i),
+                                                 fmt::format("layer {}", i), color, ColorForm::straight));
     }
     return section;
 }

@@ -97,9 +97,8 @@ void write_page(const std::string& folder, const Page& page) {
 }
 
 Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
-                      const pipeline::Image& color) {
-    // A finished frame counts as premultiplied; files hold straight colours in 8 bits.
-    scenes::write_image(folder + '/' + file, {.color = color, .premultiplied = true});
+                      const pipeline::Image& color, ColorForm form) {
+    scenes::write_image(folder + '/' + file, {.color = color, .premultiplied = form == ColorForm::premultiplied});
     return {file, caption};
 }
 

@@ -53,9 +53,11 @@ struct ReproduceOptions {
 
 // index.html, a CSV for each sheet; the folder exists.
 void write_page(const std::string& folder, const Page& page);
-// The picture of a finished frame, as `folder`/file.
+// Whether a picture's colours are times their alpha: a finished frame's are, a layer's as its algorithm says.
+enum class ColorForm : std::uint8_t { premultiplied, straight };
+// A picture as `folder`/file, whose 8-bit colours are straight.
 [[nodiscard]] Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,
-                                    const pipeline::Image& color);
+                                    const pipeline::Image& color, ColorForm form = ColorForm::premultiplied);
 
 // How far two pictures of one size are apart. A pixel's difference is the largest of its r, g and
 // b, in 1/255.

@@ -1,0 +1,28 @@
+// peeling/programs/under.h - under_text-inl.h for a lane at a time.
+// Tests: tests/peeling/programs/programs_test.cpp, tests/peeling/closed/columns_test.cpp
+#pragma once
+#include <cstdint>
+
+#include "rasterizer/base/numerics.h"
+
+namespace strata::peeling {
+
+enum class FrontAlpha : std::uint8_t { covers, lets_through };  // which of the two the alpha of a front says
+
+inline namespace strict {
+namespace scalar {
+
+struct OneFloat {
+    static constexpr float all(float v) noexcept { return v; }
+};
+
+#include "peeling/programs/under_text-inl.h"
+
+// What a front of this alpha lets through.
+[[nodiscard]] inline float through_front(FrontAlpha meaning, float alpha) noexcept {
+    return meaning == FrontAlpha::covers ? let_through(OneFloat{}, alpha) : alpha;
+}
+
+}  // namespace scalar
+}  // namespace strict
+}  // namespace strata::peeling
