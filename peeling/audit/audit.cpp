@@ -46,6 +46,7 @@ using namespace in_parts;
 
 namespace {
 
+// Rows are halved first, a single row then by columns. A part of one pixel must not come here.
 std::array<Part, 2> halves(const Part& part) {
     const auto [x0, y0, x1, y1] = part.rect;
     const int x = (x0 + x1) / 2, y = (y0 + y1) / 2;
@@ -53,12 +54,14 @@ std::array<Part, 2> halves(const Part& part) {
     return {Part{part.tile, {x0, y0, x, y1}}, Part{part.tile, {x, y0, x1, y1}}};
 }
 
+// A count without pixels has no place to move.
 void move(PixelCount& count, int dx, int dy) {
     if (count.pixels == 0) return;
     count.first_x += dx;
     count.first_y += dy;
 }
 
+// The sum that it asks for is what the lists of this pixel need, twice for the half that the trace has.
 [[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
     const std::uint64_t lists = fragments * AuditMemory::bytes_a_fragment * 2;
     const std::uint64_t needed = lists > bytes ? lists : 2 * bytes;  // nobody knows how long the trace would be
@@ -141,6 +144,8 @@ struct Audit::Impl {
 
     // A region of the frame has ended: a tile, or the whole frame, which is looked at tile by tile.
     void look_at(Region& region, std::size_t number, const Image& color) {
+        // An algorithm without an order has no trace and needs none; with one, an incomplete trace tells
+        // nothing, and the tile is left for finish().
         const bool is_traced = !has_order() || RegionShortcuts{region}.trace().is_complete();
         std::optional<PixelTraces> traces;
         if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect());
@@ -148,10 +153,12 @@ struct Audit::Impl {
             const Part part{tile, rect(tile)};
             tiles[tile] = is_traced ? look_at(part, traces ? &*traces : nullptr, color, shared) : Looked{{}, {part}};
         };
+        // Each tile writes its own entry of `tiles`: workers need no lock for it.
         if (region.rect() == rect(number)) return look_at_tile(number);
         parallel_for(tiles.size(), threads, look_at_tile);
     }
 
+    // A tile that the executor found equal to another has that one's figures, moved to its place.
     void copy(std::size_t like, std::size_t tile) {
         const int dx = rect(tile).x0 - rect(like).x0, dy = rect(tile).y0 - rect(like).y0;
         Looked& there = tiles[tile] = tiles[like];
@@ -162,11 +169,14 @@ struct Audit::Impl {
     }
 
     // Runs a part again, in as many parts as the memory makes of it. Single pixels that do not fit are left.
+    // Parts are taken from the end of `open`, so that no more than the halves of one way down are waiting at a
+    // time.
     [[nodiscard]] Looked run_again(const Part& part, const FrameResult& result, const AuditMemory& memory,
                                    RegionScratchPool& scratch) {
         Frame again = frame;
         again.trace = has_order();
         again.trace_bytes = memory.trace_bytes();
+        // Only the trace is wanted of this run; what the frame keeps for the user is already there.
         again.keep_layers = again.nearest_depth = false;
         Looked looked;
         std::vector<Part> open{part};
@@ -174,6 +184,8 @@ struct Audit::Impl {
             const Part next = open.back();
             open.pop_back();
             RegionBooks books;
+            // The frame's answers to the body's questions, as a part alone might answer them otherwise and end
+            // earlier.
             books.script = result.answers;
             Region region{again, {next.rect, next.tile, Extent::tile}, books, {}, &scratch};
             const bool fits = run_traced(region);
@@ -195,6 +207,8 @@ struct Audit::Impl {
         if (!has_order()) return true;
         std::uint64_t fragments = 0;
         for (const std::uint32_t of_pixel : coverage_of(region)) fragments += of_pixel;
+        // The trace is taken to have an entry for each fragment; a single pixel is run whatever this estimate
+        // says.
         if (region.rect().area() > 1 && fragments * sizeof(TraceEntry) > region.frame().trace_bytes) return false;
         body(region);
         return RegionShortcuts{region}.trace().is_complete();
@@ -215,6 +229,8 @@ struct Audit::Impl {
         Looked all;
         for (Looked& tile : tiles) all.add(std::move(tile));
         try {
+            // First all workers with their shares, then one after the other with all of the memory, for what
+            // was left.
             for (const AuditMemory& memory : {shared, alone})
                 all.add(run_all_again(std::exchange(all.left, {}), result, memory));
         } catch (const NeedsFrame&) {
@@ -227,6 +243,7 @@ struct Audit::Impl {
             Region region{still, {all.left.front().rect, all.left.front().tile, Extent::tile}, books, {}, &pool};
             throw_too_deep(all.left.front(), coverage_of(region).front(), alone.bytes);
         }
+        // A frame without a pixel has made no order error, which is 0 and not "no order".
         if (has_order() && !all.found.order_errors) all.found.order_errors = 0;
         return all.found;
     }

@@ -22,6 +22,7 @@
 namespace strata::peeling {
 
 struct AuditMemory {
+    // What --fragment-memory allows.
     std::uint64_t bytes = 0;  // of all workers
     int workers = 1;          // as many as look at once
     // Half of a worker's share is for traces, the other half for fragments.

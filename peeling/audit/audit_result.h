@@ -12,6 +12,7 @@ struct PixelCount {
     friend bool operator==(const PixelCount&, const PixelCount&) = default;
 };
 
+// The figures are the same for every number of threads, size of tiles and memory (audit.h).
 struct AuditResult {
     int layers_max = 0;     // N: distinct visible keys of the deepest pixel
     int fragments_max = 0;  // M: visible fragments of the deepest pixel

@@ -13,8 +13,10 @@ using pipeline::CapturedFragment;
 
 namespace {
 
+// What a fragment is the same by; primitives rise in submission order.
 auto place(const CapturedFragment& f) { return std::tuple(f.pixel, f.primitive); }
 
+// A stable sort keeps fragments of one place in the order of the capture.
 std::vector<CapturedFragment> by_place(std::span<const CapturedFragment> fragments) {
     std::vector<CapturedFragment> sorted(fragments.begin(), fragments.end());
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return place(a) < place(b); });
@@ -40,6 +42,7 @@ int bin_of(std::int64_t difference) {
     return difference < 0 ? -bin : bin;
 }
 
+// The inverse of bin_of(): bin b > 1 holds 2^(b - 2) + 1 to 2^(b - 1).
 UlpBin bounds_of(int bin) {
     if (bin == 0) return {0, 0, 0};
     const int steps = bin < 0 ? -bin : bin;
@@ -56,6 +59,8 @@ PairedFragments pair_up(std::span<const CapturedFragment> first, std::span<const
     const std::vector<CapturedFragment> a = by_place(first), b = by_place(second);
     PairedFragments result;
     result.pairs.reserve(std::min(a.size(), b.size()));
+    // Whichever head comes first and has no partner is passed over and counted; the rests of both lists have
+    // none either.
     std::size_t i = 0, j = 0;
     while (i < a.size() && j < b.size()) {
         if (are_partners(std::span{a}.subspan(i), std::span{b}.subspan(j), match))
@@ -73,10 +78,12 @@ PathComparison compare(const PairedFragments& fragments) {
     PathComparison result;
     result.fragments = fragments.pairs.size();
     result.unmatched = fragments.unmatched;
+    // Ordered, so that the histogram runs from low to high.
     std::map<int, std::uint64_t> bins;
     for (const PathPair& pair : fragments.pairs) {
         ++bins[bin_of(pair.difference())];
         if (pair.difference() == 0) continue;
+        // Only a larger magnitude replaces the place: the first of equals stays.
         if (result.differing++ == 0 || magnitude(pair) > magnitude(result.where)) result.where = pair;
     }
     result.largest = result.where.difference();

@@ -18,6 +18,7 @@ struct CapturedFragment;
 
 namespace strata::peeling {
 
+// One fragment by both paths.
 struct PathPair {
     std::uint32_t pixel = 0, primitive = 0;  // row-major index in the frame, submission index
     std::uint32_t stored = 0, reference = 0;
@@ -47,6 +48,7 @@ struct UlpBin {
     friend bool operator==(const UlpBin&, const UlpBin&) = default;
 };
 
+// All pairs of a frame in figures.
 struct PathComparison {
     std::uint64_t fragments = 0, differing = 0, unmatched = 0;
     std::int64_t largest = 0;  // by magnitude, with its sign

@@ -24,6 +24,7 @@ struct LayerFragment {
     friend bool operator==(const LayerFragment&, const LayerFragment&) = default;
 };
 
+// Bits of one pixel's byte in the map: both may be set.
 enum PeelError : std::uint8_t { layer_duplicated = 1, layer_lost = 2 };
 
 struct PeelErrors {

@@ -18,6 +18,8 @@ PixelTraces::PixelTraces(Trace& trace, const rasterizer::Rect& rect)
         trace[i].pixel = std::exchange(head_[trace[i].pixel], static_cast<std::uint32_t>(i));
 }
 
+// Walks the pixel's links. Back entries came from the far end, each over the one before, so they are turned
+// round.
 void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence, std::vector<TraceEntry>& backs) const {
     const std::size_t pixel = static_cast<std::size_t>(y - rect_.y0) * static_cast<std::size_t>(rect_.width()) +
                               static_cast<std::size_t>(x - rect_.x0);
@@ -32,6 +34,7 @@ void PixelTraces::near_to_far(int x, int y, std::vector<TraceEntry>& sequence, s
 
 namespace {
 
+// The first place in row-major order, in whatever order pixels come: threads must not show in the result.
 void add(PixelCount& count, int x, int y) {
     if (count.pixels++ == 0 || std::tie(y, x) < std::tie(count.first_y, count.first_x))
         count.first_x = x, count.first_y = y;
@@ -44,6 +47,7 @@ void add(PixelCount& count, const PixelCount& other) {
     count.pixels = pixels;
 }
 
+// Equal keys are neighbours in a sorted order.
 std::size_t distinct_keys(const FragmentOrder& by_key) {
     std::size_t keys = 0;
     for (std::size_t i = 0; i < by_key.size(); ++i)
@@ -70,9 +74,11 @@ void PixelAudit::look_at(std::span<const KeyedFragment> visible, const PixelTrac
     const auto fragments = algorithm_.kills_alpha_zero ? with_alpha(visible) : visible;
     sort_by(&KeyedFragment::key, fragments, by_key_);
     const std::size_t keys = distinct_keys(by_key_);
+    // Layers count distinct keys, fragments count all: the difference is what ties hide.
     found_.layers_max = std::max(found_.layers_max, static_cast<int>(keys));
     found_.fragments_max = std::max(found_.fragments_max, static_cast<int>(fragments.size()));
     if (keys < fragments.size()) add(found_.ties, pixel.x, pixel.y);
+    // Without an order no tie can be lost, and all pixels count as free of ties.
     if (!has_order()) return compare(fragments, pixel, true);
     kept_ = by_key_;
     apply(algorithm_.ties, kept_);
@@ -92,12 +98,14 @@ std::span<const KeyedFragment> PixelAudit::with_alpha(std::span<const KeyedFragm
     return with_alpha_;
 }
 
+// What one sequence has beyond the end of the other counts place by place.
 std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> fragments) const {
     const std::size_t shared = std::min(kept_.size(), sequence_.size());
     std::uint64_t errors = std::max(kept_.size(), sequence_.size()) - shared;
     for (std::size_t i = 0; i < shared; ++i) {
         const KeyedFragment& expected = fragments[place_of(kept_[i])];
         const TraceEntry& found = sequence_[i];
+        // An entry may stand for a layer without saying which fragment it is: then its key alone is compared.
         const bool is_same_fragment = !found.is_fragment || found.primitive == expected.primitive;
         if (found.key != expected.key || !is_same_fragment) ++errors;
     }
@@ -107,6 +115,7 @@ std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> frag
 void PixelAudit::compare(std::span<const KeyedFragment> fragments, const AuditedPixel& pixel,
                          bool ties_change_nothing) {
     sort_almost(&KeyedFragment::exact_code, fragments, by_key_, by_exact_depth_);
+    // By the exact depth and not by the key: what the key's rounding reorders is a loss too.
     const auto truth = composite(fragments, by_exact_depth_, pixel.background);
     double worst = 0;
     for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::fabs(pixel.shown[c] - truth[c]) * 255.0);

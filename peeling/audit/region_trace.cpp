@@ -10,6 +10,7 @@ using namespace pipeline;
 
 Watch keep_traces(const Frame& frame, std::vector<RegionTrace>& traces) {
     const rasterizer::Geometry& geometry = frame.transparent->geometry;
+    // One place for each tile, before the frame runs: workers then write to different places without a lock.
     traces.assign(static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y), {});
     const auto keep = [&traces](Region& region, std::size_t number, const Image&) {
         RegionTrace& kept = traces[number];
@@ -17,6 +18,8 @@ Watch keep_traces(const Frame& frame, std::vector<RegionTrace>& traces) {
         for (std::size_t i = 0; i < RegionShortcuts{region}.trace().size(); ++i)
             kept.entries.push_back(RegionShortcuts{region}.trace()[i]);
     };
+    // A tile that the executor found equal to another was not run: it has the other's entries, whose pixels
+    // count in its own rectangle.
     const auto copy = [&traces, &geometry](std::size_t like, std::size_t number) {
         traces[number] = {tile_rect(geometry, number), traces[like].entries};
     };

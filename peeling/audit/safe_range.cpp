@@ -23,6 +23,7 @@ std::vector<PathPair> layers_of(std::span<const PathPair> pixel, std::uint32_t o
     return layers;
 }
 
+// The first fragment with the strictest bound is named, in the order of the pairs.
 void limit_from_below(SafeRange& range, std::int64_t lowest, const PathPair& pair) {
     if (range.lowest && *range.lowest >= lowest) return;
     range.lowest = lowest;
@@ -38,6 +39,8 @@ void limit_from_above(SafeRange& range, std::int64_t highest, const PathPair& fr
     range.behind_opaque = is_opaque;
 }
 
+// What n is added to: the comparison's side, or the depth that is stored, which the opaque surface is then
+// compared with too.
 enum class Moves : std::uint8_t { comparison, stored_depth };
 
 // Calls body(layers, opaque code) for every pixel.
@@ -58,6 +61,7 @@ SafeRange range_of(std::span<const PathPair> pairs, std::span<const std::uint32_
         for (std::size_t i = 0; i < layers.size(); ++i) {
             limit_from_below(range, layers[i].difference(), layers[i]);
             if (i + 1 == layers.size()) continue;
+            // The largest n with reference > stored + n, over whole numbers.
             const std::int64_t highest = std::int64_t{layers[i + 1].reference} - layers[i].stored - 1;
             limit_from_above(range, highest, layers[i], layers[i + 1], false);
         }
@@ -101,6 +105,7 @@ SafeRange safe_bias(std::span<const PathPair> pairs, std::span<const std::uint32
     SafeRange range = range_of(pairs, opaque, Moves::stored_depth);
     for (const PathPair& pair : pairs) {
         const std::uint32_t limit = opaque[pair.pixel];
+        // A hidden fragment must stay hidden when the bias moves it: stored + n >= opaque.
         if (pair.stored >= limit) limit_from_below(range, std::int64_t{limit} - pair.stored, pair);
     }
     return range;
@@ -108,10 +113,12 @@ SafeRange safe_bias(std::span<const PathPair> pairs, std::span<const std::uint32
 
 SafeAbsolute safe_absolute(std::span<const PathPair> pairs, std::span<const std::uint32_t> opaque,
                            pipeline::DepthFormat format) {
+    // Bits of doubles from 0 to 1 rise with their values, so both searches bisect over the bits.
     std::uint64_t lowest = 0, lost_from = one_bits + 1;  // safe: lowest <= epsilon < lost_from
     for_each_pixel(pairs, opaque, [&](const std::vector<PathPair>& layers, std::uint32_t) {
         for (std::size_t i = 0; i < layers.size(); ++i) {
             const Comparison own{format, layers[i].reference, layers[i].stored};
+            // Only a fragment that breaks the present bound costs a search.
             if (own.is_behind(lowest)) lowest = own.least_that_hides(lowest, one_bits + 1);
             if (i + 1 == layers.size()) continue;
             const Comparison next{format, layers[i + 1].reference, layers[i].stored};
