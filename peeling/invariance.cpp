@@ -16,6 +16,8 @@ namespace {
 
 using rasterizer::DepthPath;
 
+// The scene and the device of an experiment; every capture makes a renderer of its own, for options differ from
+// capture to capture.
 struct Machine {
     const DrawList& list;
     const View& view;
@@ -28,6 +30,8 @@ struct Machine {
 };
 
 // Only what is drawn, by one depth path.
+// The remedies are taken away: the truth, and the distance between the paths, must not depend on the remedy
+// under test.
 RenderOptions bare(RenderOptions options, DepthPath path) {
     options.depth_path = path;
     options.raster.polygon_offset = {};
@@ -43,6 +47,8 @@ bool draws_twice(const RenderOptions& options) {
 // The oracle's picture: what a device can store does not limit it.
 Image true_picture(const Machine& machine, RenderOptions options) {
     DeviceProfile profile = machine.profile;
+    // Binary32 colours and every fragment of a pixel: neither rounding nor a limit of the device stands between
+    // the fragments and their picture.
     profile.has_float_targets = true;
     options.color_format = Format::rgba32f;
     options.audit = options.keep_layers = options.nearest_depth = false;
@@ -71,6 +77,8 @@ struct Passes {
     }
 
   private:
+    // An algorithm that peels by the float of the shader names its layers by that float's ordered bits;
+    // captures bring the stored code.
     [[nodiscard]] static FrameFragments keyed(FrameFragments fragments, DepthKey key) {
         if (key == DepthKey::stored_code) return fragments;
         for (CapturedFragment& f : fragments.all) f.code = ordered_code(f.shader_z);
@@ -107,6 +115,8 @@ std::vector<LayerFragment> layer_fragments(const Passes& passes) {
     return all;
 }
 
+// The default limit is twice a right peel's passes, one a layer and one that finds nothing: enough to see a
+// layer come again.
 RenderOptions peel_options(const Experiment& e, int layers) {
     RenderOptions options = e.render;
     options.depth_path = e.write;
@@ -118,6 +128,8 @@ RenderOptions peel_options(const Experiment& e, int layers) {
     return options;
 }
 
+// The trace is kept whole, as is the list of fragments: this is a laboratory's use of memory, for frames of
+// modest size.
 void run_peel(Measurement& m, const Passes& passes) {
     const Experiment& e = passes.e;
     const std::vector<LayerFragment> fragments = layer_fragments(passes);
@@ -134,8 +146,12 @@ void run_peel(Measurement& m, const Passes& passes) {
     m.picture = std::move(result.frame.color);
 }
 
+// The paths that divide in the fragment program and replace the depth: polygon offset does not reach what they
+// compare.
 bool is_quotient(DepthPath path) { return path == DepthPath::perspective_rq || path == DepthPath::depth_replace; }
 
+// The proof in safe_range.h is for two depths of the same fragments and a quantised reference; elsewhere no
+// advice is better than a wrong one.
 Advice advice_for(const Experiment& e, const std::vector<PathPair>& pairs, const std::vector<std::uint32_t>& opaque) {
     Advice advice;
     if (draws_twice(e.render) || !e.render.quantize_reference || e.algorithm->key != DepthKey::stored_code)
@@ -162,6 +178,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         const FrameFragments compared = Passes{meter, e}.further(bare(e.render, e.compare), unsorted_algorithm());
         const PairedFragments pairs = pair_up(written.all, compared.all, e.match);
         m.paths = compare(pairs);
+        // Passes into different viewports share no depth buffer: their codes are compared, and no peel is run.
         m.peeled = e.moved_window == std::array{0, 0};
         if (!m.peeled) return m;
         m.advice = advice_for(e, pairs.pairs, written.opaque);
@@ -169,6 +186,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         m.truth = true_picture(machine, bare(e.render, e.write));
         m.image = image_error(m.picture, m.truth);
     } catch (const Refused& refused) {
+        // What was measured before the refusal is dropped, so that nobody reads half an experiment.
         m = {};
         m.refusal = refused.refusal;
     }

@@ -32,6 +32,7 @@ struct Experiment {
     rasterizer::DepthPath write = rasterizer::DepthPath::float32;
     rasterizer::DepthPath compare = rasterizer::DepthPath::float32;
     const Algorithm* algorithm = nullptr;
+    // A peel by two depths may never end: the limit stops one that meets a layer again and again.
     int max_passes = 0;  // geometry passes at most; 0: twice as many as a peel of the true layers needs
 };
 
@@ -58,6 +59,7 @@ struct Measurement {
     double seconds = 0;  // of the peel's passes
 };
 
+// A profile that lacks what the experiment needs gives a refusal instead of an exception.
 [[nodiscard]] Measurement measure(const pipeline::DrawList& list, const pipeline::View& view,
                                   const pipeline::DeviceProfile& profile, const Experiment& experiment);
 

@@ -23,7 +23,9 @@ bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
 }
 
 PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
+    // The list as given is prepared at once: it is the one that most algorithms draw.
     static_cast<void>(transparent(ListOrder::given));
+    // With --alpha all surfaces are transparent and there is no opaque list.
     const bool has_opaque =
         !s_.options.alpha && std::any_of(s_.list.materials.begin(), s_.list.materials.end(),
                                          [](const Material& m) { return m.alpha_mode != AlphaMode::blend; });
@@ -41,6 +43,7 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
     return *prepared;
 }
 
+// Binning is apart from preparing: a list that is kept may be binned again for another tile size.
 void PreparedLists::bin(int tile_size_px) {
     const Stopwatch watch{seconds_};
     const auto bin_one = [&](std::optional<PreparedDraw>& list) {
@@ -72,6 +75,7 @@ PreparedDraw PreparedLists::prepare(const DrawList& list, const View& view, cons
                                     const PrepareOptions& options) {
     const Stopwatch watch{seconds_};
     PreparedDraw prepared = pipeline::prepare(list, view, raster, s_.profile, options);
+    // After set-up: the same triangles, moved by whole pixels.
     const auto& [x, y] = s_.options.window_origin;
     if (x != 0 || y != 0) move_window(prepared.geometry, x, y);
     return prepared;
@@ -79,6 +83,8 @@ PreparedDraw PreparedLists::prepare(const DrawList& list, const View& view, cons
 
 void PreparedLists::prepare_second() {
     const RenderOptions& o = s_.options;
+    // The second list differs from the first in its transform, its clamp or its triangles. Where it differs in
+    // none, further passes draw the first list again.
     View other = s_.view;
     other.vertex_path = o.vertex_paths.second.value_or(s_.view.vertex_path);
     rasterizer::RasterState clamped = s_.raster;
@@ -92,6 +98,7 @@ void PreparedLists::prepare_second() {
 }
 
 bool PreparedLists::arrives_sorted(const Instance& instance) const {
+    // The user may name meshes or materials that are known to come in order.
     const auto names = [&](const std::string& name) {
         return name == s_.list.meshes[instance.mesh].name || name == s_.list.materials[instance.material].name;
     };
@@ -113,6 +120,7 @@ PartSort PreparedLists::parts_of(const rasterizer::TriangleSoup& soup, ListOrder
 Ordering PreparedLists::ordering(ListOrder order) const {
     const Sort& sort = s_.options.sort;
     switch (order) {
+        // No ordering at all keeps the list as the scene has it, which spares the walk over the centroids.
         case ListOrder::given:
             if (sort.rule == SortRule::none) return {};
             return [&sort](const auto& soup) { return SubmissionOrder{submission_order(soup, sort), {}}; };

@@ -7,6 +7,7 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
+// The opaque depths are the start. LESS keeps the nearest; colours are neither computed nor stored.
 void draw_depth(Region& region) {
     const Target depth = region.make_depth();
     region.copy(region.opaque_depth(), depth);
@@ -22,10 +23,14 @@ void draw_depth(Region& region) {
 LightMap light_map(const DrawList& list, const DeviceProfile& profile, const rasterizer::RasterState& eye,
                    const rasterizer::DepthRequest& depth, int threads) {
     const ShadowLight& light = *list.light;
+    // Viewport, scissor and clip planes are the eye's own business; clip depth range and the direction of y are
+    // the device's, and stay.
     rasterizer::RasterState state = eye;
     state.viewport = {0, 0, light.size_px, light.size_px};
     state.scissor.reset();
     state.clip_plane_count = 0;
+    // The offset is put into the map and not into the lookup; by its factor, surfaces that the light grazes are
+    // moved by more.
     state.polygon_offset = {.enabled = true, .factor = light.offset_factor, .units = light.offset_units};
     state.depth_format = depth.format;
     const View from{.view = light.view, .projection = light.projection};
@@ -36,8 +41,11 @@ LightMap light_map(const DrawList& list, const DeviceProfile& profile, const ras
     frame.transparent = &seen;
     frame.depth = depth;
     frame.published_format = target_format(depth.format);
+    // The whole map is one region: a pixel of the eye may look at any texel.
     frame.needs_frame = true;
     LightMap map{run(frame, draw_depth, Execution::literal, threads).color, state, {}};
+    // After `depth` has found its place in the map: the stage keeps a pointer to its codes, which a move of the
+    // vector does not change.
     map.stage = shadow_stage(light, map.depth, state);
     return map;
 }

@@ -15,6 +15,8 @@ using rasterizer::TriangleSoup;
 using Numbers = std::vector<std::uint32_t>;
 using Keys = std::vector<double>;  // by the triangle's number
 
+// The sum in place of the mean: a division by 3 would only round. Corner by corner in the order of the list, in
+// binary64.
 Keys centroid_keys(const TriangleSoup& soup) {
     Keys keys;
     keys.reserve(soup.indices.size() / 3);
@@ -36,6 +38,7 @@ void sort_reversed(Numbers& numbers, const Keys& keys) {
                      [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
 }
 
+// Infinite keys do not stretch the range; they fall into the first or the last bucket.
 void sort_into_buckets(Numbers& numbers, const Keys& keys, int buckets) {
     double least = HUGE_VAL, greatest = -HUGE_VAL;
     for (const std::uint32_t n : numbers) {
@@ -62,6 +65,7 @@ std::uint64_t next_random(std::uint64_t& state) {
 
 // `fraction` of the entries, rounded, change positions in one cycle through all of them.
 void disorder(Numbers& numbers, double fraction, std::uint64_t seed) {
+    // Rounded half up. One entry alone has nowhere to go.
     const std::size_t moved = static_cast<std::size_t>(fraction * static_cast<double>(numbers.size()) + 0.5);
     if (moved < 2) return;
     Numbers positions(numbers.size());
@@ -95,11 +99,13 @@ std::vector<std::uint32_t> submission_order(const TriangleSoup& soup, const Sort
 pipeline::SubmissionOrder submission_order(const TriangleSoup& soup, const Sort& sort, const PartSort& parts) {
     const Keys keys = centroid_keys(soup);
     std::vector<Numbers> members(parts.sorts.size());
+    // A run holds whole triangles of one object: first_index and index_count are multiples of 3.
     for (std::size_t run = 0; run < soup.runs.size(); ++run) {
         const std::uint32_t first = soup.runs[run].first_index / 3, count = soup.runs[run].index_count / 3;
         for (std::uint32_t n = first; n < first + count; ++n) members[parts.part_of_run[run]].push_back(n);
     }
     pipeline::SubmissionOrder order;
+    // Parts may be empty; they still take their place, for callers name parts by number.
     for (std::size_t part = 0; part < members.size(); ++part) {
         if (parts.sorts[part]) sort_numbers(members[part], keys, sort);
         const auto begin = static_cast<std::uint32_t>(order.triangles.size());

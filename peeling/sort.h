@@ -19,10 +19,12 @@ struct SubmissionOrder;
 
 namespace strata::peeling {
 
+// What each rule does stands at the head of this file; none leaves the list as it is.
 enum class SortRule : std::uint8_t { none, exact, bucket, reverse, shuffle };
 
 struct Sort {
     SortRule rule = SortRule::none;
+    // Each parameter counts for its own rule alone.
     int buckets = 256;       // bucket: at least 1
     double fraction = 0;     // shuffle: 0 to 1, of the triangles
     std::uint64_t seed = 0;  // shuffle
