@@ -13,8 +13,8 @@
 
 namespace strata::scenes {
 
-// Looks into the document's buffers, which must outlive it. Indices run from 0 to count() - 1; nothing else is
-// checked at a read.
+// Looks into the document's buffers, which must outlive it. Indices run from 0 to count() - 1, which the caller
+// sees to.
 class AccessorReader {
   public:
     AccessorReader(const tinygltf::Model& model, std::size_t accessor, Buffers& buffers, const Place& place);

@@ -5,7 +5,7 @@
 namespace strata::scenes {
 namespace {
 
-// What a primitive may ask of an accessor.
+// What the rules for primitives look at in an accessor.
 struct Format {
     ElementType type;
     ComponentType component;

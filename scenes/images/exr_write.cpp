@@ -58,8 +58,8 @@ bool write_flat(OIIO::ImageOutput& output, const PartSource& part) {
     return true;
 }
 
-// All samples are copied into the library's own store, channel by channel: it has no call for rows of deep
-// bytes.
+// All samples are copied into the library's own store, channel by channel: it takes deep pixels in no other
+// form.
 bool write_deep(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const PartSource& part) {
     OIIO::DeepData data{spec};
     data.set_all_samples(OIIO::cspan<unsigned int>(part.samples.data(), part.samples.size()));
