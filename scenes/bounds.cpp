@@ -1,3 +1,4 @@
+// scenes/bounds.cpp - the box of a draw list, vertex by vertex; bounds.h says which of them count.
 #include "scenes/bounds.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// scenes/camera.cpp - the matrices of gluLookAt and gluPerspective, entry by entry. The order of the operations
+// is part of the rule of camera.h: every bit of a picture hangs on these entries.
 #include "scenes/camera.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// scenes/nearest_name.cpp - suggestions by edit distance; nearest_name.h states which candidate is near.
 #include "scenes/nearest_name.h"
 
 #include <fmt/format.h>

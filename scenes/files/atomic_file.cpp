@@ -1,3 +1,5 @@
+// scenes/files/atomic_file.cpp - the temporary file, and the table of those being written that a signal handler
+// may read.
 #include "scenes/files/atomic_file.h"
 
 #include <fcntl.h>

@@ -1,3 +1,5 @@
+// scenes/files/image_io.cpp - what PNG and EXR have in common: the choice by name, the atomic file round every
+// writer, attributes and digests.
 #include "scenes/files/image_io.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// scenes/files/load_image_module.cpp - finds the shared library of the image module and takes its table of
+// functions.
 #include "scenes/files/load_image_module.h"
 
 #include <dlfcn.h>

@@ -1,3 +1,5 @@
+// scenes/files/profile_json.cpp - profiles as JSON. Which fields there are, their ranges and choices come from
+// pipeline::profile_fields(): this file knows no field by name.
 #include "scenes/files/profile_json.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// scenes/numbers/elementary.cpp - reduction, then a series in about 106 bits, then one rounding to binary64.
 #include "scenes/numbers/elementary.h"
 
 #include <bit>

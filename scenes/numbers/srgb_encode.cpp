@@ -1,3 +1,4 @@
+// scenes/numbers/srgb_encode.cpp - the two formulas, and the table of thresholds behind encode_srgb8.
 #include "scenes/numbers/srgb_encode.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// scenes/procedural/parameters.cpp - keys and values as text first, numbers and choices when a scene asks for
+// them. Whatever is wrong is found before anything is made.
 #include "scenes/procedural/parameters.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// scenes/procedural/plane_stack.cpp - the formula of plane_stack.h, plane by plane.
 #include "scenes/procedural/plane_stack.h"
 
 #include "rasterizer/base/numerics.h"

@@ -1,3 +1,4 @@
+// scenes/procedural/random_soup.cpp - triangles on a grid of integers, from one sequence of random numbers.
 #include "scenes/procedural/random_soup.h"
 
 #include <algorithm>

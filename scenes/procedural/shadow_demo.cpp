@@ -1,3 +1,4 @@
+// scenes/procedural/shadow_demo.cpp - the numbers of shadow_demo.h as a draw list.
 #include "scenes/procedural/shadow_demo.h"
 
 #include "scenes/bounds.h"

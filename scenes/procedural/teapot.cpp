@@ -1,3 +1,4 @@
+// scenes/procedural/teapot.cpp - Bezier patches to triangles, with normals that point outwards.
 #include "scenes/procedural/teapot.h"
 
 #include <cmath>

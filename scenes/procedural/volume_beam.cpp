@@ -1,3 +1,4 @@
+// scenes/procedural/volume_beam.cpp - the planes and the cone of volume_beam.h, vertex by vertex.
 #include "scenes/procedural/volume_beam.h"
 
 #include <cmath>
