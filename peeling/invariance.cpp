@@ -1,3 +1,5 @@
+// peeling/invariance.cpp - the experiment in three steps: both depth paths captured and paired, the peel run
+// with its trace kept, its layers and its picture compared with the truth.
 #include "peeling/invariance.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// peeling/prepared_lists.cpp - which lists a frame needs, in which order their triangles are submitted, and
+// when they are prepared.
 #include "peeling/prepared_lists.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// peeling/shadow_light.cpp - the light's pass: the machine's own depth pass, from another view into a square
+// target.
 #include "peeling/shadow_light.h"
 
 #include "pipeline/region/executor.h"

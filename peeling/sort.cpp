@@ -1,3 +1,5 @@
+// peeling/sort.cpp - keys, then one stable sort a rule: equal keys keep the order of the list, so an order has
+// one result on every machine.
 #include "peeling/sort.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// peeling/audit/audit.cpp - which parts of a frame are looked at when, with how much memory; audit.h states the rule.
 #include "peeling/audit/audit.h"
 
 #include <algorithm>

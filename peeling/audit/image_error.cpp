@@ -1,3 +1,4 @@
+// peeling/audit/image_error.cpp - sums over a picture in a fixed order, and the logarithm that PSNR needs.
 #include "peeling/audit/image_error.h"
 
 #include <algorithm>

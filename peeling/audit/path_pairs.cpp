@@ -1,3 +1,5 @@
+// peeling/audit/path_pairs.cpp - a merge of two sorted lists of fragments, and the histogram of their
+// differences.
 #include "peeling/audit/path_pairs.h"
 
 #include <algorithm>

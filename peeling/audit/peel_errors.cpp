@@ -1,3 +1,4 @@
+// peeling/audit/peel_errors.cpp - the layers of each pixel against what its trace names.
 #include "peeling/audit/peel_errors.h"
 
 #include <algorithm>

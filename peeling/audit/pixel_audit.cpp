@@ -1,3 +1,5 @@
+// peeling/audit/pixel_audit.cpp - the counts and comparisons of one pixel; pixel_audit.h says what is held
+// against what.
 #include "peeling/audit/pixel_audit.h"
 
 #include <algorithm>

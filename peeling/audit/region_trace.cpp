@@ -1,3 +1,4 @@
+// peeling/audit/region_trace.cpp - a watch that copies every region's trace when the region ends.
 #include "peeling/audit/region_trace.h"
 
 #include "pipeline/frame/frame.h"

@@ -1,3 +1,5 @@
+// peeling/audit/safe_range.cpp - the bounds of safe_range.h, pixel by pixel: the largest lower one and the
+// smallest upper one.
 #include "peeling/audit/safe_range.h"
 
 #include <algorithm>
