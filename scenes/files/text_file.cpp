@@ -1,5 +1,5 @@
-// scenes/files/text_file.cpp - reads a whole file; the checks come before the read, for a device or a pipe could give bytes
-// without end.
+// scenes/files/text_file.cpp - reads a whole file; the checks come before the read, for a device or a pipe could give
+// bytes without end.
 #include "scenes/files/text_file.h"
 
 #include <filesystem>
