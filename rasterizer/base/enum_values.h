@@ -26,7 +26,10 @@ template <auto value>
     std::string_view text = spelling<value>();
     text.remove_prefix(text.find(start) + start.size());
     text = text.substr(0, text.find_first_of(";]"));
-    return text.front() == '(' ? std::string_view{} : text.substr(text.rfind(':') + 1);
+    // A cast ends in its number, as in "(strata::Snap)7". A bracket alone does not tell: Clang writes "(anonymous namespace)::".
+    const bool is_cast =
+        text.back() >= '0' && text.back() <= '9' && text.find_last_not_of("0123456789") == text.rfind(')');
+    return is_cast ? std::string_view{} : text.substr(text.rfind(':') + 1);
 }
 
 // How many values an enum has: the first number from 0 on for which the compiler knows no name. A gap in the numbers

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "rasterizer/base/float_environment.h"
 #include "scenes/bounds.h"
@@ -105,14 +107,23 @@ class SceneBuilder {
         return drawables;
     }
 
-    // Names are made unique, so that --camera NAME finds each.
+    // `base`, or else the first of base#2, base#3 ... that no camera before this one has: --camera NAME finds each.
+    std::string unique_name(const std::string& base) {
+        int& number = camera_names_[base];  // the last one tried: a thousand cameras of one name take a thousand steps
+        std::string name;
+        do {
+            ++number;
+            name = number == 1 ? base : base + "#" + std::to_string(number);
+        } while (!taken_names_.insert(name).second);
+        return name;
+    }
+
     void add_camera(const tinygltf::Node& node, const PlacedNode& placed) {
         const tinygltf::Camera& c = model_.cameras[static_cast<std::size_t>(node.camera)];
         SceneCamera camera;
         const std::string written = c.name.empty() ? node.name : c.name;
         const std::string base = written.empty() ? "camera" : written;
-        const int earlier = camera_names_[base]++;
-        camera.name = earlier == 0 ? base : base + "#" + std::to_string(earlier + 1);
+        camera.name = unique_name(base);
         camera.view = view_of(placed.world, Place{document_.file, "/nodes/" + std::to_string(placed.node)});
         camera.perspective = c.type == "perspective";
         if (camera.perspective) {
@@ -137,6 +148,7 @@ class SceneBuilder {
     Materials materials_;
     std::map<int, std::vector<Drawable>> drawables_;
     std::map<std::string, int> camera_names_;
+    std::set<std::string> taken_names_;
 };
 
 // `file` names the source in errors, `name` is the scene's; without a folder no uri but data: is followed.

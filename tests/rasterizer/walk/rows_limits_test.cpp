@@ -43,8 +43,8 @@ TEST_CASE(
     CHECK_FALSE(suits());
     g.state.depth_clamp = true;  // then no fragment is clipped
     CHECK(suits() == has_rows);
-    for (const int bits : {4, 8}) {
-        g.rules.subpixel_bits = bits;
+    for (const int subpixel_bits : {4, 8}) {
+        g.rules.subpixel_bits = subpixel_bits;
         CHECK(suits() == has_rows);
     }
     for (const DepthPath path : {DepthPath::window_z, DepthPath::perspective_rq, DepthPath::depth_replace,

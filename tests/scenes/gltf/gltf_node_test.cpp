@@ -142,3 +142,19 @@ TEST_CASE("an orthographic camera keeps its magnifications, and names are made u
     CHECK(cameras[1].name == "side#2");
     CHECK(cameras[2].name == "camera");
 }
+
+TEST_CASE("every camera has a name of its own, also where a file writes the name that another one was given") {
+    const auto names_of = [](const std::vector<std::string>& written) {
+        GltfFile file;
+        file.add("cameras",
+                 {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
+        for (const std::string& name : written) file.show_node({{"camera", 0}, {"name", name}});
+        std::vector<std::string> names;
+        for (const auto& camera : file.load().cameras) names.push_back(camera.name);
+        return names;
+    };
+    using Names = std::vector<std::string>;
+    CHECK(names_of({"cam", "cam", "cam#2"}) == Names{"cam", "cam#2", "cam#2#2"});
+    CHECK(names_of({"cam#2", "cam", "cam", "cam"}) == Names{"cam#2", "cam", "cam#3", "cam#4"});
+    CHECK(names_of({"cam", "cam#2", "cam#3", "cam", "cam#2"}) == Names{"cam", "cam#2", "cam#3", "cam#4", "cam#2#2"});
+}
