@@ -41,7 +41,7 @@ sanitized() {
     fi
     step "the fast tests under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house' -E NOT_BUILT --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"

@@ -177,7 +177,8 @@ TEST_CASE("all 19,531 sequences of up to six fragments on five depths show what 
 }
 
 TEST_CASE(
-    "deep random sequences, with and without an opaque surface among them, show what the listing's arithmetic gives") {
+    "deep random sequences, with and without an opaque surface among them, show what the listing's arithmetic gives",
+    "[slow]") {
     const FragmentScene scene = random_sequences(20240602, 400, 64);
     for (const Machine& machine : machines()) check_scene(scene, machine, options_for(scene));
 }

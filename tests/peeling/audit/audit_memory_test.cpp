@@ -94,7 +94,7 @@ std::string sentence(const FragmentScene& scene, const Algorithm& algorithm, std
 
 }  // namespace
 
-TEST_CASE("an audit's figures depend neither on its memory nor on tiles, threads and execution") {
+TEST_CASE("an audit's figures depend neither on its memory nor on tiles, threads and execution", "[slow]") {
     const FragmentScene scene = scene_of(12);
     const Algorithm algorithm = GENERATE(forgetful(), *find_algorithm("dual"), *find_algorithm("layer_peel"),
                                          *find_algorithm("unsorted"), *find_algorithm("a_buffer"));
@@ -166,7 +166,7 @@ TEST_CASE("a pixel whose trace has no end is told with the memory doubled") {
     CHECK(sentence(deep_pixel(1), endless, 1 << 17) == "");
 }
 
-TEST_CASE("a renderer without fragment memory audits with the least, and refuses a pixel that needs more") {
+TEST_CASE("a renderer without fragment memory audits with the least, and refuses a pixel that needs more", "[slow]") {
     const auto refusal = [](int fragments) -> std::string {
         const FragmentScene scene = deep_pixel(fragments);
         RenderOptions options = options_for(scene);
