@@ -133,6 +133,7 @@ TEST_CASE("every choice is written as its enum names it, value by value, and rea
         const ProfileField* const field = field_named(expected.key);
         REQUIRE(field != nullptr);
         CHECK(std::vector(field->choices.begin(), field->choices.end()) == expected.names);
+        CHECK(field->highest + 1 == static_cast<int>(expected.names.size()));
         DeviceProfile profile;
         for (int value = 0; value < static_cast<int>(expected.names.size()); ++value) {
             field->set(profile, value);
