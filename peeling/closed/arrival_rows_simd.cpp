@@ -92,11 +92,8 @@ struct AppendOf {
       private:
         template <class Where>
         HWY_INLINE Keys<U32> keys_at(const Where& where, const raster::Weights& b) {
-            const auto v = raster::plane_at(filter_, b);
-            auto unsure = hn::Zero(U32{});
-            V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
-            if constexpr (!unsnapped)
-                z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, where);
+            const V32 z =
+                raster::rounded_plane<unsnapped>(filter_, b, depth_, triangle_.geometry, triangle_.index, where);
             const WordVec surface = to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : surface_at(where);
             if constexpr (!by_shader_z) return keys_of_code(U32{}, raster::codes(z, to_code_), surface);
             const Keys<U32> keys = keys_of_z(U32{}, z, surface);

@@ -102,15 +102,10 @@ class ColorPlanes {
         const V32 u = rounded<unsnapped>(where, b, plane, corners(c));
         return has_w_ ? hn::Div(u, inverse_w) : u;
     }
-    // The plane at a row, rounded once; what the filter leaves open is decided exactly.
     template <bool unsnapped, class Where>
     HWY_INLINE V32 rounded(const Where& where, const raster::Weights& b, const FilterPlane& plane,
                            const Corners& corners) const {
-        const auto v = raster::plane_at(plane, b);
-        if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
-        auto unsure = hn::Zero(U32{});
-        const V32 low = raster::rounded(v, hn::Set(F64{}, plane.error), unsure);
-        return raster::decided(low, unsure, plane_of(corners), geometry_, index_, where);
+        return raster::rounded_plane<unsnapped>(plane, b, plane_of(corners), geometry_, index_, where);
     }
 
     const rasterizer::Geometry& geometry_;

@@ -112,10 +112,8 @@ struct SumOf {
 
       private:
         HWY_INLINE raster::RowMask nearer(const raster::Row& row, const raster::Weights& b) const {
-            const auto v = raster::plane_at(filter_, b);
-            auto unsure = hn::Zero(U32{});
-            V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : raster::rounded(v, hn::Set(F64{}, filter_.error), unsure);
-            if constexpr (!unsnapped) z = raster::decided(z, unsure, depth_, triangle_.geometry, triangle_.index, row);
+            const V32 z =
+                raster::rounded_plane<unsnapped>(filter_, b, depth_, triangle_.geometry, triangle_.index, row);
             return raster::nearer(raster::codes(z, to_code_), hn::LoadU(U32{}, planes_.opaque + row.pixel),
                                   to_code_.is_fixed());
         }

@@ -16,7 +16,6 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
-// Rows of one triangle on their way into a batch, from where it was interrupted.
 // Rows of one triangle on their way into a batch, from where it was interrupted: `row` comes next, `rows` is their
 // number, and pixels [..., taken) of that row are in the batch before. y0 is the surface's row of row 0.
 struct RowRun {
@@ -151,11 +150,9 @@ inline bool round(const FilterPlane& plane, const double* __restrict b1, const d
                   float* __restrict out) noexcept {
     std::uint32_t unsure = 0;
     for (int i = 0; i < count; ++i) {
-        const double v = plane.at(b1[i], b2[i]);
-        // The plane's value lies between the two ends. If both round to the same float, that is its rounding.
-        const auto low = static_cast<float>(v - plane.error), high = static_cast<float>(v + plane.error);
-        unsure |= std::bit_cast<std::uint32_t>(low) ^ std::bit_cast<std::uint32_t>(high);
-        out[i] = low;
+        const RoundedEnds ends = rounded_ends(plane.at(b1[i], b2[i]), plane.error, ToBinary32{});
+        unsure |= ends.difference();
+        out[i] = std::bit_cast<float>(ends.low);
     }
     return unsure != 0;
 }

@@ -25,14 +25,28 @@ namespace {
     return sum.approximation() / (static_cast<double>(area) * plane.denominator);
 }
 
-[[nodiscard]] constexpr std::uint32_t difference(float low, float high) noexcept {
-    return std::bit_cast<std::uint32_t>(low) ^ std::bit_cast<std::uint32_t>(high);
-}
+// To a code: floor, within [0, max].
+struct ToCode {
+    double max;
+    [[nodiscard]] std::uint32_t operator()(double v) const noexcept {
+        v = v > 0.0 ? v : 0.0;
+        v = v < max ? v : max;
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(v));  // v >= 0: the cast floors
+    }
+};
 
-[[nodiscard]] std::int32_t clamped_floor(double v, double max) noexcept {
-    v = v > 0.0 ? v : 0.0;
-    v = v < max ? v : max;
-    return static_cast<std::int32_t>(v);  // v >= 0: the cast floors
+// Decide: the lanes that the filter leaves open get the exact word. Returns their number.
+template <class Rounding, class Exact, class Word>
+int decide(const FilterPlane& filter, double offset, double error, const Rounding& rounding, const Exact& exact_word,
+           const TriangleLanes& lanes, Word* out) noexcept {
+    int fallbacks = 0;
+    for (int i = 0; i < lanes.count; ++i) {
+        const double v = filter.at(lanes.weight1[i], lanes.weight2[i]) + offset;
+        if (rounded_ends(v, error, rounding).difference() == 0) continue;
+        out[i] = exact_word(lanes.edge_values(i));
+        ++fallbacks;
+    }
+    return fallbacks;
 }
 
 }  // namespace
@@ -41,7 +55,7 @@ float exact_float(const RationalPlane& plane, const EdgeValues& e, std::int64_t 
     const ExactSum sum = weighted_sum(plane, e);
     const double v = quotient(sum, plane, area);
     const auto low = static_cast<float>(v * (1.0 - 0x1p-48)), high = static_cast<float>(v * (1.0 + 0x1p-48));
-    if (difference(low, high) == 0) return low;
+    if (std::bit_cast<std::uint32_t>(low) == std::bit_cast<std::uint32_t>(high)) return low;
     // Two neighbours at most: 25 bits hold the value half way between them.
     const double middle = (double{low} + double{high}) * 0.5;
     const int side = compare(sum, middle, plane, area);
@@ -55,7 +69,7 @@ std::uint32_t exact_code(const RationalPlane& plane, const EdgeValues& e, std::i
     const ExactSum sum = weighted_sum(plane, e);
     const double max = rounding.max;
     // The estimate is within 2^-49 of V, so it misses the code by one at most; the comparisons are exact.
-    double code = clamped_floor(quotient(sum, plane, area) + rounding.half, max);
+    double code = ToCode{max}(quotient(sum, plane, area) + rounding.half);
     while (code > 0.0 && compare(sum, code - rounding.half, plane, area) < 0) code -= 1.0;
     while (code < max && compare(sum, code + 1.0 - rounding.half, plane, area) >= 0) code += 1.0;
     return static_cast<std::uint32_t>(code);
@@ -77,14 +91,8 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
     const bool unsure = scalar::round(filter, lanes.weight1, lanes.weight2, count, out);
     // One pass finds whether any lane is open; nearly always none is.
     if (!unsure || !lanes.is_exact) return 0;
-    int fallbacks = 0;
-    for (int i = 0; i < count; ++i) {
-        const double v = filter.at(lanes.weight1[i], lanes.weight2[i]);
-        if (difference(static_cast<float>(v - filter.error), static_cast<float>(v + filter.error)) == 0) continue;
-        out[i] = exact_float(plane, lanes.edge_values(i), lanes.edges->area());
-        ++fallbacks;
-    }
-    return fallbacks;
+    const auto exact = [&](const EdgeValues& e) { return exact_float(plane, e, lanes.edges->area()); };
+    return decide(filter, 0.0, filter.error, ToBinary32{}, exact, lanes, out);
 }
 
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRounding rounding,
@@ -98,24 +106,18 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRoun
     const FilterPlane filter{plane, lanes.is_exact};
     const double* __restrict b1 = lanes.weight1;
     const double* __restrict b2 = lanes.weight2;
-    const double max = rounding.max, half = rounding.half;
+    const ToCode to_code{static_cast<double>(rounding.max)};
+    const double half = rounding.half;
     const double error = lanes.is_exact ? filter.error + 0x1p-47 : 0.0;  // the sum with 1/2 rounds once more
-    std::int32_t unsure = 0;
+    std::uint32_t unsure = 0;
     for (int i = 0; i < padded(count); ++i) {
-        const double v = filter.at(b1[i], b2[i]) + half;
-        const std::int32_t low = clamped_floor(v - error, max), high = clamped_floor(v + error, max);
-        unsure |= low ^ high;
-        out[i] = static_cast<std::uint32_t>(low);
+        const RoundedEnds ends = rounded_ends(filter.at(b1[i], b2[i]) + half, error, to_code);
+        unsure |= ends.difference();
+        out[i] = ends.low;
     }
     if (unsure == 0 || !lanes.is_exact) return 0;
-    int fallbacks = 0;
-    for (int i = 0; i < count; ++i) {
-        const double v = filter.at(b1[i], b2[i]) + half;
-        if (clamped_floor(v - error, max) == clamped_floor(v + error, max)) continue;
-        out[i] = exact_code(plane, lanes.edge_values(i), lanes.edges->area(), rounding);
-        ++fallbacks;
-    }
-    return fallbacks;
+    const auto exact = [&](const EdgeValues& e) { return exact_code(plane, e, lanes.edges->area(), rounding); };
+    return decide(filter, half, error, to_code, exact, lanes, out);
 }
 
 }  // namespace strict

@@ -87,9 +87,27 @@ struct FilterPlane {
     [[nodiscard]] double at(double b1, double b2) const noexcept { return w0 + (b1 * d1 + b2 * d2); }
 };
 
+// Filter, round: both ends of the interval in which a plane's value lies, rounded alike, as words. Where they are equal they are the
+// value's own rounding; where they differ the exact sum must decide.
+struct RoundedEnds {
+    std::uint32_t low, high;
+    [[nodiscard]] constexpr std::uint32_t difference() const noexcept { return low ^ high; }
+};
+template <class Rounding>
+[[nodiscard, gnu::always_inline]] inline RoundedEnds rounded_ends(double value, double error,
+                                                                  const Rounding& rounding) noexcept {
+    return {rounding(value - error), rounding(value + error)};
+}
+// To the word of the nearest binary32, ties to even.
+struct ToBinary32 {
+    [[nodiscard]] std::uint32_t operator()(double v) const noexcept {
+        return std::bit_cast<std::uint32_t>(static_cast<float>(v));
+    }
+};
+
 // Rounds the plane at every lane to binary32. Returns the number of lanes that needed the exact arithmetic.
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* out) noexcept;
-// The same to codes.
+// Rounds it to codes.
 int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRounding rounding,
                 std::uint32_t* out) noexcept;
 

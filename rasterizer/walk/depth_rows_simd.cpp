@@ -37,11 +37,7 @@ struct DepthOf {
               plane_{filter_of(exact_, triangle)} {}
 
         HWY_INLINE void operator()(const Row& row, const Weights& b) {
-            const V64 v = plane_at(plane_, b);
-            auto unsure = hn::Zero(U32{});
-            // Planes from unsnapped corners have no exact value to fall back on: binary64 is the definition there.
-            V32 z = unsnapped ? hn::DemoteTo(F32{}, v) : rounded(v, hn::Set(F64{}, plane_.error), unsure);
-            if constexpr (!unsnapped) z = decided(z, unsure, exact_, geometry_, index_, row);
+            const V32 z = rounded_plane<unsnapped>(plane_, b, exact_, geometry_, index_, row);
             const auto code = codes<is_fixed>(z, to_code_);
             std::uint32_t* const stored = codes_ + row.pixel;
             const auto passed = hn::And(row.covered, nearer(code, hn::LoadU(U32{}, stored), is_fixed));

@@ -82,6 +82,18 @@ HWY_INLINE V32 decided(V32 z, hn::Vec<U32> unsure, const RationalPlane& plane, c
     return hn::Load(F32{}, values);
 }
 
+// A plane at each pixel, rounded once: the filter gives the rounding of nearly every lane, the exact sum decides the others. Planes
+// from unsnapped corners have no exact value to fall back on: binary64 is the definition there.
+template <bool unsnapped, class Where>
+HWY_INLINE V32 rounded_plane(const FilterPlane& filter, const Weights& b, const RationalPlane& plane,
+                             const Geometry& geometry, std::uint32_t index, const Where& where) {
+    const V64 v = plane_at(filter, b);
+    if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
+    auto unsure = hn::Zero(U32{});
+    const V32 low = rounded(v, hn::Set(F64{}, filter.error), unsure);
+    return decided(low, unsure, plane, geometry, index, where);
+}
+
 // LESS of stored codes. D32F codes compare as the floats that they are, because a clear may have left any float there.
 HWY_INLINE RowMask nearer(hn::Vec<U32> code, hn::Vec<U32> stored, bool is_fixed) {
     return is_fixed ? hn::RebindMask(F32{}, hn::Lt(code, stored))
