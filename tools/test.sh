@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
 #   tools/test.sh               unit and golden tests; the fast ones under sanitizers; one minute of fuzzing
+#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too
 #   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
 #   tools/test.sh --exhaustive  the tests that try every value
 set -euo pipefail
@@ -32,14 +33,26 @@ quietly() {
     }
 }
 
-# The fast tests under the sanitizers, and a minute of fuzzing: one build by clang++, or by g++ without the fuzzing.
+# sanitizer_preset: one build by clang++ serves the fuzzing, too.
+sanitizer_preset() { if command -v clang++ >/dev/null; then echo fuzz; else echo asan; fi; }
+
+# Every test of the floors under the sanitizers.
+sanitizers() {
+    local preset
+    preset=$(sanitizer_preset)
+    step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
+    build "$preset" rasterizer_test pipeline_test peeling_test scenes_test hardware_check_test core_digests
+    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|callgrind' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+}
+
+# The fast tests of the core under the sanitizers, and a minute of fuzzing, which takes the loader through what its tests would.
 sanitized() {
-    local preset=asan targets=(rasterizer_test pipeline_test peeling_test scenes_test core_digests)
-    if command -v clang++ >/dev/null; then
-        preset=fuzz
+    local preset targets=(rasterizer_test pipeline_test peeling_test core_digests)
+    preset=$(sanitizer_preset)
+    if [ "$preset" = fuzz ]; then
         targets+=(make_corpus load_render_fuzz differential_seeds differential_fuzz)
     fi
-    step "the fast tests under the address and undefined-behaviour sanitizers (preset $preset)"
+    step "the fast tests of the core under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
     quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
@@ -78,9 +91,10 @@ matrix() {
 
 case "${1:-}" in
     "") ;;
+    --sanitizers) tools/setup.sh; sanitizers; exit 0 ;;
     --matrix) tools/setup.sh; matrix; exit 0 ;;
     --exhaustive) tools/setup.sh; build release; ctest --preset exhaustive -j "$(nproc)"; exit 0 ;;
-    *) echo "tools/test.sh: expected nothing, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
+    *) echo "tools/test.sh: expected nothing, --sanitizers, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
 esac
 
 tools/setup.sh

@@ -11,3 +11,10 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
     target_compile_definitions(PkgConfig::HIGHWAY INTERFACE HWY_BASELINE_TARGETS=HWY_SSE4)
   endif()
 endif()
+# strata_kernels_of_many_forms(SOURCE...): kernels that stand in dozens of forms, one for each choice of formats and tests. An
+# optimizer that is to carry sanitizers through all of them takes half a minute a source; without it they take two seconds.
+function(strata_kernels_of_many_forms)
+  if(STRATA_SANITIZE)
+    set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O0)
+  endif()
+endfunction()
