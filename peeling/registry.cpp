@@ -237,7 +237,7 @@ std::span<const Algorithm> of_carr() {
     return table;
 }
 
-// What Carr's paper compares itself with, and at last the oracle.
+// The algorithms that Carr's paper compares itself with, and at last the oracle.
 std::span<const Algorithm> of_others() {
     static const Algorithm table[] = {
         {.name = "stencil_routed_k_buffer",

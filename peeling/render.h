@@ -59,7 +59,7 @@ class Renderer {
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       const pipeline::Instruments& instruments = {});
 
-    // The same without an audit; `traces` gets the trace of every region.
+    // Renders without an audit; `traces` gets the trace of every region.
     [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces);
 
     // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in frame.depth.

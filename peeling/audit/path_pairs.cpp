@@ -15,7 +15,7 @@ using pipeline::CapturedFragment;
 
 namespace {
 
-// What a fragment is the same by; primitives rise in submission order.
+// The identity of a fragment, by which both captures are matched; primitives rise in submission order.
 auto place(const CapturedFragment& f) { return std::tuple(f.pixel, f.primitive); }
 
 // A stable sort keeps fragments of one place in the order of the capture.
