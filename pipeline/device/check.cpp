@@ -74,7 +74,8 @@ Verdict check_limit(const DeviceProfile& profile, int DeviceProfile::*limit, int
     return Refusal{feature, extension, way_out([&](const DeviceProfile& p) { return wanted <= p.*limit; })};
 }
 
-// What targets of one pass must have in common without independent blending: write masks and enables may differ.
+// Without independent blending, targets of one pass share factors, equations and constant; write masks and enables may
+// differ.
 bool shares_terms(const Blend& a, const Blend& b) {
     return a.color == b.color && a.alpha == b.alpha && a.constant == b.constant;
 }

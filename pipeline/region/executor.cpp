@@ -81,8 +81,9 @@ class FrameRun {
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
     }
 
-    // What one blank tile does, every blank tile of its size does: the first of them stands for the others. All but those first
-    // ones are returned.
+    // Runs one blank tile of each size: every blank tile of that size would do the same, and gets a copy later. Returns
+    // the tiles that are still to be run or copied. A tile with diagnostics is no model for others: they name its
+    // pixels.
     [[nodiscard]] std::vector<std::size_t> run_one_blank_of_each_size() {
         std::vector<std::size_t> others;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -100,7 +101,7 @@ class FrameRun {
                 continue;
             }
             run_region(r, {});
-            if (regions_[r].books.diagnostics.empty()) blanks_.push_back(r);  // they name pixels
+            if (regions_[r].books.diagnostics.empty()) blanks_.push_back(r);
         }
         return others;
     }
