@@ -12,10 +12,12 @@ namespace strata::pipeline {
 
 namespace {
 
+// A row reads and writes whole vectors: the words behind a target's last pixel are room for the last one.
 static_assert(rasterizer::row_padding <= spare_words);
 
 }  // namespace
 
+// Literal execution, --effects all and a timed effect go through batches.
 bool Region::may_walk_rows(const PreparedDraw& list) const {
     return extent_ == Extent::tile && frame_.effects == Effects::needed && instruments_.once_more == Effect::none &&
            row_walk_suits(list.geometry, frame_.key_request(), rect_);
@@ -40,6 +42,7 @@ void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& dr
                          of_depth_test(bytes, drawn.fragments, drawn.passed, state.depth.write);
 }
 
+// LESS with a write is the one depth pass that rows know; every other goes through batches (execution.md 7).
 Drawn Region::draw_depth(const PassState& state) {
     const PreparedDraw& list = *frame_.transparent;
     const bool is_nearest = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true};
@@ -54,6 +57,8 @@ Drawn Region::draw_depth(const PassState& state) {
     return drawn;
 }
 
+// Rows add halves to nearest, of colours by exact planes, without texture or shadow (execution.md 7). All else, and
+// sums into binary32, run the program.
 bool Region::sums_suit_rows(const PassState& state) {
     const auto is_sum = [&](std::size_t k, Format format) {
         return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format &&
