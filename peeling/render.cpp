@@ -1,3 +1,4 @@
+// peeling/render.cpp - from options to a frame: check what was asked for, prepare lists, refuse by name, run, audit.
 #include "peeling/render.h"
 
 #include <algorithm>
@@ -80,6 +81,7 @@ Body body_of(const Algorithm& algorithm) {
     };
 }
 
+// Names the cause of order errors: the first that holds, in the order of keys-and-counts.md 7.3.
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
                            std::vector<Diagnostic>& all) {
     const auto note = [&](Fault fault, const PixelCount& where, std::string detail) {
@@ -168,6 +170,7 @@ struct Renderer::State {
         return 2 * *deepest + 2;
     }
 
+    // keys-and-counts.md 3.4. A limit that the user set is no fault, even if the peel reaches it.
     void note_endless(const Frame& f, FrameResult& result) const {
         if (options.max_passes > 0 || f.max_passes == 0 || result.passes.geometry < f.max_passes) return;
         const std::string why =
@@ -212,6 +215,7 @@ struct Renderer::State {
         return f;
     }
 
+    // The order is that of devices.md 9.2: of several lacks the first is named.
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
         if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;

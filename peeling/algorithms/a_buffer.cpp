@@ -16,6 +16,8 @@ using namespace pipeline;
 
 namespace {
 
+// Pixels without a fragment keep the copy of the opaque colour. The trace names every fragment, by the key and not by
+// the exact code.
 void resolve(Region& region, const FragmentLists& lists, Target result) {
     FragmentOrder order;
     for (std::uint32_t pixel = lists.pixels.first; pixel < lists.pixels.last; ++pixel) {

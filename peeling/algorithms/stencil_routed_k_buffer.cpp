@@ -109,6 +109,7 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     return result;
 }
 
+// The last sample's stencil has reached 0 where a fragment came after all samples were taken (algorithms.md 13).
 void report_overflow(Region& region, Target stencil) {
     PixelSet lost{region};
     const std::uint32_t* const last = region.storage(stencil).stencil(k - 1);

@@ -39,6 +39,8 @@ struct PassTallies {
     }
 };
 
+// Finds the tallies of columns. Untied columns of one height differ only in their order of arrival, so most of their
+// counts are made once a height, in `finish`.
 class ColumnTallies {
   public:
     explicit ColumnTallies(PassTallies& tallies) : tallies_{tallies} {}
@@ -85,6 +87,8 @@ class ColumnTallies {
                 thresholds_[before_[k * block_lanes + lane] * block_lanes + lane] += k < heights[lane] ? 1 : 0;
     }
 
+    // A column with equal depths, counted fragment by fragment. Its thresholds are depths and not fragments: rank_
+    // tells the number of a fragment's depth, from 1.
     void add_tied(const ColumnBlock& block, std::size_t lane) {
         const std::uint32_t n = block.visible[lane];
         rank_.resize(n);
@@ -147,6 +151,7 @@ class GroupComposite {
     }
 
   private:
+    // The next layer of every pixel: the first arrival of the next depth, times alpha; (0, 0, 0, 0) where none is left.
     [[nodiscard]] bool take_layer() {
         bool any = false;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -302,6 +307,7 @@ class OtherBlocks {
     ColorCodes codes_;
 };
 
+// Goes through the passes as the algorithm does, with the same questions in the same order; only the books are written.
 void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
     PassCounters counters{region, fragments, tallies};
     for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
@@ -311,6 +317,7 @@ void count_passes(Region& region, const RegionFragments& fragments, const PassTa
     }
 }
 
+// One walk over the blocks gives colours and tallies; the counters follow once it is sure that all fragments fitted.
 template <class Blocks>
 bool composite_layers(Region& region) {
     PassTallies tallies;

@@ -1,3 +1,5 @@
+// peeling/programs/fragment_lists.cpp - two walks: coverage says how long every list may become, then fragments are
+// filed into their places. So a pixel's list is one piece of memory, in submission order, without sorting.
 #include "peeling/programs/fragment_lists.h"
 
 #include <bit>
@@ -35,6 +37,8 @@ class Filing {
     }
 
   private:
+    // By the algorithm's key, strictly before the surface; of a float key the target holds the float's bits
+    // (algorithms.md 0.1).
     [[nodiscard]] bool is_visible(const FragmentBatch& in, std::size_t i) const {
         const std::uint32_t opaque = opaque_[in.pixel[i]];
         return by_shader_z_ ? in.shader_z[i] < std::bit_cast<float>(opaque) : in.code[i] < opaque;
@@ -47,6 +51,7 @@ class Filing {
 
 }  // namespace
 
+// A range is a part of one row or whole rows (next_range), so that it is a rectangle.
 rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& region) noexcept {
     const int width = region.width();
     const int first = static_cast<int>(pixels.first), size = static_cast<int>(pixels.size());
@@ -60,6 +65,8 @@ std::vector<std::uint32_t> coverage_of(Region& region) {
     return coverage;
 }
 
+// Goes on pixel by pixel while the fragments fit. Beyond the first row the range ends at a full row only: `last` moves
+// there, or within the row in which the range began.
 PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::uint32_t first,
                       std::uint64_t most) noexcept {
     const auto columns = static_cast<std::uint32_t>(width), end = static_cast<std::uint32_t>(coverage.size());
@@ -76,6 +83,8 @@ PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::u
     return range;
 }
 
+// Places are given out by coverage, which counts hidden and masked fragments, too: a list may end before the next one
+// starts.
 void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
                   Bookkeeping bookkeeping, FragmentLists& lists) {
     lists.pixels = pixels;
