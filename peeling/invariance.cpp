@@ -130,7 +130,7 @@ RenderOptions peel_options(const Experiment& e, int layers) {
     return options;
 }
 
-// The trace is kept whole, as is the list of fragments: this is a laboratory's use of memory, for frames of
+// The trace is kept whole, as are all fragments: this is a laboratory's use of memory, for frames of
 // modest size.
 void run_peel(Measurement& m, const Passes& passes) {
     const Experiment& e = passes.e;

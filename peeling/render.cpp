@@ -215,7 +215,6 @@ struct Renderer::State {
         return f;
     }
 
-    // The order is that of devices.md 9.2: of several lacks the first is named.
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
         if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
@@ -374,10 +373,11 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     const SimdScope kernels{state_->options.simd};
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
-    const std::uint64_t count = fragment_count(*frame.transparent), bytes = FrameFragments::bytes_a_fragment * count;
+    const std::uint64_t fragments = fragment_count(*frame.transparent);
+    const std::uint64_t bytes = FrameFragments::bytes_a_fragment * fragments;
     if (bytes > state_->audit_memory())
         throw InputError("strata", "--fragment-memory",
-                         "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(count) +
+                         "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(fragments) +
                              " fragments all together",
                          std::to_string(state_->audit_memory()));
     FrameFragments found;

@@ -3,7 +3,7 @@
 //
 // Needs      nothing: no device ran it.
 // Passes     1. Equal depths: the first arrival in front, none lost.
-// Invariant  a pixel's list is in submission order until it is sorted by the code of DepthPath::exact, first arrivals first.
+// Invariant  a pixel's fragments are in submission order until they are sorted by the code of DepthPath::exact, first arrivals first.
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/composite.h"
 #include "peeling/programs/fragment_lists.h"

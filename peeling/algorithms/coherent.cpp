@@ -45,9 +45,9 @@ void count_run(CoherentPeel& peel) {
     state.stencil_target = peel.stencil;
     state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
     static_cast<void>(region.draw(state, keep_after_nearest));
-    const std::uint32_t* const counts = region.storage(peel.stencil).stencil(0);
+    const std::uint32_t* const stencil = region.storage(peel.stencil).stencil(0);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
-        if (counts[pixel] == 128) peel.full_counts.add(pixel);
+        if (stencil[pixel] == 128) peel.full_counts.add(pixel);
 }
 
 // Pass 4: the nearest fragment behind those that pass 3 counted. Failing the stencil test counts up to 255.

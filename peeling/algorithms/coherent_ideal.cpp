@@ -98,10 +98,10 @@ class IdealPeel {
                 std::array<float, 4> r{};
                 for (std::size_t c = 0; c < 4; ++c) r[c] = own.color(0)[c][i];
                 const float z = as_float(in.code[i]), peel = own.color(1)[0][i];
-                const bool counts = out.alive[i] != 0 && peel < z && z < r[z2];
+                const bool is_in_range = out.alive[i] != 0 && peel < z && z < r[z2];
                 const bool ends_run = z == peel && (published_ || z < as_float(own.depth(2)[i]));
-                if (counts) arrive(r, z);
-                if (counts) ++out.tally;
+                if (is_in_range) arrive(r, z);
+                if (is_in_range) ++out.tally;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = r[c];
                 if (!ends_run)
                     leave_alone(out, i);

@@ -101,10 +101,10 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     const auto bytes = [&](Target t) {
         return static_cast<std::uint64_t>(info(region.storage(t).format()).bytes_per_pixel) * region.rect().area();
     };
-    shortcuts.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
+    shortcuts.book({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
     for (std::size_t pass = 0; pass < captures.size(); ++pass) {
         region.count_with(static_cast<int>(pass) + 1);
-        shortcuts.count({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
+        shortcuts.book({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
     }
     return result;
 }

@@ -64,8 +64,9 @@ void move(PixelCount& count, int dx, int dy) {
 
 // The sum that it asks for is what the lists of this pixel need, twice for the half that the trace has.
 [[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
-    const std::uint64_t lists = fragments * AuditMemory::bytes_a_fragment * 2;
-    const std::uint64_t needed = lists > bytes ? lists : 2 * bytes;  // nobody knows how long the trace would be
+    const std::uint64_t list_bytes = fragments * AuditMemory::bytes_a_fragment * 2;
+    const std::uint64_t needed =
+        list_bytes > bytes ? list_bytes : 2 * bytes;  // nobody knows how long the trace would be
     throw InputError("strata", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
                          std::to_string(pixel.rect.x0) + ", " + std::to_string(pixel.rect.y0) + "), which has " +

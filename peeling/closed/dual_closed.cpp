@@ -171,10 +171,10 @@ bool has_foreign_depths(const RegionFragments& fragments, const DeviceProfile& p
 
 // Depths of a sorted column.
 std::uint32_t distinct(const ColumnBlock& block, std::size_t lane) {
-    std::uint32_t count = 0;
+    std::uint32_t depths = 0;
     for (std::uint32_t k = 0; k < block.visible[lane]; ++k)
-        count += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
-    return count;
+        depths += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
+    return depths;
 }
 
 // Pass by pass, the front before the back.
@@ -273,16 +273,16 @@ bool dual_closed(Region& region) {
         shortcuts.trace().shorten(traced);
         return false;
     }
-    shortcuts.count(of_copy(rgba8_bytes, area) + of_clear(rgba8_bytes + rg32f_bytes, area),
-                    {.copies = 1});  // front, back, min-max
-    shortcuts.count(of_initialize(*fragments), {.geometry = 1});
+    shortcuts.book(of_copy(rgba8_bytes, area) + of_clear(rgba8_bytes + rg32f_bytes, area),
+                   {.copies = 1});  // front, back, min-max
+    shortcuts.book(of_initialize(*fragments), {.geometry = 1});
     for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
         region.begin_iteration();
-        shortcuts.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
-        if (!region.any(RegionShortcuts::counted(course.left(passes)), Idle::steady)) break;
+        shortcuts.book(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
+        if (!region.any(RegionShortcuts::query_of(course.left(passes)), Idle::steady)) break;
     }
-    shortcuts.count(of_loads(2 * rgba8_bytes, area) + of_color(rgba8_bytes, area, false),
-                    {.full_screen = 1});  // the last quad
+    shortcuts.book(of_loads(2 * rgba8_bytes, area) + of_color(rgba8_bytes, area, false),
+                   {.full_screen = 1});  // the last quad
     region.publish(result);
     return true;
 }

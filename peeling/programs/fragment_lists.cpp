@@ -83,7 +83,7 @@ PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::u
     return range;
 }
 
-// Places are given out by coverage, which counts hidden and masked fragments, too: a list may end before the next one
+// Room is given out by coverage, which counts hidden and masked fragments, too: a list may end before the next one
 // starts.
 void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
                   Bookkeeping bookkeeping, FragmentLists& lists) {

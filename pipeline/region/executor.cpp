@@ -257,10 +257,11 @@ class FrameRun {
 
     // A region that stopped early shows its last layer, an empty one, in every further layer of the frame.
     void gather_layers() {
-        std::size_t count = 0;
-        for (const auto& [r, fragments, runs] : regions_) count = std::max(count, r.layers.size() - r.idle_layers);
+        std::size_t layer_count = 0;
+        for (const auto& [r, fragments, runs] : regions_)
+            layer_count = std::max(layer_count, r.layers.size() - r.idle_layers);
         const rasterizer::Rect whole = frame_.rect();
-        for (std::size_t layer = 0; layer < count; ++layer) {
+        for (std::size_t layer = 0; layer < layer_count; ++layer) {
             KeptLayer kept;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
                 const std::vector<KeptLayer>& layers = regions_[r].books.layers;

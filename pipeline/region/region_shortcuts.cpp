@@ -101,7 +101,7 @@ void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba
 Arena& RegionShortcuts::arena() noexcept { return region_.scratch_->arena; }
 
 // Geometry passes also count for limit_reached, as the passes that are replaced would have.
-void RegionShortcuts::count(const Counters& counters, const PassCount& passes) {
+void RegionShortcuts::book(const Counters& counters, const PassCount& passes) {
     region_.record().counters += counters;
     region_.record().passes += passes;
     region_.books_.geometry_passes += passes.geometry;
