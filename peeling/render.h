@@ -1,7 +1,7 @@
 // peeling/render.h - one call from a draw list to a finished frame with its statistics: what tools and tests use.
 //
-// Rule     Options that no profile could mean throw InputError. A combination that this profile lacks is refused by name, in the
-//          order of devices.md 9.2. Defaults are those of devices.md 11. Kernels run on the instruction set that
+// Rule     Options that no profile could mean throw InputError. A combination that this profile lacks is refused by name,
+//          in the order of devices.md 9.2. Defaults are those of devices.md 11. Kernels run on the instruction set that
 //          the options name, in the calling thread and in its workers.
 // Tests    tests/peeling/refusals_test.cpp, comparison_test.cpp
 #pragma once

@@ -2,7 +2,7 @@
 //
 // Needs      fragment programs with discard, separate alpha blending.
 // Passes     3 an iteration where a set is ordered, else 2; the first iteration has no layer to composite.
-// Invariant  before iteration i everything up to `peeled` is composited; `layer` is found, and composited in the next one.
+// Invariant  before an iteration everything up to `peeled` is composited; `layer` is found, and composited by it.
 #include "peeling/algorithms/peel_sets.h"
 
 #include <utility>

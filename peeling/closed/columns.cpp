@@ -1,10 +1,10 @@
-// peeling/closed/columns.cpp - where the columns of a region live: how much memory they get, and which pixels at a time.
+// peeling/closed/columns.cpp - where the columns of a region live: how much memory they get, how many pixels at a time.
 //
-// Rule     Arrivals are put down band by band, a band being whole rows of the region whose fragments fit into a second-level
-//          cache. First the whole region is tried as one band, which most tiles are; a region that does not fit is
-//          counted and cut. One row that exceeds the fragment memory makes the closed form decline.
-// Numbers  A place has 32 bits and a rank 16, so a row of the region has at most 65,535 fragments at a pixel. A word of 8 bytes
-//          a fragment of the tallest column, for every column, and 16 bytes a place: Band::bytes.
+// Rule     Arrivals are put down band by band, a band being whole rows of the region whose fragments fit into a
+//          second-level cache. First the whole region is tried as one band, which most tiles are; a region that does not
+//          fit is counted and cut. One row that exceeds the fragment memory makes the closed form decline.
+// Numbers  At most 65,535 fragments at a pixel, or the form declines, too. A place has 32 bits. Every column takes a
+//          word of 8 bytes for each fragment of the tallest one, and every place 16 bytes of colour: Band::bytes.
 #include "peeling/closed/columns.h"
 
 #include <algorithm>

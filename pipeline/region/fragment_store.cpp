@@ -1,7 +1,7 @@
 // pipeline/region/fragment_store.cpp - packing of batches and unpacking, by one list of arrays (execution.md 5.3).
 //
-// Numbers  All arrays of a fragment take 129 bytes together, so a batch of 256 takes below 33 KiB and fits into a fresh chunk.
-//          Packed arrays have no alignment: they are copied as bytes.
+// Numbers  All arrays of a fragment take 129 bytes together, so a batch of 256 takes 33,024 bytes at most and fits into a
+//          fresh chunk. Packed arrays have no alignment: they are copied as bytes.
 #include "pipeline/region/fragment_store.h"
 
 #include <algorithm>
@@ -86,7 +86,7 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
         std::memcpy(at, array.data(), count * sizeof(array[0]));
         at += count * sizeof(array[0]);
     };
-    // MASK kills few batches: `alive` is kept only where it is not all ~0.
+    // In most batches MASK kills nothing: `alive` is kept only where it is not all ~0.
     if (has_dead) pack(alive);
     for_each_array(needs_, batch, pack);
     used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].data());

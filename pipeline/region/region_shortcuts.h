@@ -1,8 +1,8 @@
 // pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the machine's, in the
 // machine's own books. Closed forms (peeling/closed/closed_form.h), the kernels of rows and whole pixels, and the emulator's own looks.
 //
-// Rule     Nothing here is a pass, and nothing is counted unless `book` says so: the caller books what the passes that it replaces
-//          would have counted. An algorithm that is written as its paper says needs none of it.
+// Rule     Nothing here is a pass, and nothing is counted unless `book` says so: the caller books what the passes that it
+//          replaces would have counted. An algorithm that is written as its paper says needs none of it.
 // Tests    tests/peeling/execution_test.cpp: every fast way against literal execution
 #pragma once
 #include <optional>
