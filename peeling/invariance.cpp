@@ -130,7 +130,7 @@ RenderOptions peel_options(const Experiment& e, int layers) {
     return options;
 }
 
-// The trace is kept whole, as is the list of fragments: this is a laboratory's use of memory, for frames of
+// The trace is kept whole, as are all fragments: this is a laboratory's use of memory, for frames of
 // modest size.
 void run_peel(Measurement& m, const Passes& passes) {
     const Experiment& e = passes.e;
@@ -188,7 +188,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         m.truth = true_picture(machine, bare(e.render, e.write));
         m.image = image_error(m.picture, m.truth);
     } catch (const Refused& refused) {
-        // What was measured before the refusal is dropped, so that nobody reads half an experiment.
+        // Figures measured before the refusal are dropped, so that nobody reads half an experiment.
         m = {};
         m.refusal = refused.refusal;
     }

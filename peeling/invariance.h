@@ -36,8 +36,8 @@ struct Experiment {
     int max_passes = 0;  // geometry passes at most; 0: twice as many as a peel of the true layers needs
 };
 
-// What is safe for this scene; nothing is said where the rule's premises do not hold: further passes that draw something else, a
-// reference that is not quantised.
+// Safe ranges for this scene. A range is absent where its rule's premises do not hold: further passes that draw
+// something else, a reference that is not quantised.
 struct Advice {
     std::optional<SafeRange> epsilon_ulps;
     std::optional<SafeAbsolute> epsilon;

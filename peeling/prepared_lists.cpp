@@ -57,6 +57,7 @@ void PreparedLists::bin(int tile_size_px) {
     bin_one(second_);
 }
 
+// Tile size 0: lists are binned later, when the algorithm and with it the tile size is known.
 PrepareOptions PreparedLists::prepare_options(Selection selection) const {
     PrepareOptions options{.selection = selection,
                            .alpha_scale = s_.options.alpha.value_or(1.0f),
@@ -69,6 +70,7 @@ PrepareOptions PreparedLists::prepare_options(Selection selection) const {
     return options;
 }
 
+// --alpha draws every material as transparent.
 Selection PreparedLists::transparent_selection() const {
     return s_.options.alpha ? Selection::all : Selection::transparent;
 }

@@ -20,12 +20,16 @@ using rasterizer::DepthPath;
 
 namespace {
 
+// Geometry passes of a frame of N layers under exact termination, as the sections of algorithms.md derive them: a pass
+// a layer and one that finds nothing; for dual peeling a pass that finds the first range, and two layers in each of the
+// others.
 int one(int) { return 1; }
 int every_layer_and_one(int layers) { return layers + 1; }
 int find_and_composite(int layers) { return 2 * layers + 1; }
 int dual_passes(int layers) { return 1 + std::max(1, (layers + 1) / 2); }
 int dual_independent_passes(int layers) { return (layers + 1) / 2 + 2; }
 
+// The values that an algorithm's geometry passes look at, and so what replay captures: by key, the code or the float.
 constexpr rasterizer::FragmentNeeds code_and_color{.shader_z = false, .code = true, .color = true};
 constexpr rasterizer::FragmentNeeds z_and_color{.shader_z = true, .code = false, .color = true};
 
@@ -237,7 +241,7 @@ std::span<const Algorithm> of_carr() {
     return table;
 }
 
-// What Carr's paper compares itself with, and at last the oracle.
+// The algorithms that Carr's paper compares itself with, and at last the oracle.
 std::span<const Algorithm> of_others() {
     static const Algorithm table[] = {
         {.name = "stencil_routed_k_buffer",
@@ -323,6 +327,7 @@ const Algorithm* find_algorithm(std::string_view name) {
     return found == all.end() ? nullptr : &*found;
 }
 
+// Targets count by their number alone here: their blends are checked by each pass (pipeline/region/check_pass.h).
 pipeline::Verdict refusal(const Algorithm& algorithm, const pipeline::DeviceProfile& profile) {
     if (auto lacking = check(profile, std::span{algorithm.features})) return lacking;
     const std::vector<pipeline::Blend> targets(static_cast<std::size_t>(algorithm.render_targets));

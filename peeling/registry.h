@@ -1,4 +1,4 @@
-// peeling/registry.h - the list of all algorithms.
+// peeling/registry.h - all algorithms.
 #pragma once
 #include <string_view>
 #include <vector>

@@ -1,3 +1,4 @@
+// peeling/render.cpp - from options to a frame: check what was asked for, prepare lists, refuse by name, run, audit.
 #include "peeling/render.h"
 
 #include <algorithm>
@@ -80,6 +81,7 @@ Body body_of(const Algorithm& algorithm) {
     };
 }
 
+// Names the cause of order errors: the first that holds, in the order of keys-and-counts.md 7.3.
 void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
                            std::vector<Diagnostic>& all) {
     const auto note = [&](Fault fault, const PixelCount& where, std::string detail) {
@@ -168,6 +170,7 @@ struct Renderer::State {
         return 2 * *deepest + 2;
     }
 
+    // keys-and-counts.md 3.4. A limit that the user set is no fault, even if the peel reaches it.
     void note_endless(const Frame& f, FrameResult& result) const {
         if (options.max_passes > 0 || f.max_passes == 0 || result.passes.geometry < f.max_passes) return;
         const std::string why =
@@ -370,10 +373,11 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
     const SimdScope kernels{state_->options.simd};
     if (auto lacking = state_->refusal(algorithm)) throw Refused{state_->profile, *std::move(lacking)};
     const Frame frame = state_->frame(algorithm);
-    const std::uint64_t count = fragment_count(*frame.transparent), bytes = FrameFragments::bytes_a_fragment * count;
+    const std::uint64_t fragments = fragment_count(*frame.transparent);
+    const std::uint64_t bytes = FrameFragments::bytes_a_fragment * fragments;
     if (bytes > state_->audit_memory())
         throw InputError("strata", "--fragment-memory",
-                         "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(count) +
+                         "at least " + std::to_string(bytes) + " bytes for the frame's " + std::to_string(fragments) +
                              " fragments all together",
                          std::to_string(state_->audit_memory()));
     FrameFragments found;

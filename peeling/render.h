@@ -1,4 +1,9 @@
 // peeling/render.h - one call from a draw list to a finished frame with its statistics: what tools and tests use.
+//
+// Rule     Options that no profile could mean throw InputError. A combination that this profile lacks is refused by name,
+//          in the order of devices.md 9.2. Defaults are those of devices.md 11. Kernels run on the instruction set that
+//          the options name, in the calling thread and in its workers.
+// Tests    tests/peeling/refusals_test.cpp, comparison_test.cpp
 #pragma once
 #include <functional>
 #include <memory>
@@ -31,6 +36,7 @@ struct Seconds {
     double audit = 0;  // of what the audit looked at while regions ran: its share of the wall clock
 };
 
+// Where `refusal` is set nothing was drawn, and frame and audit are empty.
 struct RenderResult {
     Outcome outcome = Outcome::done;
     std::optional<pipeline::Refusal> refusal;
@@ -59,7 +65,7 @@ class Renderer {
     [[nodiscard]] RenderResult render(const Algorithm& algorithm, const std::function<void(double)>& progress = {},
                                       const pipeline::Instruments& instruments = {});
 
-    // The same without an audit; `traces` gets the trace of every region.
+    // Renders without an audit; `traces` gets the trace of every region.
     [[nodiscard]] RenderResult render_traced(const Algorithm& algorithm, std::vector<RegionTrace>& traces);
 
     // One depth pass of the same triangles drawn as opaque (LESS, no colour): the measure of what peeling costs. Z in frame.depth.

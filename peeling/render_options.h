@@ -28,6 +28,8 @@ struct VertexPaths {
     friend bool operator==(const VertexPaths&, const VertexPaths&) = default;
 };
 
+// The result bits depend on all fields but execution, fragment_memory, tile_size, threads, simd and effects. audit,
+// keep_layers and nearest_depth add results without changing the picture.
 struct RenderOptions {
     int width = 1024, height = 1024;
     std::optional<pipeline::DepthFormat> depth;       // default: d32f where the profile has it, else d24

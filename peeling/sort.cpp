@@ -106,8 +106,8 @@ pipeline::SubmissionOrder submission_order(const TriangleSoup& soup, const Sort&
     std::vector<Numbers> members(parts.sorts.size());
     // A run holds whole triangles of one object: first_index and index_count are multiples of 3.
     for (std::size_t run = 0; run < soup.runs.size(); ++run) {
-        const std::uint32_t first = soup.runs[run].first_index / 3, count = soup.runs[run].index_count / 3;
-        for (std::uint32_t n = first; n < first + count; ++n) members[parts.part_of_run[run]].push_back(n);
+        const std::uint32_t first = soup.runs[run].first_index / 3, triangles = soup.runs[run].index_count / 3;
+        for (std::uint32_t n = first; n < first + triangles; ++n) members[parts.part_of_run[run]].push_back(n);
     }
     pipeline::SubmissionOrder order;
     // Parts may be empty; they still take their place, for callers name parts by number.

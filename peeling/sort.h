@@ -19,7 +19,7 @@ struct SubmissionOrder;
 
 namespace strata::peeling {
 
-// What each rule does stands at the head of this file; none leaves the list as it is.
+// The head of this file says what each rule does; `none` leaves the list as it is.
 enum class SortRule : std::uint8_t { none, exact, bucket, reverse, shuffle };
 
 struct Sort {
@@ -34,11 +34,10 @@ struct Sort {
 // Numbers of the soup's triangles in the order of their submission.
 [[nodiscard]] std::vector<std::uint32_t> submission_order(const rasterizer::TriangleSoup& soup, const Sort& sort);
 
-// The same within parts, which are submitted one after the other: `part_of_run` names the part of each run of the soup, and
-// parts count from 0. `sorts(part)` says whether a part is sorted or stays as listed.
+// A sort within parts, which are submitted one after the other: parts never mix.
 struct PartSort {
-    std::vector<std::uint32_t> part_of_run;
-    std::vector<bool> sorts;  // by part
+    std::vector<std::uint32_t> part_of_run;  // the part of each run of the soup, counted from 0
+    std::vector<bool> sorts;                 // by part; false: its triangles stay as listed
 };
 [[nodiscard]] pipeline::SubmissionOrder submission_order(const rasterizer::TriangleSoup& soup, const Sort& sort,
                                                          const PartSort& parts);

@@ -15,7 +15,7 @@ struct Bounds {  // world space, axis-aligned; empty while lo > hi
 
 // A camera that the scene brings along (glTF). Aspect 0: take the image's.
 struct SceneCamera {
-    // What --camera NAME compares with.
+    // Unique in a scene: --camera NAME chooses by it.
     std::string name{};
     pipeline::Matrix view = pipeline::identity;
     // False: orthographic. Then xmag and ymag hold half the extents of the view, and yfov and aspect are not
@@ -57,7 +57,7 @@ struct SceneOptions {
 [[nodiscard]] Scene make_procedural(const std::string& spec, const SceneOptions& options);
 [[nodiscard]] bool is_procedural(const std::string& spec);
 
-// What the help and `strata scenes` say of a procedural scene.
+// A procedural scene as the help and `strata scenes` describe it.
 struct ProceduralScene {
     std::string name, parameters, description;  // parameters as in "slices=N[,order=far|near]", empty if none
 };

@@ -3,7 +3,8 @@
 //
 // Needs      nothing: no device ran it.
 // Passes     1. Equal depths: the first arrival in front, none lost.
-// Invariant  a pixel's list is in submission order until it is sorted by the code of DepthPath::exact, first arrivals first.
+// Invariant  a pixel's fragments are in submission order until they are sorted by the code of DepthPath::exact, first
+//            arrivals first.
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/composite.h"
 #include "peeling/programs/fragment_lists.h"
@@ -16,10 +17,12 @@ using namespace pipeline;
 
 namespace {
 
-void resolve(Region& region, const FragmentLists& lists, Target result) {
+// Pixels without a fragment keep the copy of the opaque colour. The trace names every fragment, by the key and not by
+// the exact code.
+void resolve(Region& region, const FragmentLists& fragment_lists, Target result) {
     FragmentOrder order;
-    for (std::uint32_t pixel = lists.pixels.first; pixel < lists.pixels.last; ++pixel) {
-        const auto fragments = lists.of(pixel);
+    for (std::uint32_t pixel = fragment_lists.pixels.first; pixel < fragment_lists.pixels.last; ++pixel) {
+        const auto fragments = fragment_lists.of(pixel);
         if (fragments.empty()) continue;
         sort_by(&KeyedFragment::exact_code, fragments, order);
         const auto color = composite(fragments, order, region.color(region.opaque_color(), pixel));
@@ -34,7 +37,7 @@ void resolve(Region& region, const FragmentLists& lists, Target result) {
     }
 }
 
-// The pass as books count it, where the lists are looked up part by part.
+// The pass as books count it, where the fragment lists are looked up part by part.
 void count_pass(Region& region) {
     PassState state;
     state.needs = {.shader_z = false, .code = false, .color = true};
@@ -54,11 +57,11 @@ void a_buffer(Region& region) {
     };
     const bool is_one_range = range_from(0).size() == pixels;
     if (!is_one_range) count_pass(region);
-    FragmentLists lists;
-    for (std::uint32_t first = 0; first < pixels; first = lists.pixels.last) {
+    FragmentLists fragment_lists;
+    for (std::uint32_t first = 0; first < pixels; first = fragment_lists.pixels.last) {
         list_visible(region, range_from(first), coverage, is_one_range ? Bookkeeping::counted : Bookkeeping::silent,
-                     lists);
-        resolve(region, lists, result);
+                     fragment_lists);
+        resolve(region, fragment_lists, result);
     }
     region.publish(result);
 }

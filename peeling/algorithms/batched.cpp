@@ -56,6 +56,8 @@ std::vector<std::uint32_t> bounds_of(const std::vector<ObjectDepths>& objects) {
     return bounds;
 }
 
+// Intervals cover all codes and do not overlap, so each fragment is peeled once. An object is drawn in every interval
+// that its bound touches; an interval without objects has nothing to peel.
 std::vector<Interval> intervals_of(const Frame& frame) {
     const auto objects = objects_of(frame);
     const auto bounds = bounds_of(objects);
@@ -73,6 +75,7 @@ struct LayerTargets {
     Target layer, nearest, peeled, accumulated;
 };
 
+// front_to_back's peel over the interval's objects, with one more discard: codes outside [low, high).
 Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool first) {
     region.clear(t.layer, {.color = {0, 0, 0, 0}});
     region.copy(region.opaque_depth(), t.nearest);

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int later_passes = 4;  // passes 3 to 6
 
+// One face for both: the stencil counts fragments, whichever way they face. The reference stands on the left of `func`.
 StencilTest stencil_test(CompareFunc func, std::uint8_t ref, StencilOp fail, StencilOp depth_fail, StencilOp pass) {
     return {.enabled = true,
             .front = {.func = func, .ref = ref, .fail = fail, .depth_fail = depth_fail, .pass = pass},
@@ -23,6 +24,7 @@ void keep_after_nearest(const FragmentBatch& in, const Loads& own, Outputs& out)
     keep_before(in, own.depth(2), out);
 }
 
+// For the report of an endless listing: the pixels that the last iteration composited at.
 void note_composited(CoherentPeel& peel, const FragmentBatch& in, const Outputs& out) {
     if (!peel.published) return;
     for (std::size_t i = 0; i < lanes(in); ++i)
@@ -43,9 +45,9 @@ void count_run(CoherentPeel& peel) {
     state.stencil_target = peel.stencil;
     state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
     static_cast<void>(region.draw(state, keep_after_nearest));
-    const std::uint32_t* const counts = region.storage(peel.stencil).stencil(0);
+    const std::uint32_t* const stencil = region.storage(peel.stencil).stencil(0);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
-        if (counts[pixel] == 128) peel.full_counts.add(pixel);
+        if (stencil[pixel] == 128) peel.full_counts.add(pixel);
 }
 
 // Pass 4: the nearest fragment behind those that pass 3 counted. Failing the stencil test counts up to 255.
@@ -100,6 +102,7 @@ Drawn composite_end(CoherentPeel& peel) {
 
 namespace {
 
+// Passes 2 to 6 (algorithms.md 10.1). The count is the paper's query, over both passes that composite.
 Count finish_iteration(CoherentPeel& peel, const FirstPasses& first) {
     peel.composited.clear();
     first.find_previous(peel);

@@ -11,6 +11,7 @@
 
 namespace strata::peeling {
 
+// The targets and bookkeeping of one peel. Depth targets hold codes, and so does every comparison below.
 struct CoherentPeel {
     explicit CoherentPeel(pipeline::Region& r)
         : region{r},

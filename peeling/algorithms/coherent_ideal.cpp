@@ -53,6 +53,8 @@ class IdealPeel {
 
     [[nodiscard]] float as_float(std::uint32_t code) const noexcept { return depth_as_float(code, format_); }
 
+    // The quad between iterations: the end of the last run becomes `peel`, and the registers start at the opaque
+    // surface.
     void start_iteration() {
         PassState state;
         state.color = {registers_, peel_};
@@ -82,7 +84,8 @@ class IdealPeel {
         }
     }
 
-    // Pass 1.
+    // Pass 1 composites what lies at `peel`, the end of the run before, and lets every fragment between `peel` and z2
+    // change the registers. Its tally is the query: registers changed.
     Drawn find_run() {
         PassState state = composite_state(accumulated_);
         state.color[1] = registers_;
@@ -95,10 +98,10 @@ class IdealPeel {
                 std::array<float, 4> r{};
                 for (std::size_t c = 0; c < 4; ++c) r[c] = own.color(0)[c][i];
                 const float z = as_float(in.code[i]), peel = own.color(1)[0][i];
-                const bool counts = out.alive[i] != 0 && peel < z && z < r[z2];
+                const bool is_in_range = out.alive[i] != 0 && peel < z && z < r[z2];
                 const bool ends_run = z == peel && (published_ || z < as_float(own.depth(2)[i]));
-                if (counts) arrive(r, z);
-                if (counts) ++out.tally;
+                if (is_in_range) arrive(r, z);
+                if (is_in_range) ++out.tally;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = r[c];
                 if (!ends_run)
                     leave_alone(out, i);
@@ -108,13 +111,13 @@ class IdealPeel {
         });
     }
 
-    // (0, 0, 0, 0) is neutral under UNDER.
+    // (0, 0, 0, 0) is neutral under UNDER. The fragment stays alive, for its registers are written by the same pass.
     static void leave_alone(Outputs& out, std::size_t i) noexcept {
         for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = 0.0f;
         out.side[i] = Side::none;
     }
 
-    // Pass 2.
+    // Pass 2 composites the run without its end, which the next pass 1 does.
     void composite_run() {
         PassState state = composite_state(accumulated_);
         state.reads = {registers_, peel_};

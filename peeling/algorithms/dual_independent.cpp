@@ -16,6 +16,8 @@ using namespace pipeline;
 
 namespace {
 
+// Fragments outside the range are discarded; the others write all three targets, a neutral value where they do not
+// count.
 Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Target back) {
     region.clear(next_min_max, empty_min_max);
     PassState state;

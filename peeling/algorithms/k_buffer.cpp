@@ -43,6 +43,7 @@ class KBuffer {
     }
 
   private:
+    // The one geometry pass: a program reads and writes four entries of its pixel, fragment after fragment.
     void insert_all() {
         PassState state = composite_state(accumulated_);
         state.reads = {region_.opaque_depth(), depths_};
@@ -78,7 +79,8 @@ class KBuffer {
         }
     }
 
-    // An empty entry is neutral under UNDER.
+    // An empty entry has colour and alpha 0, which is neutral under UNDER. pushed_out_ keeps the deepest depth that has
+    // gone: a nearer fragment that comes later is composited too late, and reported.
     void push_out(std::uint32_t pixel, const Entry& entry, Outputs& out, std::size_t i) {
         for (std::size_t c = 0; c < 3; ++c) out.color[0][c][i] = entry.color[c] * entry.color[3];
         out.color[0][3][i] = entry.color[3];
@@ -87,6 +89,7 @@ class KBuffer {
         if (region_.frame().trace) region_.trace({pixel, depth_as_code(entry.depth, format_), 0, Side::front, false});
     }
 
+    // One quad an entry, near to far; pixels whose entry is empty are discarded.
     void composite_entry(std::size_t e) {
         PassState state = composite_state(accumulated_);
         state.reads = {depths_, colors_[e]};

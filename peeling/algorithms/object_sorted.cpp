@@ -38,6 +38,7 @@ bool is_occluded(Region& region, const Objects& remaining, std::size_t which, Ta
     return region.any(behind.passed, Idle::no);
 }
 
+// The object's own fragments are blended UNDER as they come: nothing orders them.
 void composite(Region& region, const PrimitiveRange& object, Target accumulated) {
     PassState state = composite_state(accumulated);
     state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};

@@ -1,3 +1,8 @@
+// peeling/algorithms/peel_sets.cpp - the loop of Algorithm 1 and its three passes (algorithms.md 9).
+//
+// Needs      fragment programs with discard, separate alpha blending.
+// Passes     3 an iteration where a set is ordered, else 2; the first iteration has no layer to composite.
+// Invariant  before an iteration everything up to `peeled` is composited; `layer` is found, and composited by it.
 #include "peeling/algorithms/peel_sets.h"
 
 #include <utility>
@@ -11,6 +16,7 @@ using namespace pipeline;
 
 namespace {
 
+// Empty stands for the whole list (PassState::primitives).
 std::span<const PrimitiveRange> as_span(const std::optional<PrimitiveRange>& range) {
     if (!range) return {};
     return {&*range, 1};
@@ -28,6 +34,7 @@ class Peel {
         from_the_start_ = !published_;
     }
 
+    // A limit is asked for all passes of the next iteration together, so that it never ends one half way.
     void run() {
         bool more = true, has_layer = false;
         while (!region_.limit_reached((has_layer ? 1 : 0) + 1 + (sets_.ordered ? 1 : 0))) {
@@ -49,6 +56,7 @@ class Peel {
         return published_ || region_.frame().max_passes > 0 ? Idle::no : Idle::when_zero;
     }
 
+    // The nearest unordered fragment strictly behind `peeled`, before the opaque surface.
     Drawn find_layer() {
         region_.copy(region_.opaque_depth(), layer_);
         PassState state;
@@ -62,6 +70,8 @@ class Peel {
         });
     }
 
+    // The ordered fragments behind `peeled`, up to the layer and with it, as they arrive: in front of the layer at
+    // equal depth.
     void composite_ordered() {
         PassState state = composite_state(accumulated_);
         state.reads = {peeled_, layer_, region_.opaque_depth()};

@@ -4,6 +4,7 @@
 
 namespace strata::peeling {
 
+// Sections 1 to 17 of algorithms.md have the steps of each, and the head of its file needs, passes and invariant.
 void unsorted(pipeline::Region& region);  // painter as well: the order of the list is all that differs
 void depth_units(pipeline::Region& region);
 void shadow_map(pipeline::Region& region);  // with whichever depth the frame stores

@@ -101,14 +101,15 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     const auto bytes = [&](Target t) {
         return static_cast<std::uint64_t>(info(region.storage(t).format()).bytes_per_pixel) * region.rect().area();
     };
-    shortcuts.count({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
+    shortcuts.book({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
     for (std::size_t pass = 0; pass < captures.size(); ++pass) {
         region.count_with(static_cast<int>(pass) + 1);
-        shortcuts.count({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
+        shortcuts.book({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
     }
     return result;
 }
 
+// The last sample's stencil has reached 0 where a fragment came after all samples were taken (algorithms.md 13).
 void report_overflow(Region& region, Target stencil) {
     PixelSet lost{region};
     const std::uint32_t* const last = region.storage(stencil).stencil(k - 1);

@@ -62,10 +62,11 @@ void move(PixelCount& count, int dx, int dy) {
     count.first_y += dy;
 }
 
-// The sum that it asks for is what the lists of this pixel need, twice for the half that the trace has.
+// The sum that it asks for is what the fragment lists of this pixel need, twice for the half that the trace has.
 [[noreturn]] void throw_too_deep(const Part& pixel, std::uint32_t fragments, std::uint64_t bytes) {
-    const std::uint64_t lists = fragments * AuditMemory::bytes_a_fragment * 2;
-    const std::uint64_t needed = lists > bytes ? lists : 2 * bytes;  // nobody knows how long the trace would be
+    const std::uint64_t list_bytes = fragments * AuditMemory::bytes_a_fragment * 2;
+    const std::uint64_t needed =
+        list_bytes > bytes ? list_bytes : 2 * bytes;  // nobody knows how long the trace would be
     throw InputError("strata", "--fragment-memory",
                      "at least " + std::to_string(needed) + " bytes for the audit of pixel (" +
                          std::to_string(pixel.rect.x0) + ", " + std::to_string(pixel.rect.y0) + "), which has " +
@@ -82,9 +83,9 @@ struct Audit::Impl {
     AuditMemory shared, alone;  // for a worker among all, and for one by itself
     int threads;
     Frame still;               // the frame for looks at its fragments: no pass, no trace
-    RegionScratchPool pool{};  // for those looks, as are the lists
+    RegionScratchPool pool{};  // for those looks, as are the fragment lists
     std::mutex free_lists_mutex{};
-    std::vector<FragmentLists> free_lists{};
+    std::vector<FragmentLists> free_fragment_lists{};
     std::vector<Looked> tiles;
 
     Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t bytes, int t)
@@ -116,7 +117,7 @@ struct Audit::Impl {
         const std::vector<std::uint32_t> coverage = coverage_of(region);
         PixelAudit pixels{frame, algorithm};
         Looked looked;
-        FragmentLists lists = take_lists();
+        FragmentLists fragment_lists = take_fragment_lists();
         PixelRange range;
         for (; range.last < coverage.size();) {
             range = next_range(coverage, part.rect.width(), range.last, memory.fragments());
@@ -124,23 +125,23 @@ struct Audit::Impl {
                 looked.left.push_back({part.tile, rect_of(range, part.rect)});
                 continue;
             }
-            list_visible(region, range, coverage, Bookkeeping::silent, lists);
+            list_visible(region, range, coverage, Bookkeeping::silent, fragment_lists);
             for (std::uint32_t p = range.first; p < range.last; ++p)
-                pixels.look_at(lists.of(p), traces, pixel_at(region, p, color));
+                pixels.look_at(fragment_lists.of(p), traces, pixel_at(region, p, color));
         }
         looked.found = pixels.found();
         const std::scoped_lock lock{free_lists_mutex};
-        free_lists.push_back(std::move(lists));
+        free_fragment_lists.push_back(std::move(fragment_lists));
         return looked;
     }
 
     // As many as ever were in use at once, kept, so that memory is asked for seldom.
-    [[nodiscard]] FragmentLists take_lists() {
+    [[nodiscard]] FragmentLists take_fragment_lists() {
         const std::scoped_lock lock{free_lists_mutex};
-        if (free_lists.empty()) return {};
-        FragmentLists lists = std::move(free_lists.back());
-        free_lists.pop_back();
-        return lists;
+        if (free_fragment_lists.empty()) return {};
+        FragmentLists fragment_lists = std::move(free_fragment_lists.back());
+        free_fragment_lists.pop_back();
+        return fragment_lists;
     }
 
     // A region of the frame has ended: a tile, or the whole frame, which is looked at tile by tile.

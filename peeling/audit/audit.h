@@ -22,7 +22,7 @@
 namespace strata::peeling {
 
 struct AuditMemory {
-    // What --fragment-memory allows.
+    // The limit of --fragment-memory.
     std::uint64_t bytes = 0;  // of all workers
     int workers = 1;          // as many as look at once
     // Half of a worker's share is for traces, the other half for fragments.

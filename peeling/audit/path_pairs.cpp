@@ -1,4 +1,4 @@
-// peeling/audit/path_pairs.cpp - a merge of two sorted lists of fragments, and the histogram of their
+// peeling/audit/path_pairs.cpp - a merge of two sorted sequences of fragments, and the histogram of their
 // differences.
 #include "peeling/audit/path_pairs.h"
 
@@ -15,7 +15,7 @@ using pipeline::CapturedFragment;
 
 namespace {
 
-// What a fragment is the same by; primitives rise in submission order.
+// The identity of a fragment, by which both captures are matched; primitives rise in submission order.
 auto place(const CapturedFragment& f) { return std::tuple(f.pixel, f.primitive); }
 
 // A stable sort keeps fragments of one place in the order of the capture.
@@ -25,8 +25,8 @@ std::vector<CapturedFragment> by_place(std::span<const CapturedFragment> fragmen
     return sorted;
 }
 
-// Whether the first fragments of both lists are one. A neighbour counts only if the nearer of the two does not have a triangle of
-// the other's number behind it.
+// Whether the first fragments of both sequences are one. A neighbour counts only if the nearer of the two does not have
+// a triangle of the other's number behind it.
 bool are_partners(std::span<const CapturedFragment> a, std::span<const CapturedFragment> b, Match match) {
     if (place(a[0]) == place(b[0])) return true;
     if (match == Match::triangle || a[0].pixel != b[0].pixel) return false;
@@ -61,7 +61,7 @@ PairedFragments pair_up(std::span<const CapturedFragment> first, std::span<const
     const std::vector<CapturedFragment> a = by_place(first), b = by_place(second);
     PairedFragments result;
     result.pairs.reserve(std::min(a.size(), b.size()));
-    // Whichever head comes first and has no partner is passed over and counted; the rests of both lists have
+    // Whichever head comes first and has no partner is passed over and counted; the rests of both sequences have
     // none either.
     std::size_t i = 0, j = 0;
     while (i < a.size() && j < b.size()) {

@@ -100,7 +100,7 @@ std::span<const KeyedFragment> PixelAudit::with_alpha(std::span<const KeyedFragm
     return with_alpha_;
 }
 
-// What one sequence has beyond the end of the other counts place by place.
+// Entries of the longer sequence beyond the end of the shorter one count as an error each.
 std::uint64_t PixelAudit::places_that_differ(std::span<const KeyedFragment> fragments) const {
     const std::size_t shared = std::min(kept_.size(), sequence_.size());
     std::uint64_t errors = std::max(kept_.size(), sequence_.size()) - shared;

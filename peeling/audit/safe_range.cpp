@@ -41,8 +41,8 @@ void limit_from_above(SafeRange& range, std::int64_t highest, const PathPair& fr
     range.behind_opaque = is_opaque;
 }
 
-// What n is added to: the comparison's side, or the depth that is stored, which the opaque surface is then
-// compared with too.
+// The depth that n is added to: that of the comparison alone, or the stored one. The opaque surface is then compared
+// with the moved depth, too.
 enum class Moves : std::uint8_t { comparison, stored_depth };
 
 // Calls body(layers, opaque code) for every pixel.

@@ -40,8 +40,8 @@ struct SafeRange {
 // `opaque`. References are above 0, where depths would be clamped.
 [[nodiscard]] SafeRange safe_bias(std::span<const PathPair> pairs, std::span<const std::uint32_t> opaque);
 
-// The same in parts of the depth range, as a program adds them: every double from `lowest` to `highest` is safe, the next ones
-// outside are not. Empty: no double is.
+// Epsilons as parts of the depth range [0,1], as a program adds them: every double from `lowest` to `highest` is safe,
+// the next ones outside are not. Empty: no double is.
 struct SafeAbsolute {
     std::optional<double> lowest,
         highest;  // lowest: none if no epsilon up to 1 is enough; highest: none if nothing can be lost

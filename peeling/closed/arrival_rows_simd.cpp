@@ -37,6 +37,8 @@ struct AppendState {
     bool has_room = true;
 };
 
+// The body of a walk over rows (rasterizer/walk/row_walk-inl.h): one Shade a triangle, called for each vector of its
+// pixels.
 template <bool by_shader_z>
 struct AppendOf {
     template <bool unsnapped>
@@ -90,6 +92,8 @@ struct AppendOf {
         }
 
       private:
+        // The key by the filtered plane: lanes whose rounding the filter cannot settle are decided exactly (depth.md
+        // 3.3 and 3.4).
         template <class Where>
         HWY_INLINE Keys<U32> keys_at(const Where& where, const raster::Weights& b) {
             const V32 z =
@@ -132,12 +136,15 @@ struct AppendOf {
             }
             return flat_place_;
         }
+        // Key above, place below: kernels.md 8.
         HWY_INLINE hn::Vec<Wide> words_of(WordVec key, std::uint32_t first_place) const {
             const U32 d;
             const WordVec place = hn::Add(hn::Set(d, first_place), hn::Load(d, after_first[color_.is_flat() ? 0 : 1]));
             return hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(Wide{}, key)), hn::PromoteTo(Wide{}, place));
         }
 
+        // Hidden fragments are counted and not kept. A float key never counts as exactly at the surface, as in
+        // scalar::append.
         HWY_INLINE void hide(std::size_t pixel, WordVec key, WordMask lost) const {
             const auto add = [&](std::uint32_t* counts, WordMask which) HWY_ATTR {
                 const WordVec more = hn::Add(hn::LoadU(U32{}, counts + pixel), hn::Set(U32{}, 1));
@@ -176,6 +183,7 @@ struct AppendOf {
             hn::ScatterIndex(words, wide, to_.word,
                              hn::ConvertTo(hn::RebindToSigned<Wide>{}, hn::IfThenElse(is_put_here, index, nobodys)));
         }
+        // Without room the word is dropped and the walk goes on: its caller gives the whole band up.
         HWY_INLINE void put_one(std::uint32_t pixel, std::uint64_t word) {
             const std::uint32_t rank = to_.count[pixel];
             if (HWY_UNLIKELY(rank >= to_.ranks)) {
@@ -204,6 +212,7 @@ struct CountState {
     int y0;
 };
 
+// Counts coverage and places alone: neither depth nor colour is computed.
 template <bool unsnapped>
 class CountShade {
   public:

@@ -36,8 +36,10 @@ struct Arrivals {
 inline namespace strict {
 namespace scalar {
 
+// Below 2^-126 in magnitude, and not 0: devices that flush denormals would not keep such a depth under MAX.
 [[nodiscard]] inline bool is_denormal(float z) noexcept { return z != 0.0f && z > -0x1p-126f && z < 0x1p-126f; }
 
+// The definition of the function below. A NaN passes no comparison, so no visible key is one.
 template <bool by_shader_z>
 [[nodiscard]] bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
     for (std::size_t i = 0; i < lanes(in); ++i) {
@@ -60,6 +62,7 @@ template <bool by_shader_z>
     return true;
 }
 
+// Places rise in the order of arrival, so an earlier arrival is a smaller place.
 inline void find_arrived_before(const ColumnBlock& block, std::uint32_t* before) noexcept {
     for (std::uint32_t k = 0; k < block.height; ++k)
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {

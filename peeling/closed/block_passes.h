@@ -27,12 +27,14 @@ namespace scalar {
 using Color = std::array<float, 4>;
 using Codes = std::array<std::uint32_t, 4>;
 
+// Straight, as the rasterizer gave it.
 [[nodiscard]] inline Color color_at(const ColumnBlock& block, std::size_t lane, std::size_t k) noexcept {
     const std::uint32_t place = block.place(lane, k);
     return {block.color[0][place], block.color[1][place], block.color[2][place], block.color[3][place]};
 }
 
-// `others`: how many more fragments the pixel has, before and behind.
+// `others`: how many more fragments the pixel has, before and behind. Each of them passes the old front through, and
+// MAX keeps it; without one the cleared target, 0, is what MAX meets (algorithms.md 5.4).
 inline void blend_near(const Color& color, std::uint32_t others, Codes& front) noexcept {
     const float through = let_through(OneFloat{}, pipeline::unorm8_value(front[3]));
     for (std::size_t c = 0; c < 4; ++c) {
@@ -52,6 +54,7 @@ template <pipeline::BlendRounding rounding>
             value(s), value(s_factor), value(d), value(d_factor)));
 }
 
+// OVER of the dumped colour; its quad discards pixels whose dump has alpha 0 (algorithms.md 5.1).
 template <pipeline::BlendRounding rounding>
 void blend_far(const Color& color, Codes& back) noexcept {
     const std::uint32_t alpha = pipeline::to_unorm8(color[3]);
@@ -89,6 +92,7 @@ void peel_both_ends(const ColumnBlock& block, BlockCodes& front_codes, BlockCode
     }
 }
 
+// Front to back, near to far: level k is layer k, because a block here holds no depth twice.
 template <pipeline::BlendRounding rounding>
 void peel_front(const ColumnBlock& block, BlockCodes& codes) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {

@@ -21,6 +21,7 @@ using WordVec = hn::Vec<Words>;
 using WordMask = hn::Mask<Words>;
 using FloatVec = hn::Vec<Floats>;
 
+// Codes are at most 255: exact in binary32, and positive as signed words.
 HWY_INLINE FloatVec float_of(WordVec code) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, code)); }
 
 HWY_INLINE FloatVec value_of(WordVec code) { return pipeline::HWY_NAMESPACE::unorm8_values(Words{}, code); }
@@ -32,7 +33,8 @@ struct AllLanes {
 
 #include "peeling/programs/under_text-inl.h"
 
-// Unorm8Arithmetic::combine with BlendEquation::add.
+// Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut to
+// 255^2; the shifts divide by 255 and round as fragment-stages.md 8.2 says.
 template <pipeline::BlendRounding rounding>
 HWY_INLINE WordVec blended(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
     const Signed di;
@@ -87,12 +89,14 @@ class Columns {
         FloatVec channel[4];
     };
 
+    // Places of level k, near to far.
     HWY_INLINE WordVec level(std::size_t k) const {
         WordVec place, key;
         hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.levels + k * block_lanes + lane_),
                              place, key);
         return place;
     }
+    // Places of level visible - 1 - pass of each column: ends lie at different levels, so they are gathered.
     HWY_INLINE WordVec far_places(std::uint32_t pass, WordMask has) const {
         const Words d;
         const WordVec level = hn::IfThenElseZero(has, hn::Sub(visible_, hn::Set(d, pass + 1)));
@@ -119,6 +123,8 @@ class Columns {
         return color;
     }
 
+    // As scalar::blend_near. A column whose only fragment is the near one has no other to pass the old front through; a
+    // column that has ended keeps it, because 0 members differ from its number of fragments.
     HWY_INLINE void blend_near(const Color& color, WordMask has, WordVec (&front)[4]) const {
         const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, value_of(front[3]));
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
@@ -130,6 +136,7 @@ class Columns {
         }
     }
 
+    // As scalar::blend_far; a column without a far fragment takes alpha 0, and keeps its back.
     HWY_INLINE static void blend_far(const Color& color, WordVec (&back)[4]) {
         const WordVec code = code_of(color.channel[3]);
         const WordMask is_there = hn::Ne(code, hn::Zero(Words{}));
@@ -140,6 +147,7 @@ class Columns {
         }
     }
 
+    // As scalar::blend_front; a column that has ended takes colour 0, which is neutral under UNDER.
     HWY_INLINE static void blend_front(const Color& color, WordVec (&front)[4]) {
         const FloatVec all = hn::Set(Floats{}, 255.0f), let_through = float_of(front[3]);
         for (std::size_t c = 0; c < 3; ++c) {
@@ -183,6 +191,7 @@ void codes(const std::uint32_t* words, BlockCodes& out) {
     }
 }
 
+// algorithms.md 0.4, with the codes packed to a word a pixel, red lowest.
 void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {

@@ -1,3 +1,10 @@
+// peeling/closed/columns.cpp - where the columns of a region live: how much memory they get, how many pixels at a time.
+//
+// Rule     Arrivals are put down band by band, a band being whole rows of the region whose fragments fit into a
+//          second-level cache. First the whole region is tried as one band, which most tiles are; a region that does not
+//          fit is counted and cut. One row that exceeds the fragment memory makes the closed form decline.
+// Numbers  At most 65,535 fragments at a pixel, or the form declines, too. A place has 32 bits. Every column takes a
+//          word of 8 bytes for each fragment of the tallest one, and every place 16 bytes of colour: Band::bytes.
 #include "peeling/closed/columns.h"
 
 #include <algorithm>
@@ -71,10 +78,13 @@ class RegionColumns {
     }
 
   private:
+    // The key in one of its two forms, and the colour; nothing else of a fragment enters a closed form.
     [[nodiscard]] rasterizer::FragmentNeeds needs() const noexcept {
         return {by_shader_z_, !by_shader_z_, false, true, false, false};
     }
 
+    // The region as one band, half of the cache for words and the rest for colours. Nothing is known yet of its
+    // fragments: placing them shows whether they fit.
     [[nodiscard]] Band as_much_as_is_cached() const {
         const std::uint64_t bytes = std::min<std::uint64_t>(cached_bytes, bytes_);
         Band band{region_.rect()};
@@ -133,6 +143,8 @@ class RegionColumns {
         for (std::size_t c = 0; c < 4; ++c) color_[c] = colors + c * places;
     }
 
+    // Puts the fragments of a band down. Counts start at 0 for every band; words and colours need no clearing, since a
+    // count says how many of them are there.
     [[nodiscard]] bool place(const Band& band) {
         for (const auto& counts : {count_, hidden_, at_surface_}) std::ranges::fill(counts, 0u);
         arrivals_ = {.stride = band.stride(),
@@ -152,6 +164,7 @@ class RegionColumns {
         return fits;
     }
 
+    // The way of batches: after texture and MASK, whose victims are counted, as `alpha_killed` wants it.
     [[nodiscard]] bool place_batches(const Band& band) {
         return shortcuts_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
             fragments_.rasterized += lanes(in);
@@ -179,6 +192,7 @@ class RegionColumns {
                static_cast<std::size_t>(region_.rect().width());
     }
 
+    // Blocks go from the band's first pixel on, sixteen neighbours each; one may end in the next row of the region.
     void visit_blocks(const Band& band) {
         const std::size_t pixels = band.rect.area();
         ColumnBlock block;

@@ -48,6 +48,8 @@ class Appending {
     }
 
   private:
+    // A vector of a batch's fragments. The common case is a run, neighbouring pixels that are all visible and equally
+    // high: two stores. Else fragments go one by one. Lanes beyond the batch read pixel 0 and are dead.
     HWY_INLINE bool vector(std::size_t i) {
         const Words d;
         const WordMask in_batch = hn::Lt(hn::Iota(d, 0), hn::Set(d, static_cast<std::uint32_t>(lanes(in_) - i)));
@@ -73,6 +75,7 @@ class Appending {
         return true;
     }
 
+    // Keys of the opaque surface at the pixels: one value, neighbours, or a gather.
     HWY_INLINE WordVec surface_at(WordVec pixel, std::uint32_t first, bool is_run) const {
         const Words d;
         if (to_.same_opaque) return hn::Set(d, to_.opaque[0]);
@@ -135,6 +138,7 @@ bool append_batch(Arrivals& to, const pipeline::FragmentBatch& in, const std::ui
     return true;
 }
 
+// The low halves of a level's words, kernels.md 8.
 HWY_INLINE WordVec places_at(const ColumnBlock& block, std::size_t level, std::size_t lane) {
     WordVec place, key;
     hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block.levels + level * block_lanes + lane),
@@ -210,6 +214,7 @@ struct VectorLevels {
                        Wide{}, level + lane);
         }
     }
+    // Columns of equal height begin at one rank, so that levels are plain loads; others are gathered.
     static void load_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t height,
                               std::uint64_t* levels) {
         const bool is_full = std::ranges::all_of(visible, [height](std::uint32_t own) { return own == height; });
@@ -219,6 +224,8 @@ struct VectorLevels {
                            levels + k * block_lanes + lane);
         if (!is_full) gather_from_end(from, pixel, visible, height, levels);
     }
+    // `index` steps down a rank a level. It falls below `least` once a column has ended: then the load is clamped and
+    // ~0 taken.
     static void gather_from_end(const Arrivals& from, std::size_t pixel, const LaneWords& visible, std::size_t height,
                                 std::uint64_t* levels) {
         using Index = hn::RebindToSigned<Wide>;
@@ -238,6 +245,7 @@ struct VectorLevels {
             }
         }
     }
+    // Neighbouring levels with equal upper halves. The words ~0 above a column's end equal each other and do not count.
     static void find_ties(const std::uint64_t* levels, std::size_t height, LaneWords& has_ties) {
         const auto none = hn::Set(Wide{}, ~std::uint64_t{0});
         for (std::size_t lane = 0; lane < block_lanes; lane += step) {

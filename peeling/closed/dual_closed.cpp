@@ -62,6 +62,8 @@ class GroupPeel {
   private:
     [[nodiscard]] std::uint32_t key(std::size_t i, std::uint32_t k) const noexcept { return block_.key(lane_[i], k); }
 
+    // Takes one group from each end. near == far is one group, and the near one (algorithms.md 5.1): the far group is
+    // then empty, begin == end, and so is every group of a pixel that is done.
     [[nodiscard]] bool next_groups() {
         bool any = false;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -87,6 +89,7 @@ class GroupPeel {
         return any;
     }
 
+    // A group is one mixture, so its entry names the depth and no fragment.
     void trace(std::size_t i, std::uint32_t k, Side side) {
         if (!region_.frame().trace) return;
         region_.trace({static_cast<std::uint32_t>(block_.first + lane_[i]), key(i, k), 0, side, false});
@@ -114,6 +117,8 @@ class GroupPeel {
         }
     }
 
+    // RT1 starts at 0 in every pass. Its old value survives where a fragment outside the group passes it through; each
+    // member then adds its own UNDER of that old value, and MAX keeps the greatest of every channel (E12, E13).
     void blend_front() {
         for (std::size_t c = 0; c < 4; ++c) {
             decode(ChannelType::unorm8, front_[c], front_values_[c], static_cast<int>(n_));
@@ -129,6 +134,8 @@ class GroupPeel {
         }
     }
 
+    // RT2 holds the greatest of every channel over the group; its value, not the fragments' colours, goes OVER the
+    // back.
     void blend_back() {
         for (auto& channel : dump_) std::fill_n(channel.begin(), n_, 0u);
         for (std::uint32_t member = 0; take(far_group_, member); ++member) max_into(color_, dump_);
@@ -164,10 +171,10 @@ bool has_foreign_depths(const RegionFragments& fragments, const DeviceProfile& p
 
 // Depths of a sorted column.
 std::uint32_t distinct(const ColumnBlock& block, std::size_t lane) {
-    std::uint32_t count = 0;
+    std::uint32_t depths = 0;
     for (std::uint32_t k = 0; k < block.visible[lane]; ++k)
-        count += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
-    return count;
+        depths += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
+    return depths;
 }
 
 // Pass by pass, the front before the back.
@@ -182,6 +189,7 @@ void trace_pixel(Region& region, const ColumnBlock& block, std::size_t lane) {
     }
 }
 
+// The whole peel of a region: its blocks one by one, and the histogram from which every query is answered afterwards.
 struct Course {
     Region& region;
     const std::uint32_t* opaque;  // words of the region
@@ -248,6 +256,8 @@ Counters of_peel(const RegionFragments& fragments, std::uint64_t area) {
 
 }  // namespace
 
+// Colours first, counters last: as long as the fragments may still turn out to be too many or of foreign depths,
+// nothing is counted, and the trace is cut back to where it was.
 bool dual_closed(Region& region) {
     const Frame& frame = region.frame();
     if (!peels_to_the_end(frame) || frame.color_format != Format::rgba8) return false;
@@ -263,16 +273,16 @@ bool dual_closed(Region& region) {
         shortcuts.trace().shorten(traced);
         return false;
     }
-    shortcuts.count(of_copy(rgba8_bytes, area) + of_clear(rgba8_bytes + rg32f_bytes, area),
-                    {.copies = 1});  // front, back, min-max
-    shortcuts.count(of_initialize(*fragments), {.geometry = 1});
+    shortcuts.book(of_copy(rgba8_bytes, area) + of_clear(rgba8_bytes + rg32f_bytes, area),
+                   {.copies = 1});  // front, back, min-max
+    shortcuts.book(of_initialize(*fragments), {.geometry = 1});
     for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
         region.begin_iteration();
-        shortcuts.count(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
-        if (!region.any(RegionShortcuts::counted(course.left(passes)), Idle::steady)) break;
+        shortcuts.book(of_peel(*fragments, area), {.geometry = 1, .full_screen = 1});
+        if (!region.any(RegionShortcuts::query_of(course.left(passes)), Idle::steady)) break;
     }
-    shortcuts.count(of_loads(2 * rgba8_bytes, area) + of_color(rgba8_bytes, area, false),
-                    {.full_screen = 1});  // the last quad
+    shortcuts.book(of_loads(2 * rgba8_bytes, area) + of_color(rgba8_bytes, area, false),
+                   {.full_screen = 1});  // the last quad
     region.publish(result);
     return true;
 }

@@ -39,6 +39,8 @@ struct PassTallies {
     }
 };
 
+// Finds the tallies of columns. Untied columns of one height differ only in their order of arrival, so most of their
+// counts are made once a height, in `finish`.
 class ColumnTallies {
   public:
     explicit ColumnTallies(PassTallies& tallies) : tallies_{tallies} {}
@@ -85,24 +87,26 @@ class ColumnTallies {
                 thresholds_[before_[k * block_lanes + lane] * block_lanes + lane] += k < heights[lane] ? 1 : 0;
     }
 
+    // A column with equal depths, counted fragment by fragment. Its thresholds are depths and not fragments:
+    // depth_number_ tells the number of a fragment's depth, from 1.
     void add_tied(const ColumnBlock& block, std::size_t lane) {
         const std::uint32_t n = block.visible[lane];
-        rank_.resize(n);
+        depth_number_.resize(n);
         std::uint32_t depths = 0;
         for (std::uint32_t k = 0; k < n; ++k) {
             const bool is_new = k == 0 || block.key(lane, k) != block.key(lane, k - 1);
             if (is_new && k > 0) tallies_.discarded[depths + 1] += k;  // at or before depth `depths`
             depths += is_new ? 1 : 0;
-            rank_[k] = depths;
+            depth_number_[k] = depths;
         }
         tallies_.discarded[depths + 1] += n;
         tallies_.exhausted[depths + 2] += n + block.at_surface[lane];
         for (std::uint32_t k = 0; k < n; ++k) {
             const std::uint32_t before = before_[k * block_lanes + lane];
-            const std::uint32_t threshold = before > 0 ? rank_[before - 1] : 0;
-            if (threshold == rank_[k]) continue;
+            const std::uint32_t threshold = before > 0 ? depth_number_[before - 1] : 0;
+            if (threshold == depth_number_[k]) continue;
             ++tallies_.first_passed[threshold + 1];
-            ++tallies_.no_longer_passed[rank_[k] + 1];
+            ++tallies_.no_longer_passed[depth_number_[k] + 1];
         }
     }
 
@@ -110,8 +114,8 @@ class ColumnTallies {
     std::vector<std::uint64_t> columns_;  // untied ones, by height
     // Of their fragments: sixteen counts, one a lane, for every number of depths after which so many begin to pass.
     std::vector<std::uint64_t> thresholds_;
-    std::vector<std::uint32_t> before_;  // by place in the block
-    std::vector<std::uint32_t> rank_;    // by place in a column: its depth, from 1
+    std::vector<std::uint32_t> before_;        // by place in the block
+    std::vector<std::uint32_t> depth_number_;  // by place in a column: its depth, from 1
 };
 
 void trace_layer(Region& region, const ColumnBlock& block, std::size_t lane, std::uint32_t k) {
@@ -147,6 +151,7 @@ class GroupComposite {
     }
 
   private:
+    // The next layer of every pixel: the first arrival of the next depth, times alpha; (0, 0, 0, 0) where none is left.
     [[nodiscard]] bool take_layer() {
         bool any = false;
         for (std::size_t i = 0; i < n_; ++i) {
@@ -254,8 +259,8 @@ class Rgba8Blocks {
 
     void publish() {
         const std::uint64_t area = region_.rect().area();
-        RegionShortcuts{region_}.count(of_loads(4 + 4, area) + of_color(4, area, false),
-                                       {.full_screen = 1});  // the last quad
+        RegionShortcuts{region_}.book(of_loads(4 + 4, area) + of_color(4, area, false),
+                                      {.full_screen = 1});  // the last quad
         region_.publish(target_);
     }
 
@@ -302,15 +307,17 @@ class OtherBlocks {
     ColorCodes codes_;
 };
 
+// Goes through the passes as the algorithm does, with the same questions in the same order; only the books are written.
 void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
     PassCounters counters{region, fragments, tallies};
     for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
         region.begin_iteration();
-        RegionShortcuts{region}.count(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
-        if (!region.any(RegionShortcuts::counted(counters.passed()), Idle::when_zero)) break;
+        RegionShortcuts{region}.book(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
+        if (!region.any(RegionShortcuts::query_of(counters.passed()), Idle::when_zero)) break;
     }
 }
 
+// One walk over the blocks gives colours and tallies; the counters follow once it is sure that all fragments fitted.
 template <class Blocks>
 bool composite_layers(Region& region) {
     PassTallies tallies;
@@ -323,7 +330,7 @@ bool composite_layers(Region& region) {
     if (!fragments) return false;
     columns.finish();
     const auto color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
-    RegionShortcuts{region}.count(of_clear(color, region.rect().area()), {});  // the accumulated colour's clear
+    RegionShortcuts{region}.book(of_clear(color, region.rect().area()), {});  // the accumulated colour's clear
     count_passes(region, *fragments, tallies);
     blocks.publish();
     return true;

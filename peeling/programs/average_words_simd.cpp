@@ -28,9 +28,11 @@ using pipeline::HWY_NAMESPACE::half_values;
 using pipeline::HWY_NAMESPACE::unorm8_codes;
 using pipeline::HWY_NAMESPACE::unorm8_values;
 
+// Two halves a word, the earlier channel below: red and blue are low, green and alpha high.
 HWY_INLINE FloatVec low_half(WordVec words) { return half_values(Words{}, hn::And(words, hn::Set(Words{}, 0xffffu))); }
 HWY_INLINE FloatVec high_half(WordVec words) { return half_values(Words{}, hn::ShiftRight<16>(words)); }
 
+// Lanes behind the last pixel are scratch and no pixels.
 void note_stuck(hn::Mask<Floats> stuck, std::size_t first, std::size_t pixels, StuckPixels& all) {
     alignas(8) std::uint8_t bits[8] = {};
     hn::StoreMaskBits(Floats{}, stuck, bits);
@@ -41,6 +43,8 @@ void note_stuck(hn::Mask<Floats> stuck, std::size_t first, std::size_t pixels, S
     }
 }
 
+// A count of 2048 and a sum beyond 65504 have stopped growing in a half (algorithms.md 7). A sum of NaN is
+// reported, too.
 StuckPixels resolve(const pipeline::ScreenWords& words) {
     const Words d;
     const Floats df;

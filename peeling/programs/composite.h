@@ -9,7 +9,8 @@
 namespace strata::peeling {
 inline namespace strict {
 
-// OVER from the far end, in the order that `near_to_far` says. By exact depth, the first arrival of equal ones stays in front.
+// OVER from the far end, in the order that `near_to_far` says: alpha c + (1 - alpha) D, each operation rounded to
+// binary64, in this order (algorithms.md 17). By exact depth, the first arrival of equal ones stays in front.
 [[nodiscard]] inline std::array<double, 3> composite(std::span<const KeyedFragment> fragments,
                                                      const FragmentOrder& near_to_far,
                                                      const pipeline::Rgba& background) {

@@ -58,20 +58,20 @@ class PixelSet {
     bool add(std::uint32_t pixel) {
         if (has_[pixel]) return false;
         has_[pixel] = true;
-        first_ = count_++ == 0 || pixel < first_ ? pixel : first_;
+        first_ = pixels_++ == 0 || pixel < first_ ? pixel : first_;
         return true;
     }
     void clear() {
-        if (count_ > 0) has_.assign(has_.size(), false);
-        count_ = 0;
+        if (pixels_ > 0) has_.assign(has_.size(), false);
+        pixels_ = 0;
     }
     void report(pipeline::Region& region, pipeline::Fault fault, const std::string& detail) const {
-        region.report(fault, count_, first_, detail);
+        region.report(fault, pixels_, first_, detail);
     }
 
   private:
     std::vector<bool> has_;
-    std::uint64_t count_ = 0;
+    std::uint64_t pixels_ = 0;
     std::uint32_t first_ = 0;
 };
 

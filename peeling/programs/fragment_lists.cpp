@@ -1,3 +1,5 @@
+// peeling/programs/fragment_lists.cpp - two walks: coverage says how long every list may become, then fragments are
+// filed where they belong. So a pixel's list is one piece of memory, in submission order, without sorting.
 #include "peeling/programs/fragment_lists.h"
 
 #include <bit>
@@ -18,23 +20,26 @@ constexpr rasterizer::FragmentNeeds list_needs{
 // Puts fragments into their pixels' lists as they come; batches number their pixels from the range's first.
 class Filing {
   public:
-    Filing(const Region& region, FragmentLists& lists)
-        : opaque_{region.storage(region.opaque_depth()).depth(0) + lists.pixels.first},
+    Filing(const Region& region, FragmentLists& fragment_lists)
+        : opaque_{region.storage(region.opaque_depth()).depth(0) + fragment_lists.pixels.first},
           by_shader_z_{region.frame().key == DepthKey::shader_z},
-          lists_{lists} {}
+          fragment_lists_{fragment_lists} {}
 
     void operator()(const FragmentBatch& in, const Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const std::uint32_t pixel = in.pixel[i];
             if (out.alive[i] == 0 || !is_visible(in, i)) continue;
-            lists_.fragments[lists_.end[pixel]++] = {by_shader_z_ ? ordered_code(in.shader_z[i]) : in.code[i],
-                                                     in.exact_code[i],
-                                                     in.primitive[i],
-                                                     {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
+            fragment_lists_.fragments[fragment_lists_.end[pixel]++] = {
+                by_shader_z_ ? ordered_code(in.shader_z[i]) : in.code[i],
+                in.exact_code[i],
+                in.primitive[i],
+                {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}};
         }
     }
 
   private:
+    // By the algorithm's key, strictly before the surface; of a float key the target holds the float's bits
+    // (algorithms.md 0.1).
     [[nodiscard]] bool is_visible(const FragmentBatch& in, std::size_t i) const {
         const std::uint32_t opaque = opaque_[in.pixel[i]];
         return by_shader_z_ ? in.shader_z[i] < std::bit_cast<float>(opaque) : in.code[i] < opaque;
@@ -42,11 +47,12 @@ class Filing {
 
     const std::uint32_t* opaque_;  // of the range's first pixel
     bool by_shader_z_;
-    FragmentLists& lists_;
+    FragmentLists& fragment_lists_;
 };
 
 }  // namespace
 
+// A range is a part of one row or whole rows (next_range), so that it is a rectangle.
 rasterizer::Rect rect_of(const PixelRange& pixels, const rasterizer::Rect& region) noexcept {
     const int width = region.width();
     const int first = static_cast<int>(pixels.first), size = static_cast<int>(pixels.size());
@@ -60,6 +66,8 @@ std::vector<std::uint32_t> coverage_of(Region& region) {
     return coverage;
 }
 
+// Goes on pixel by pixel while the fragments fit. Beyond the first row the range ends at a full row only: `last` moves
+// there, or within the row in which the range began.
 PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::uint32_t first,
                       std::uint64_t most) noexcept {
     const auto columns = static_cast<std::uint32_t>(width), end = static_cast<std::uint32_t>(coverage.size());
@@ -76,21 +84,23 @@ PixelRange next_range(std::span<const std::uint32_t> coverage, int width, std::u
     return range;
 }
 
+// Room is given out by coverage, which counts hidden and masked fragments, too: a list may end before the next one
+// starts.
 void list_visible(Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
-                  Bookkeeping bookkeeping, FragmentLists& lists) {
-    lists.pixels = pixels;
-    lists.start.resize(pixels.size());
+                  Bookkeeping bookkeeping, FragmentLists& fragment_lists) {
+    fragment_lists.pixels = pixels;
+    fragment_lists.start.resize(pixels.size());
     std::size_t fragments = 0;
     for (std::uint32_t p = 0; p < pixels.size(); ++p) {
-        lists.start[p] = fragments;
+        fragment_lists.start[p] = fragments;
         fragments += coverage[pixels.first + p];
     }
-    lists.end = lists.start;
-    if (lists.fragments.size() < fragments) {
-        lists.fragments = {};  // so that the old ones are gone before there are new ones
-        lists.fragments.resize(fragments);
+    fragment_lists.end = fragment_lists.start;
+    if (fragment_lists.fragments.size() < fragments) {
+        fragment_lists.fragments = {};  // so that the old ones are gone before there are new ones
+        fragment_lists.fragments.resize(fragments);
     }
-    Filing file{region, lists};
+    Filing file{region, fragment_lists};
     if (bookkeeping == Bookkeeping::counted) {
         PassState state;
         state.needs = list_needs;

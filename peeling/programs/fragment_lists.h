@@ -52,9 +52,9 @@ struct FragmentLists {
     }
 };
 
-// Fills `lists` with those of `pixels`, in the memory that it already has. `coverage` is the region's. Counted as a pass of the
+// Fills `fragment_lists` with those of `pixels`, in the memory that it already has. `coverage` is the region's. Counted as a pass of the
 // algorithm, where the range is the whole region; or a look of the emulator's own.
 void list_visible(pipeline::Region& region, const PixelRange& pixels, std::span<const std::uint32_t> coverage,
-                  pipeline::Bookkeeping bookkeeping, FragmentLists& lists);
+                  pipeline::Bookkeeping bookkeeping, FragmentLists& fragment_lists);
 
 }  // namespace strata::peeling

@@ -33,6 +33,7 @@ HWY_INLINE Keys<D> keys_of_z(D d, hn::Vec<hn::RebindToFloat<D>> z, hn::Vec<D> su
     return {key, hn::RebindMask(d, hn::Lt(z, hn::BitCast(floats, surface))), is_denormal};
 }
 
+// A code is its own key; no code counts as denormal.
 template <class D>
 HWY_INLINE Keys<D> keys_of_code(D d, hn::Vec<D> code, hn::Vec<D> surface) {
     return {code, hn::Lt(code, surface), hn::FirstN(d, 0)};

@@ -6,6 +6,8 @@ namespace strata::peeling {
 
 using namespace pipeline;
 
+// OVER, far to near (algorithms.md 2). A pixel without such a layer holds alpha 0, which leaves it alone, and the
+// opaque depth, by which the trace knows it.
 void composite_quads(Region& region, const SavedLayers& layers, Target result) {
     for (std::size_t layer = layers.color.size(); layer-- > 0;) {
         region.count_with(static_cast<int>(layer) + 1);

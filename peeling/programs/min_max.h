@@ -48,6 +48,7 @@ void write_min_max(const pipeline::FragmentBatch& in, const pipeline::Lanes<std:
 void write_layers(const pipeline::FragmentBatch& in, const pipeline::ColorLanes& front, const PeelLanes& side,
                   pipeline::ColorLanes& next_front, pipeline::ColorLanes& back) noexcept;
 
+// The definitions. NaN as a depth fails every comparison: such a fragment lies on no side and writes what MAX ignores.
 namespace scalar {
 
 inline void classify(const pipeline::Lanes<float>& shader_z, const pipeline::ColorLanes& min_max,
@@ -63,6 +64,7 @@ inline void classify(const pipeline::Lanes<float>& shader_z, const pipeline::Col
     }
 }
 
+// -1 is the least value that -z and z have for depths in [0, 1], so MAX takes any depth over it (E9).
 inline void write_min_max(const pipeline::Lanes<float>& shader_z, const pipeline::Lanes<std::uint32_t>& chosen,
                           pipeline::ColorLanes& out, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {

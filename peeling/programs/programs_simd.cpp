@@ -18,6 +18,7 @@ using pipeline::ColorLanes;
 using MaskLanes = pipeline::Lanes<std::uint32_t>;
 using FloatLanes = pipeline::Lanes<float>;
 
+// Whole vectors of the widest set, sixteen lanes: lanes behind the count are scratch.
 constexpr std::size_t padded(std::size_t count) { return (count + 15) & ~std::size_t{15}; }
 
 [[gnu::flatten]] void premultiply_lanes(const ColorLanes& color, ColorLanes& out, std::size_t count) {

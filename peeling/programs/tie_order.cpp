@@ -22,6 +22,7 @@ std::size_t for_each_group(FragmentOrder& sorted, Body&& body) {
 
 }  // namespace
 
+// Entries are (depth, place), so that an insertion sort puts equal depths in order of arrival, as a stable sort would.
 void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
                  const FragmentOrder& near_order, FragmentOrder& order) {
     order.clear();
@@ -36,6 +37,7 @@ void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragme
     }
 }
 
+// keys-and-counts.md 2.2.
 void apply(TiePolicy policy, FragmentOrder& by_key) {
     const auto same_key = [](std::uint64_t a, std::uint64_t b) { return depth_of(a) == depth_of(b); };
     switch (policy) {

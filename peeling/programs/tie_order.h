@@ -30,7 +30,8 @@ inline void sort_by(std::uint32_t KeyedFragment::*code, std::span<const KeyedFra
     std::sort(order.begin(), order.end());
 }
 
-// The same for a depth by which `near_order` is almost in order already: a few steps a fragment, or a sort from scratch.
+// sort_by for a depth by which `near_order` is almost sorted: an insertion sort, or sort_by itself where that takes
+// more than 8 steps a fragment.
 void sort_almost(std::uint32_t KeyedFragment::*code, std::span<const KeyedFragment> fragments,
                  const FragmentOrder& near_order, FragmentOrder& order);
 

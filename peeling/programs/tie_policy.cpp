@@ -2,6 +2,7 @@
 
 namespace strata::peeling {
 
+// As reports spell it.
 std::string_view name(TiePolicy policy) noexcept {
     switch (policy) {
         case TiePolicy::none: return "none";

@@ -18,7 +18,7 @@ struct OneFloat {
 
 #include "peeling/programs/under_text-inl.h"
 
-// What a front of this alpha lets through.
+// The transmittance of a front, from its alpha: 1 - alpha where alpha is coverage, else alpha itself.
 [[nodiscard]] inline float through_front(FrontAlpha meaning, float alpha) noexcept {
     return meaning == FrontAlpha::covers ? let_through(OneFloat{}, alpha) : alpha;
 }

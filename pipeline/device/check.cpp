@@ -10,50 +10,50 @@ namespace strata::pipeline {
 namespace {
 
 // The words and the extension of a refusal, and the profile's field (devices.md 9.1).
-struct FeatureRow {
+struct FeatureRule {
     Feature feature;
     std::string_view words, extension;
     bool DeviceProfile::*has;
 };
 
-constexpr std::array feature_rows{
-    FeatureRow{Feature::d16, "16-bit depth buffers", "", &DeviceProfile::has_d16},
-    FeatureRow{Feature::d24, "24-bit depth buffers", "", &DeviceProfile::has_d24},
-    FeatureRow{Feature::d32f, "float depth buffers", "ARB_depth_buffer_float", &DeviceProfile::has_d32f},
-    FeatureRow{Feature::float_targets, "float render targets that blend", "ARB_color_buffer_float",
-               &DeviceProfile::has_float_targets},
-    FeatureRow{Feature::unclamped_depth_clear, "unclamped depth clears", "NV_depth_buffer_float",
-               &DeviceProfile::has_unclamped_depth_clear},
-    FeatureRow{Feature::fragment_programs, "fragment programs that discard after a compare", "ARB_fragment_program",
-               &DeviceProfile::has_fragment_programs},
-    FeatureRow{Feature::separate_alpha_blend, "separate blend functions for alpha", "EXT_blend_func_separate",
-               &DeviceProfile::has_separate_alpha_blend},
-    FeatureRow{Feature::independent_blend, "independent blend equations", "ARB_draw_buffers_blend",
-               &DeviceProfile::has_independent_blend},
-    FeatureRow{Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side",
-               &DeviceProfile::has_two_sided_stencil},
-    FeatureRow{Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", &DeviceProfile::has_depth_clamp},
-    FeatureRow{Feature::depth_replace, "depth replace by texture shaders", "NV_texture_shader",
-               &DeviceProfile::has_depth_replace},
-    FeatureRow{Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units",
-               &DeviceProfile::has_sequential_depth_units},
-    FeatureRow{Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw",
-               &DeviceProfile::has_ordered_rmw},
-    FeatureRow{Feature::signed_blend, "signed blend equations", "", &DeviceProfile::has_signed_blend},
-    FeatureRow{Feature::d16f, "16-bit float depth buffers", "", &DeviceProfile::has_d16f},
-    FeatureRow{Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "",
-               &DeviceProfile::has_narrow_surfaces},
+constexpr std::array feature_rules{
+    FeatureRule{Feature::d16, "16-bit depth buffers", "", &DeviceProfile::has_d16},
+    FeatureRule{Feature::d24, "24-bit depth buffers", "", &DeviceProfile::has_d24},
+    FeatureRule{Feature::d32f, "float depth buffers", "ARB_depth_buffer_float", &DeviceProfile::has_d32f},
+    FeatureRule{Feature::float_targets, "float render targets that blend", "ARB_color_buffer_float",
+                &DeviceProfile::has_float_targets},
+    FeatureRule{Feature::unclamped_depth_clear, "unclamped depth clears", "NV_depth_buffer_float",
+                &DeviceProfile::has_unclamped_depth_clear},
+    FeatureRule{Feature::fragment_programs, "fragment programs that discard after a compare", "ARB_fragment_program",
+                &DeviceProfile::has_fragment_programs},
+    FeatureRule{Feature::separate_alpha_blend, "separate blend functions for alpha", "EXT_blend_func_separate",
+                &DeviceProfile::has_separate_alpha_blend},
+    FeatureRule{Feature::independent_blend, "independent blend equations", "ARB_draw_buffers_blend",
+                &DeviceProfile::has_independent_blend},
+    FeatureRule{Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side",
+                &DeviceProfile::has_two_sided_stencil},
+    FeatureRule{Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", &DeviceProfile::has_depth_clamp},
+    FeatureRule{Feature::depth_replace, "depth replace by texture shaders", "NV_texture_shader",
+                &DeviceProfile::has_depth_replace},
+    FeatureRule{Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units",
+                &DeviceProfile::has_sequential_depth_units},
+    FeatureRule{Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw",
+                &DeviceProfile::has_ordered_rmw},
+    FeatureRule{Feature::signed_blend, "signed blend equations", "", &DeviceProfile::has_signed_blend},
+    FeatureRule{Feature::d16f, "16-bit float depth buffers", "", &DeviceProfile::has_d16f},
+    FeatureRule{Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "",
+                &DeviceProfile::has_narrow_surfaces},
 };
 
-constexpr bool rows_follow_the_enum() {
+constexpr bool rules_follow_the_enum() {
     std::size_t i = 0;
     for (const Feature feature : enum_values<Feature>)
-        if (i >= feature_rows.size() || feature_rows[i++].feature != feature) return false;
-    return i == feature_rows.size();
+        if (i >= feature_rules.size() || feature_rules[i++].feature != feature) return false;
+    return i == feature_rules.size();
 }
-static_assert(rows_follow_the_enum(), "feature_rows has a row for every Feature, in its order");
+static_assert(rules_follow_the_enum(), "feature_rules has a rule for every Feature, in its order");
 
-const FeatureRow& row(Feature feature) { return feature_rows[static_cast<std::size_t>(feature)]; }
+const FeatureRule& rule(Feature feature) { return feature_rules[static_cast<std::size_t>(feature)]; }
 
 // "use geforce8 or ideal": the built-in profiles that `can`.
 // The sentence names only built-in profiles: a profile of a user's own is not known here.
@@ -74,7 +74,8 @@ Verdict check_limit(const DeviceProfile& profile, int DeviceProfile::*limit, int
     return Refusal{feature, extension, way_out([&](const DeviceProfile& p) { return wanted <= p.*limit; })};
 }
 
-// What targets of one pass must have in common without independent blending: write masks and enables may differ.
+// Without independent blending, targets of one pass share factors, equations and constant; write masks and enables may
+// differ.
 bool shares_terms(const Blend& a, const Blend& b) {
     return a.color == b.color && a.alpha == b.alpha && a.constant == b.constant;
 }
@@ -88,11 +89,11 @@ std::string Refusal::sentence(const DeviceProfile& profile) const {
     return text;
 }
 
-bool has(const DeviceProfile& profile, Feature feature) { return profile.*row(feature).has; }
+bool has(const DeviceProfile& profile, Feature feature) { return profile.*rule(feature).has; }
 
 Verdict check(const DeviceProfile& profile, Feature feature) {
     if (has(profile, feature)) return std::nullopt;
-    const FeatureRow& missing = row(feature);
+    const FeatureRule& missing = rule(feature);
     return Refusal{std::string{missing.words}, std::string{missing.extension},
                    way_out([&](const DeviceProfile& p) { return has(p, feature); })};
 }

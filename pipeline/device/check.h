@@ -1,6 +1,6 @@
 // pipeline/device/check.h - what a device lacks. State that it cannot run is refused by name, before the first fragment.
 //
-// Rule     Every feature has one row in check.cpp: words, extension, and who has it. A refusal names the profiles
+// Rule     Every feature has one rule in check.cpp: words, extension, and who has it. A refusal names the profiles
 //          that do. State of the era that no algorithm here needs (fog, colour sum, dither, logic op) is refused on
 //          every profile.
 // Source   devices.md 5 to 7, 9 and 10.
@@ -18,7 +18,8 @@
 
 namespace strata::pipeline {
 
-// What a pass may need of a device. check.cpp has a row for each, in this order, which a static_assert compares.
+// The features that a pass may need of a device. check.cpp has a rule for each, in this order: a static_assert
+// compares.
 enum class Feature : std::uint8_t {
     d16,
     d24,

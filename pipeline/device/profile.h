@@ -15,11 +15,11 @@ namespace strata::pipeline {
 enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
 // How the exact sum of an 8-bit blend becomes a code: half up, or cut (fragment-stages.md 8.2).
 enum class BlendRounding : std::uint8_t { nearest, truncate };
-// What MIN and MAX of one NaN and one number give (fragment-stages.md 9.3).
+// The result of MIN and MAX of one NaN and one number (fragment-stages.md 9.3).
 enum class MinMaxNan : std::uint8_t { other_operand, propagate };
 // Whether binary32 blending turns operands and results below 2^-126 into zeros (fragment-stages.md 9.1).
 enum class DenormalRule : std::uint8_t { flush, keep };
-// What a filtered lookup gives: a multiple of 1/255, or binary32 (texturing.md 3). Nearest lookups and pass-through
+// The result of a filtered lookup: a multiple of 1/255, or binary32 (texturing.md 3). Nearest lookups and pass-through
 // coordinates go by it, too (devices.md 4).
 enum class TextureFilterPrecision : std::uint8_t { unorm8, single };
 
@@ -95,7 +95,7 @@ struct DeviceProfile {
 // Null if there is no such name.
 [[nodiscard]] const DeviceProfile* find_profile(std::string_view name);
 
-// What a user may read beside a number: its JSON key, its value as text, its source with the mark S, M or A of devices.md.
+// One field of a profile for its reader: JSON key, value as text, source with the mark S, M or A of devices.md.
 struct ProfileEntry {
     std::string key, value, source;
 };

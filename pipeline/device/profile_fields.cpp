@@ -30,9 +30,9 @@ template <auto member>
     }
 }
 
-// A row without its range: value and set go through `at`, as plain functions, so that the table can be constexpr.
+// A field without its range: value and set go through `at`, as plain functions, so that the table can be constexpr.
 template <auto member>
-constexpr ProfileField row(std::string_view key, FieldKind kind, const Sources& source) {
+constexpr ProfileField field_of(std::string_view key, FieldKind kind, const Sources& source) {
     ProfileField field;
     field.key = key;
     field.kind = kind;
@@ -46,13 +46,13 @@ constexpr ProfileField row(std::string_view key, FieldKind kind, const Sources& 
 
 template <auto member>
 constexpr ProfileField boolean(std::string_view key, const Sources& source) {
-    return row<member>(key, FieldKind::boolean, source);
+    return field_of<member>(key, FieldKind::boolean, source);
 }
 
 // A choice whose names are not an enum's identifiers.
 template <auto member>
 constexpr ProfileField choice_of(std::string_view key, Names names, const Sources& source) {
-    ProfileField field = row<member>(key, FieldKind::choice, source);
+    ProfileField field = field_of<member>(key, FieldKind::choice, source);
     field.choices = names;
     field.highest = static_cast<int>(names.size()) - 1;
     return field;
@@ -71,7 +71,7 @@ struct Range {
 
 template <auto member>
 constexpr ProfileField integer(std::string_view key, Range range, const Sources& source) {
-    ProfileField field = row<member>(key, FieldKind::integer, source);
+    ProfileField field = field_of<member>(key, FieldKind::integer, source);
     field.lowest = range.lowest;
     field.highest = range.highest;
     field.step = range.step;

@@ -1,5 +1,5 @@
 // pipeline/device/profile_fields.h - the one table of a profile's fields: its JSON key, its range or names, its sources.
-// describe() and the JSON of scenes/files/profile_json.h both walk it, so a new field is one row.
+// describe() and the JSON of scenes/files/profile_json.h both walk it, so a new field is one entry.
 #pragma once
 #include <array>
 #include <span>

@@ -19,7 +19,7 @@ struct AlphaTest {
     friend bool operator==(const AlphaTest&, const AlphaTest&) = default;
 };
 
-// What happens to the stored 8 bits: incr and decr stop at 255
+// Operations on the stored 8 bits: incr and decr stop at 255
 // and 0, the wrapping ones go around (fragment-stages.md 5).
 enum class StencilOp : std::uint8_t { keep, zero, replace, incr, decr, invert, incr_wrap, decr_wrap };
 

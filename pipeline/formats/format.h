@@ -32,7 +32,7 @@ enum class Format : std::uint8_t {
     x1r5g5b5
 };
 
-// What a channel's code means: k / 255, a half's bits, a float's bits, a depth code, or eight bits of stencil.
+// The meaning of a channel's code: k / 255, a half's bits, a float's bits, a depth code, or eight bits of stencil.
 enum class ChannelType : std::uint8_t { unorm8, half, single, depth, stencil };
 
 struct FormatInfo {

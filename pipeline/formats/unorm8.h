@@ -28,8 +28,8 @@ inline namespace strict {
     return static_cast<float>(code) / 255.0f;  // both exact: the division rounds once
 }
 
-// The same without a division: k / 255 = k 257/2^16 + k / (255 2^16). The first product is exact, the second at most 2^-15 of it,
-// so that its rounding does not reach the sum's; all 256 codes are checked below.
+// from_unorm8 without a division: k / 255 = k 257/2^16 + k / (255 2^16). The first product is exact, the second at most
+// 2^-15 of it, so that its rounding does not reach the sum's; all 256 codes are checked below.
 [[nodiscard]] constexpr float unorm8_value(std::uint32_t code) noexcept {
     const auto k = static_cast<float>(static_cast<std::int32_t>(code));  // this conversion has a vector form
     return k * 0x1.01p-8f + k * (1.0f / 0xff0000p0f);

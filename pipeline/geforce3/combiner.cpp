@@ -59,7 +59,7 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string{"combiner state: "} + what);
 }
 
-// What NV_register_combiners calls errors: they are mistakes of a program, never of a device.
+// Throws for what NV_register_combiners makes an error: a mistake of the program, never a lack of the device.
 void check(const CombinerPortion& p, bool is_alpha) {
     for (const Input& input : {p.a, p.b, p.c, p.d})
         require(holds_value(input.source), "an input of a general stage names no register that it has");

@@ -17,7 +17,8 @@
 
 namespace strata::pipeline {
 
-// What an input can name. The first eleven hold a value of their own; the next two are made by the final stage.
+// Registers that an input can name. The first eleven hold a value of their own; the next two are made by the final
+// stage.
 enum class CombinerRegister : std::uint8_t {
     zero,
     constant_color0,
@@ -67,7 +68,7 @@ struct CombinerInput {
 
 // Component by component, or one dot product of r g b that all three components get; alpha has none.
 enum class CombinerProduct : std::uint8_t { component_wise, dot };
-// What the third result of a portion is: the sum of both products, or one of them, by spare0's alpha before the stage.
+// The third result of a portion: the sum of both products, or one of them, chosen by spare0's alpha before the stage.
 enum class CombinerSum : std::uint8_t {
     add,
     // C D where alpha of spare0 is at least 128/255, else A B.

@@ -18,8 +18,8 @@ constexpr Input unity{Reg::zero, Map::unsigned_invert};
     return static_cast<Reg>(static_cast<std::size_t>(Reg::texture0) + unit);
 }
 
-// What a stage of one unit takes: Cf or Af, Ct or At, Cc.
-// The registers that stand for Cf and Ct; a portion for alpha reads the same registers' alpha as its own component.
+// The inputs of one unit's stage: the registers that stand for Cf (the previous stage) and Ct (the texture), and Cc. A
+// portion for alpha reads the alpha of these registers: Af and At.
 struct Sources {
     Reg previous, texture;
     [[nodiscard]] Input f() const { return {previous}; }

@@ -23,7 +23,7 @@
 
 namespace strata::pipeline {
 
-// What a stage does; the names are NV_texture_shader's. Those that are missing here stand in texture-shader.md 10.
+// Operations of a stage, by NV_texture_shader's names. texture-shader.md 10 lists those that are missing here.
 enum class ShaderOp : std::uint8_t {
     none,
     texture_2d,
@@ -47,8 +47,8 @@ enum class CullMode : std::uint8_t {
 // How an unsigned colour enters a dot product: as k / 255, or stretched to [-1, 1].
 enum class DotMapping : std::uint8_t { unsigned_identity, expand_normal };
 
-// What a comparison takes as R. GL's drivers pick the three-dimensional projective stage, which compares r / q; the chip's
-// two-dimensional stage compares 0 (texture-shader.md 2).
+// The reference R of a depth comparison. GL's drivers pick the three-dimensional projective stage, which compares r /
+// q; the chip's two-dimensional stage compares 0 (texture-shader.md 2).
 enum class CompareReference : std::uint8_t { r_over_q, zero };
 
 // Two 16-bit components a texel (GL_HILO_NV, GL_SIGNED_HILO_NV): k / 65535, or two's complement k / 32768. Nearest lookups.

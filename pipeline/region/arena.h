@@ -11,6 +11,8 @@
 
 namespace strata::pipeline {
 
+// Used by one thread at a time. Pieces stay where they are until reset: memory is never moved, and a piece that does
+// not fit into the last block opens a new one.
 class Arena {
   public:
     // Uninitialised; for plain values only. Lives until reset.
@@ -36,8 +38,10 @@ class Arena {
     }
 
   private:
+    // 64 bytes: a cache line, and the widest vector. A block has at least 1 MiB, so that most regions need only one.
     static constexpr std::size_t alignment = 64, least_block = std::size_t{1} << 20;
 
+    // The memory is longer than asked for by one alignment: an allocator promises less than 64 bytes.
     struct Block {
         explicit Block(std::size_t bytes) : size{bytes}, memory(bytes + alignment) {}
         [[nodiscard]] std::byte* begin() {

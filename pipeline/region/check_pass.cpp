@@ -1,3 +1,6 @@
+// pipeline/region/check_pass.cpp - two kinds of "no". A pass that no machine could run is a mistake of the program:
+// std::logic_error (devices.md 9.3). A pass that this profile lacks something for is an outcome: Refused (devices.md
+// 9.2).
 #include "pipeline/region/check_pass.h"
 
 #include <algorithm>
@@ -11,6 +14,8 @@ void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(std::string{"pass state: "} + what);
 }
 
+// True if the pass may write `t`. A write mask of 0 does not make a target readable: state may not change what is
+// legal.
 bool is_written(const PassState& state, Target t) {
     return std::find(state.color.begin(), state.color.end(), t) != state.color.end() ||
            (state.depth.enabled && state.depth.write && state.depth_target == t) ||
@@ -26,6 +31,7 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
     for (const Target t : state.color)
         require(!t.exists() || is_color(format(t)), "a colour output needs a colour target");
     int samples = 0;
+    // A fragment covers the same samples of every target, so their numbers agree (fragment-stages.md 10.3).
     const auto agrees = [&](Target t) {
         const int own = targets.at(static_cast<std::size_t>(t.id)).samples();
         require(samples == 0 || own == samples, "targets of one pass have one number of samples");
@@ -35,6 +41,7 @@ void check_targets(const PassState& state, const std::vector<TargetStorage>& tar
         if (t.exists()) agrees(t);
     for (const Target t : state.color)
         if (t.exists()) agrees(t);
+    // A texture lookup may reach any pixel, so order among the fragments of one pixel cannot make a loop safe.
     for (const Target t : state.textures) {
         require(!t.exists() || is_depth(format(t)), "texture units sample depth targets");
         require(!t.exists() || !is_written(state, t), "a texture is sampled and written at once (a feedback loop)");
@@ -52,6 +59,8 @@ void refuse_if(const DeviceProfile& profile, Verdict verdict) {
 
 void check_pass(const DeviceProfile& profile, const PassState& state, const std::vector<TargetStorage>& targets) {
     check_targets(state, targets);
+    // The order of the checks is that of devices.md 9.2: of several lacks the first is named. Outputs without a target
+    // blend nothing and are not looked at.
     std::vector<Blend> blends;
     for (std::size_t k = 0; k < state.color.size(); ++k) {
         if (!state.color[k].exists()) continue;

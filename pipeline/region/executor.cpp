@@ -1,3 +1,5 @@
+// pipeline/region/executor.cpp - both executions by one class: literal is the case of a single region, whose own counts
+// are the frame's (execution.md 4, 5 and 8).
 #include "pipeline/region/executor.h"
 
 #include <algorithm>
@@ -73,6 +75,8 @@ class FrameRun {
                                                   whole.index(at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
     }
 
+    // True if no list has a triangle in tile `r` and the frame promises that its body does not depend on place there
+    // (execution.md 6).
     [[nodiscard]] bool is_blank(std::size_t r) const {
         const auto is_empty = [&](const PreparedDraw* list) {
             return list == nullptr || list->geometry.bin(r).empty();
@@ -81,8 +85,9 @@ class FrameRun {
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
     }
 
-    // What one blank tile does, every blank tile of its size does: the first of them stands for the others. All but those first
-    // ones are returned.
+    // Runs one blank tile of each size: every blank tile of that size would do the same, and gets a copy later. Returns
+    // the tiles that are still to be run or copied. A tile with diagnostics is no model for others: they name its
+    // pixels.
     [[nodiscard]] std::vector<std::size_t> run_one_blank_of_each_size() {
         std::vector<std::size_t> others;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
@@ -100,11 +105,12 @@ class FrameRun {
                 continue;
             }
             run_region(r, {});
-            if (regions_[r].books.diagnostics.empty()) blanks_.push_back(r);  // they name pixels
+            if (regions_[r].books.diagnostics.empty()) blanks_.push_back(r);
         }
         return others;
     }
 
+    // The copy has the twin's books, for the machine would have worked in both tiles; but it rasterized nothing itself.
     void copy_blank(std::size_t r) {
         regions_[r] = regions_[twin_[r]];
         regions_[r].fragments = 0;
@@ -113,6 +119,7 @@ class FrameRun {
         if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
     }
 
+    // Copies tile `from` of a frame's image to tile `to`, which has the same size.
     void copy(std::size_t from, std::size_t to, Image& image) const {
         const auto row = static_cast<std::size_t>(rect(from).width()) * static_cast<std::size_t>(image.channels());
         const auto at = [&](std::size_t r, int y) {
@@ -122,6 +129,8 @@ class FrameRun {
         for (int y = 0; y < rect(from).height(); ++y) std::copy_n(at(from, y), row, at(to, y));
     }
 
+    // Runs region `r` with the answers of `script`; beyond them it guesses from its own counts (region_control.cpp).
+    // The image of the nearest depth depends on no answer, so the first run writes it for good.
     void run_region(std::size_t r, const std::vector<bool>& script) {
         const Clock::time_point start = Clock::now();
         RegionBooks books;
@@ -199,6 +208,8 @@ class FrameRun {
         }
     }
 
+    // Puts the frame together from the books of all regions. Counters are integers and diagnostics merge in any order,
+    // so the result does not depend on threads. Without a query every region ran the same iterations.
     void gather() {
         const RegionBooks& first = regions_[0].books;
         result_.iterations = first.decisions.empty() ? first.iterations : iterations_of_answers();
@@ -246,10 +257,11 @@ class FrameRun {
 
     // A region that stopped early shows its last layer, an empty one, in every further layer of the frame.
     void gather_layers() {
-        std::size_t count = 0;
-        for (const auto& [r, fragments, runs] : regions_) count = std::max(count, r.layers.size() - r.idle_layers);
+        std::size_t layer_count = 0;
+        for (const auto& [r, fragments, runs] : regions_)
+            layer_count = std::max(layer_count, r.layers.size() - r.idle_layers);
         const rasterizer::Rect whole = frame_.rect();
-        for (std::size_t layer = 0; layer < count; ++layer) {
+        for (std::size_t layer = 0; layer < layer_count; ++layer) {
             KeptLayer kept;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
                 const std::vector<KeptLayer>& layers = regions_[r].books.layers;
@@ -280,6 +292,7 @@ class FrameRun {
     std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
     FrameResult result_;
     std::atomic<std::size_t> finished_{0};
+    // Sums over all threads, in ticks of the clock. Only their ratio is told: no result bit knows the time.
     std::atomic<Clock::rep> time_in_bodies_{0}, time_in_watch_{0};
 };
 
@@ -288,6 +301,8 @@ class FrameRun {
 FrameResult run(const Frame& frame, const Body& body, Execution execution, int threads,
                 const std::function<void(double)>& progress, const Instruments& instruments, const Watch& watch) {
     const FloatEnvironment ours;
+    // A run that is to be timed with one effect more rasterizes in every pass: recalled fragments would skip the
+    // effect.
     const auto run_as = [&](const Frame& given, Execution way) {
         return FrameRun{given, body, way, threads, progress, instruments, watch}.finish();
     };

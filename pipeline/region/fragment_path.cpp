@@ -1,3 +1,5 @@
+// pipeline/region/fragment_path.cpp - the chip's two units as one program of a pass: the texture shader gives four
+// colours, kills fragments and perhaps replaces their depth; the combiners make the fragment's colour of what it gives.
 #include "pipeline/region/fragment_path.h"
 
 #include "pipeline/device/check.h"
@@ -5,6 +7,8 @@
 namespace strata::pipeline {
 namespace {
 
+// The state that the texture shader looks at beside its stages: the depth range and clamp of the draw list, the format
+// of a replaced depth, and each unit's depth texture, either an image of the caller's or a depth target of this region.
 ShaderMachine machine_of(const Region& region, const ShaderStages& stages) {
     const rasterizer::RasterState& raster = region.frame().transparent->geometry.state;
     ShaderMachine machine;
@@ -35,10 +39,13 @@ FragmentPathProgram::FragmentPathProgram(const Region& region, const FragmentPat
       machine_{machine_of(region, path.shader)},
       combiners_{path.combiners},
       results_{std::make_unique<ShaderResults>()} {
+    // Depth replace is a stage of NV_texture_shader: a profile without it has no texture shader at all (devices.md 6).
     if (auto lacking = check(region.profile(), Feature::depth_replace))
         throw Refused{region.profile(), {"texture shaders", lacking->extension, lacking->way_out}};
 }
 
+// A stage that is off gets no texture, so that it neither counts loads nor makes a feedback loop. Colours are needed as
+// the combiners' primary colour, coordinates as far as an operation reads them (texture-shader.md 8).
 void FragmentPathProgram::apply(PassState& state) const {
     state.needs.color = true;
     state.needs.units |= coordinates_of(path_.shader, ops_);
@@ -47,6 +54,8 @@ void FragmentPathProgram::apply(PassState& state) const {
         state.textures[u] = ops_[u] == ShaderOp::none ? Target{} : path_.shader[u].texture.depth;
 }
 
+// A fragment dies by CULL_FRAGMENT or by a depth out of range (texture-shader.md 6 and 7). Combiners run on dead lanes,
+// too: their colours are never stored.
 void FragmentPathProgram::operator()(const FragmentBatch& in, const Loads&, Outputs& out) {
     const auto count = static_cast<std::size_t>(in.count);
     run_texture_shader(path_.shader, ops_, machine_, in, *results_);

@@ -14,7 +14,8 @@
 
 namespace strata::pipeline {
 
-// What it points to outlives the pass. Without a shader every stage is NONE; default combiners give black, alpha 0.
+// The GeForce3's texture shader and register combiners, programmed for one pass. Stages and textures that it points to
+// outlive the pass. Without a shader every stage is NONE; default combiners give black, alpha 0.
 struct FragmentPath {
     ShaderStages shader{};
     Combiners combiners;

@@ -1,3 +1,7 @@
+// pipeline/region/fragment_store.cpp - packing of batches and unpacking, by one list of arrays (execution.md 5.3).
+//
+// Numbers  All arrays of a fragment take 129 bytes together, so a batch of 256 takes 33,024 bytes at most and fits into a
+//          fresh chunk. Packed arrays have no alignment: they are copied as bytes.
 #include "pipeline/region/fragment_store.h"
 
 #include <algorithm>
@@ -10,6 +14,7 @@ using rasterizer::FragmentBatch;
 using rasterizer::FragmentNeeds;
 using rasterizer::Lanes;
 
+// Visits the arrays of `batch` that `needs` names, in the order in which they are packed.
 template <class Visit>
 void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visit&& visit) {
     visit(batch.pixel);
@@ -47,12 +52,14 @@ void FragmentStore::start(const FragmentNeeds& needs, std::uint64_t limit) {
     state_ = State::filling;
 }
 
+// Chunks stay allocated: the next region fills them again.
 void FragmentStore::forget() {
     state_ = State::empty;
     used_chunks_ = used_bytes_ = 0;
     batches_.clear();
 }
 
+// A store that grew too large stays so until it is forgotten: the region does not try to fill it again.
 void FragmentStore::finish() {
     if (state_ == State::filling) state_ = State::complete;
 }
@@ -61,6 +68,7 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
     if (state_ != State::filling) return;
     const auto count = static_cast<std::size_t>(batch.count);
     if (used_chunks_ == 0 || used_bytes_ + packed_bytes(count) > chunk_bytes) {
+        // The limit counts whole chunks. One batch too much ends the store: half of a list cannot be replayed.
         if ((used_chunks_ + 1) * chunk_bytes > limit_) {
             forget();
             state_ = State::too_large;
@@ -78,6 +86,7 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
         std::memcpy(at, array.data(), count * sizeof(array[0]));
         at += count * sizeof(array[0]);
     };
+    // In most batches MASK kills nothing: `alive` is kept only where it is not all ~0.
     if (has_dead) pack(alive);
     for_each_array(needs_, batch, pack);
     used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].data());

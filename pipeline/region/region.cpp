@@ -1,3 +1,5 @@
+// pipeline/region/region.cpp - a region's targets: made, cleared, copied, read; and the opaque scene that is there
+// before the body starts (execution.md 1.1). Passes stand in region_stages.cpp, queries in region_control.cpp.
 #include "pipeline/region/region.h"
 
 #include <algorithm>
@@ -32,6 +34,7 @@ bool read_words(const Texels& from, std::size_t first, std::size_t count, std::u
     return true;
 }
 
+// All samples of all pixels, in the sizes of formats.md 1: those that counters are told in.
 std::uint64_t bytes(const TargetStorage& s) {
     return s.pixels() * static_cast<std::uint64_t>(s.samples()) *
            static_cast<std::uint64_t>(info(s.format()).bytes_per_pixel);
@@ -51,6 +54,8 @@ Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books,
       scratch_{pool == nullptr ? std::make_unique<RegionScratch>() : pool->take()},
       rasterizer_{std::make_unique<rasterizer::TileRasterizer>(place.rect)} {
     scratch_->trace.start(frame.trace_bytes);
+    // The opaque targets are numbers 0 and 1 in every region. Priming them is the emulator's own work and counted
+    // nowhere.
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
     books_.counts = false;
@@ -64,6 +69,7 @@ Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books,
 
 Trace& Region::traced() noexcept { return scratch_->trace; }
 
+// Scratch goes back to the pool, so that the next region finds memory that is already there.
 Region::~Region() {
     if (pool_ != nullptr) pool_->give(std::move(scratch_));
 }
@@ -92,6 +98,7 @@ void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_m
     record().counters += of_clear(1, bytes(storage));
 }
 
+// A bit copy of codes (formats.md 5.6): it rounds nothing, and -0 and NaN stay what they are.
 void Region::copy(Target from, Target to) {
     assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
     opaque_depth_is_cleared_ &= to != opaque_depth_;
@@ -100,6 +107,8 @@ void Region::copy(Target from, Target to) {
     ++record().passes.copies;
 }
 
+// The part that lies in this region is written, and its source must lie here, too: a tile knows no neighbour. Else the
+// frame is run again as a whole (execution.md 5.4).
 void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Target to, int dx, int dy) {
     const TargetStorage& source = at(from);
     TargetStorage& texture = at(to);
@@ -134,6 +143,7 @@ void Region::copy_row(const TargetStorage& source, const rasterizer::Rect& writt
     }
 }
 
+// `held` is the region in pixels of the frame's texture; a lookup outside it throws NeedsFrame.
 DepthTexels Region::depth_texels(Target depth) const {
     const rasterizer::Rect& frame = frame_.rect();
     DepthTexels texels;
@@ -158,6 +168,7 @@ void Region::draw_opaque() {
     static_cast<void>(draw_list(state, *frame_.opaque, program));
 }
 
+// Coverage is counted first, before MASK, so that the list is allocated once and not moved while it grows.
 std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
     books_.counts = bookkeeping == Bookkeeping::counted;
     std::uint64_t fragments = 0;
@@ -184,6 +195,7 @@ std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
     return all;
 }
 
+// Channels that the format lacks are 0, alpha 1, as a program loads them.
 Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
     const TargetStorage& from = storage(target);
     const FormatInfo format = info(from.format());

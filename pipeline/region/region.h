@@ -133,7 +133,8 @@ class Region {
 
     // Every fragment of the transparent list in submission order, after MASK, before any test.
     [[nodiscard]] std::vector<CapturedFragment> capture(Bookkeeping bookkeeping);
-    // What a target holds: a colour as a program would load it, the stored codes, all of them as an image of the region.
+    // The contents of a target: one colour as a program would load it, the stored codes, or all codes as an image of
+    // the region.
     [[nodiscard]] Rgba color(Target target, std::uint32_t pixel, int sample = 0) const;
     [[nodiscard]] const TargetStorage& storage(Target target) const {
         return storages_[static_cast<std::size_t>(target.id)];

@@ -35,6 +35,8 @@ bool Region::any(Count count, Idle idle) {
     return answer;
 }
 
+// Both limits count geometry passes of the whole algorithm (keys-and-counts.md 3.2). Every region has made as many at
+// this place, so all of them stop together.
 bool Region::limit_reached(int passes) {
     const int fixed = frame_.termination.rule == TerminationRule::fixed ? frame_.termination.passes : 0;
     const int after = books_.geometry_passes + passes;
@@ -43,12 +45,14 @@ bool Region::limit_reached(int passes) {
     return reached;
 }
 
+// A layer of the probe is empty: the executor leaves such layers out when it looks for the frame's last one.
 void Region::keep_layer(Target color, Target depth) {
     if (!frame_.keep_layers) return;
     books_.layers.push_back({image(color), image(depth)});
     if (probing_) ++books_.idle_layers;
 }
 
+// Diagnostics name pixels of the window, not of the region.
 void Region::report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) {
     if (pixels == 0) return;
     const auto width = static_cast<std::uint32_t>(rect_.width());

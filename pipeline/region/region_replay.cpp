@@ -24,11 +24,14 @@ const MaterialNeeds& Region::needs_of_tile(const PreparedDraw& list) {
     return *needs;
 }
 
+// Numbers of the triangles that may touch the region, in submission order.
 std::span<const std::uint32_t> Region::triangles_of(const PreparedDraw& list) const noexcept {
     return extent_ == Extent::frame ? std::span<const std::uint32_t>{list.geometry.all_triangles}
                                     : list.geometry.bin(tile_);
 }
 
+// Without ranges all triangles are drawn. Triangles stand in submission order, and the pieces of a clipped one carry
+// its number, so that a range of primitives is a run of triangles.
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
                        rasterizer::BatchSink sink) {
     samples_textures_ = needs.color && needs_of_tile(list).texcoord;
@@ -46,6 +49,7 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
     }
 }
 
+// Sends every captured batch down the stages again, in submission order.
 void Region::replay(rasterizer::BatchSink sink) {
     const Source before = std::exchange(source_, Source::store);
     for (std::size_t number = 0; number < store().batches(); ++number) {

@@ -12,10 +12,12 @@ namespace strata::pipeline {
 
 namespace {
 
+// A row reads and writes whole vectors: the words behind a target's last pixel are room for the last one.
 static_assert(rasterizer::row_padding <= spare_words);
 
 }  // namespace
 
+// Literal execution, --effects all and a timed effect go through batches.
 bool Region::may_walk_rows(const PreparedDraw& list) const {
     return extent_ == Extent::tile && frame_.effects == Effects::needed && instruments_.once_more == Effect::none &&
            row_walk_suits(list.geometry, frame_.key_request(), rect_);
@@ -40,6 +42,7 @@ void Region::count_rows(const PassState& state, const rasterizer::DepthDrawn& dr
                          of_depth_test(bytes, drawn.fragments, drawn.passed, state.depth.write);
 }
 
+// LESS with a write is the one depth pass that rows know; every other goes through batches (execution.md 7).
 Drawn Region::draw_depth(const PassState& state) {
     const PreparedDraw& list = *frame_.transparent;
     const bool is_nearest = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true};
@@ -54,6 +57,8 @@ Drawn Region::draw_depth(const PassState& state) {
     return drawn;
 }
 
+// Rows add halves to nearest, of colours by exact planes, without texture or shadow (execution.md 7). All else, and
+// sums into binary32, run the program.
 bool Region::sums_suit_rows(const PassState& state) {
     const auto is_sum = [&](std::size_t k, Format format) {
         return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format &&
@@ -61,9 +66,9 @@ bool Region::sums_suit_rows(const PassState& state) {
     };
     const PreparedDraw& list = *frame_.transparent;
     const bool is_tested = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = false};
-    const bool counts = state.color[1].exists();
+    const bool has_count_target = state.color[1].exists();
     return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
-           (!counts || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
+           (!has_count_target || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
            profile().raster.color == rasterizer::ColorInterpolation::exact_plane && draws_rows(state, list) &&
            list.needs.shadow == 0 && !needs_of_tile(list).texcoord;
 }
@@ -71,15 +76,15 @@ bool Region::sums_suit_rows(const PassState& state) {
 Drawn Region::draw_sum_rows(const PassState& state) {
     const PreparedDraw& list = *frame_.transparent;
     begin_pass(state, PassKind::geometry);
-    const bool is_open = depth_outcome(state, list) == DepthOutcome::open, counts = state.color[1].exists();
+    const bool is_open = depth_outcome(state, list) == DepthOutcome::open, has_count_target = state.color[1].exists();
     const Texels sums = at(state.color[0]).texels(0);
     const SumPlanes planes{{sums.plane(0).words, sums.plane(1).words},
-                           counts ? at(state.color[1]).texels(0).plane(0).words : nullptr,
+                           has_count_target ? at(state.color[1]).texels(0).plane(0).words : nullptr,
                            is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
     const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
                                                      rect_, planes, profile().denormals == DenormalRule::flush);
     count_rows(state, rows);
-    for (std::size_t k = 0; k < (counts ? 2u : 1u); ++k)
+    for (std::size_t k = 0; k < (has_count_target ? 2u : 1u); ++k)
         count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);
     Drawn drawn;
     drawn.passed.own_ = rows.passed;

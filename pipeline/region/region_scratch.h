@@ -12,14 +12,16 @@
 
 namespace strata::pipeline {
 
+// Contents last from one stage of a batch to the next, but for `store`, `trace` and `arena`, which last as long as the
+// region.
 struct alignas(64) RegionScratch {
     Loads loads;
     Outputs out;
-    FragmentBatch screen;
-    FragmentBatch recalled;
+    FragmentBatch screen;    // of full-screen passes
+    FragmentBatch recalled;  // from the store
     Lanes<std::uint32_t> recalled_alive;
-    ColorLanes texel;
-    ColorCodes codes, idle_codes;
+    ColorLanes texel;                   // a texture's or a shadow's colours; also the cut source of narrow surfaces
+    ColorCodes codes, idle_codes;       // stored values on their way through the blender
     Lanes<std::uint32_t> alive;         // of one sample
     Lanes<std::uint32_t> depth_stored;  // of a pixel that is stored alone
     Lanes<std::uint32_t> depth_pass;

@@ -1,3 +1,5 @@
+// pipeline/region/region_shortcuts.cpp - looks at a region's fragments beside its passes, and words of targets lent to
+// kernels (execution.md 7). A look is no pass: the counters do not see it.
 #include "pipeline/region/region_shortcuts.h"
 
 #include <algorithm>
@@ -42,6 +44,7 @@ void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect
     }
 }
 
+// Rows compute colours by exact planes alone, and know neither texture, shadow nor MASK.
 std::optional<RowSource> RegionShortcuts::row_source() const {
     const PreparedDraw& list = *region_.frame_.transparent;
     if (!region_.may_walk_rows(list) || region_.profile().raster.color != rasterizer::ColorInterpolation::exact_plane ||
@@ -50,6 +53,7 @@ std::optional<RowSource> RegionShortcuts::row_source() const {
     return RowSource{list.geometry, list.geometry.bin(region_.tile_), region_.frame_.key_request()};
 }
 
+// Literal execution and --effects all run the program: it is the definition that the kernel is compared with.
 std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& state, std::span<const Format> reads,
                                                               Format color) {
     const auto is = [&](Target t, Format format) {
@@ -68,6 +72,7 @@ std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& s
     return words;
 }
 
+// LESS with a write over a copy of the opaque depth, in the form of the algorithm's key (execution.md 9).
 Target RegionShortcuts::nearest_depth() {
     region_.books_.counts = false;
     const Target nearest = region_.make_depth();
@@ -95,7 +100,8 @@ void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba
 
 Arena& RegionShortcuts::arena() noexcept { return region_.scratch_->arena; }
 
-void RegionShortcuts::count(const Counters& counters, const PassCount& passes) {
+// Geometry passes also count for limit_reached, as the passes that are replaced would have.
+void RegionShortcuts::book(const Counters& counters, const PassCount& passes) {
     region_.record().counters += counters;
     region_.record().passes += passes;
     region_.books_.geometry_passes += passes.geometry;

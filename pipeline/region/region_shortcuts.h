@@ -1,8 +1,8 @@
 // pipeline/region/region_shortcuts.h - what a fast way through a region needs: a way to the same bits that is not the machine's, in the
 // machine's own books. Closed forms (peeling/closed/closed_form.h), the kernels of rows and whole pixels, and the emulator's own looks.
 //
-// Rule     Nothing here is a pass, and nothing is counted unless `count` says so: the caller books what the passes that it replaces
-//          would have counted. An algorithm that is written as its paper says needs none of it.
+// Rule     Nothing here is a pass, and nothing is counted unless `book` says so: the caller books what the passes that it
+//          replaces would have counted. An algorithm that is written as its paper says needs none of it.
 // Tests    tests/peeling/execution_test.cpp: every fast way against literal execution
 #pragma once
 #include <optional>
@@ -49,9 +49,9 @@ class RegionShortcuts {
     // 1 everywhere, as before the first opaque triangle.
     [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return region_.opaque_depth_is_cleared_; }
 
-    [[nodiscard]] Arena& arena() noexcept;                          // free again when the region is gone
-    void count(const Counters& counters, const PassCount& passes);  // what a pass would have counted
-    [[nodiscard]] static Count counted(std::uint64_t own) noexcept { return Count{own}; }
+    [[nodiscard]] Arena& arena() noexcept;                         // free again when the region is gone
+    void book(const Counters& counters, const PassCount& passes);  // what a pass would have counted
+    [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }
     [[nodiscard]] Trace& trace() noexcept { return region_.traced(); }
 
     // A full-screen pass without a program, for targets of these formats: counts a pass that reads and writes every pixel and hands

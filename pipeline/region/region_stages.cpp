@@ -39,6 +39,7 @@ constexpr auto every_lane = [] {
     return lanes;
 }();
 
+// Cuts what the blender left to the bits that a narrow surface stores (formats.md 4.1).
 void narrow(Format format, ColorCodes& codes, int count) noexcept {
     for (int c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
@@ -53,6 +54,7 @@ const ColorLanes& blended_source(Format format, const ColorLanes& source, ColorL
                 c == 3 ? source[c][i] : unorm8_value(narrowed(format, static_cast<int>(c), to_unorm8(source[c][i])));
     return cut;
 }
+// Blending ONE and ZERO, which leaves an UNORM8 source as it is (execution.md 6.1); the write mask stays the pass's.
 Blend idle(const Blend& blending) {
     return {.enabled = true, .color = {}, .alpha = {}, .write_mask = blending.write_mask};
 }
@@ -67,6 +69,8 @@ const Loads& Region::loads() const noexcept { return scratch_->loads; }
 FragmentBatch& Region::screen_batch() noexcept { return scratch_->screen; }
 std::uint64_t Region::alive_count(const Outputs& out, int count) noexcept { return count_lanes(out.alive, count); }
 
+// Checks a pass, and books all of it that does not depend on its fragments. Fragments bring one code each, so a depth
+// target must have the format of the frame's codes. All targets have one number of samples: check_pass has seen to it.
 void Region::begin_pass(const PassState& state, PassKind kind) {
     kind_ = kind;
     tallied_ = 0;
@@ -95,6 +99,7 @@ void Region::count_color_bytes(const Blend& blending, const TargetStorage& targe
     record().counters += of_color(pixel_bytes(target), pixels, blending.enabled);
 }
 
+// The pixels of a full-screen pass, row by row. Window positions fit 16 bits: a frame has at most 16,384 pixels a side.
 bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
     const std::size_t left = rect_.area() - next;
     const std::size_t count = std::min<std::size_t>(left, batch_capacity);
@@ -111,6 +116,7 @@ bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
     return count > 0;
 }
 
+// Colours are not cleared: a program writes the outputs that its pass has targets for.
 Outputs& Region::start_batch(const FragmentBatch& batch) {
     Outputs& out = scratch_->out;
     std::fill_n(out.alive.begin(), batch.count, ~0u);
@@ -118,6 +124,8 @@ Outputs& Region::start_batch(const FragmentBatch& batch) {
     return out;
 }
 
+// fragment-stages.md 2: texture, shadow, MASK. MASK cuts at the material's own alpha, so the alpha scale comes behind
+// it; its precision is that of the frame's colour format, whatever the pass's targets are.
 void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out) {
     books_.fragments_drawn += static_cast<std::uint64_t>(batch.count);
     record().counters.fragments_rasterized += static_cast<std::uint64_t>(batch.count);
@@ -137,6 +145,7 @@ void Region::shade(const PreparedDraw& list, FragmentBatch& batch, Outputs& out)
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) batch.color[3][i] *= material.alpha_scale;
 }
 
+// Dead lanes load, too: the traffic is that of every fragment of the batch (execution.md 8.1).
 void Region::load(const PassState& state, const FragmentBatch& batch) {
     for (const Target t : state.textures)
         if (t.exists()) record().counters += of_loads(pixel_bytes(at(t)), static_cast<std::uint64_t>(batch.count));
@@ -149,6 +158,7 @@ void Region::load(const PassState& state, const FragmentBatch& batch) {
     }
 }
 
+// A depth is loaded as its code. Of a colour, channels that the format lacks read 0, and alpha 1.
 void Region::load_target(TargetStorage& from, std::size_t read, const FragmentBatch& batch) {
     if (is_depth(from.format()))
         return gather_codes(codes_in(from.depth_plane(0)), lanes_of(batch), &scratch_->loads.depth_[read]);
@@ -162,6 +172,8 @@ void Region::load_target(TargetStorage& from, std::size_t read, const FragmentBa
     }
 }
 
+// The alpha test compares 8-bit codes unless target 0 holds floats and the profile goes by the target
+// (fragment-stages.md 3).
 void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs& out, Drawn& drawn) {
     if (state.alpha.enabled) {
         const std::uint64_t before = alive_count(out, batch.count);
@@ -176,6 +188,8 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
     drawn.tallied = Count{tallied_};
 }
 
+// Every sample has the same colour and code, and tests of its own. Queries count samples; the counter `blended` and the
+// trace look at sample 0 alone (fragment-stages.md 10.3).
 void Region::finish_sample(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                            Drawn& drawn) {
     Lanes<std::uint32_t>& alive = scratch_->alive;
@@ -192,6 +206,7 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
     if (out.traced && frame_.trace && books_.counts && sample == 0) record_trace(batch, out, alive);
 }
 
+// A quad composites a layer and no fragment of its own, so it names no primitive: then the audit compares keys alone.
 void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
@@ -199,6 +214,7 @@ void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const 
                                        out.side[i], kind_ == PassKind::geometry});
 }
 
+// The units test one after the other, without a write; a fragment stops at the first that fails (fragment-stages.md 4).
 void Region::test_depth_units(const PassState& state, const FragmentBatch& batch, Lanes<std::uint32_t>& alive) {
     for (std::size_t unit = 0; unit < static_cast<std::size_t>(state.depth_unit_count); ++unit) {
         TargetStorage& target = at(state.depth_units[unit].depth);
@@ -209,6 +225,8 @@ void Region::test_depth_units(const PassState& state, const FragmentBatch& batch
     }
 }
 
+// Three ways to one result: the test is known to pass and only booked (depth_outcome), depth alone in one kernel, or
+// stencil and depth together, because the stencil operation depends on both (fragment-stages.md 5).
 std::uint64_t Region::test_depth_and_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                              Lanes<std::uint32_t>& alive) {
     RegionScratch& s = *scratch_;
@@ -241,6 +259,8 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
     return tested.passed;
 }
 
+// Dead lanes are written back with the value that they had: no pixel occurs twice in a batch. A stencil value is a byte
+// of traffic, read and written by every fragment that arrives.
 std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& batch, int sample,
                                    Lanes<std::uint32_t>& alive) {
     RegionScratch& s = *scratch_;
@@ -256,6 +276,7 @@ std::uint64_t Region::test_stencil(const PassState& state, const FragmentBatch& 
     return static_cast<std::uint64_t>(killed);
 }
 
+// A pixel is reported once, however often it saturates, so that the report does not depend on batches.
 void Region::report_saturation(const FragmentBatch& batch) {
     const Lanes<std::uint32_t>& saturated = scratch_->saturated;
     if (count_lanes(saturated, batch.count) == 0) return;
@@ -271,6 +292,9 @@ void Region::report_saturation(const FragmentBatch& batch) {
     report(Fault::stencil_saturated, pixels, first, "INCR or DECR at the end of the 8-bit range");
 }
 
+// Sums into halves have a kernel that adds in place; on sets that do not convert halves it answers false, and the
+// general way below, its definition, runs. Stored values are fetched only where blending or a partial write mask looks
+// at them.
 void Region::write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                           const Lanes<std::uint32_t>& alive, std::uint64_t passed) {
     for (std::size_t k = 0; k < state.color.size(); ++k) {

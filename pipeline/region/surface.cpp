@@ -1,3 +1,5 @@
+// pipeline/region/surface.cpp - a surface is a frame of one region, whose list of triangles changes from draw to draw
+// (execution.md 12). The region's own stages do the work, so a rule of a stage stands in one place.
 #include "pipeline/region/surface.h"
 
 #include <algorithm>
@@ -54,6 +56,7 @@ void require(Verdict verdict, const DeviceProfile& profile) {
     if (verdict) throw Refused{profile, *std::move(verdict)};
 }
 
+// Sets one draw up: the soup is one run of one material, and its window positions are final.
 PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout, const DrawState& state,
                       rasterizer::TriangleSoup soup) {
     rasterizer::RasterState raster;
@@ -96,6 +99,8 @@ void Surface::clear_color(const PixelCode& value) {
     fill([&](int, int) { return value; });
 }
 
+// The code is stored as it is: a clear of a region would convert a float and could not name every code (formats.md
+// 5.5).
 void Surface::clear_depth(std::uint32_t code) {
     State& s = *state_;
     ColorCodes codes{};
@@ -126,6 +131,7 @@ void Surface::fill(const std::function<PixelCode(int x, int y)>& value) {
         }
 }
 
+// The counter `blended` grows by the fragments that pass all tests, which is what an occlusion query counts.
 std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup soup) {
     const FloatEnvironment ours;
     State& s = *state_;
@@ -154,6 +160,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
     return s.books.records.front().counters.blended - before;
 }
 
+// A narrow surface stores 8-bit codes with the bits that it lacks filled in, so its image is one of rgba8.
 Image Surface::color() const {
     Image image = state_->region.image(state_->color);
     image.format = Format::rgba8;

@@ -8,6 +8,7 @@
 
 namespace strata::pipeline {
 
+// The conversion of a write without blending (formats.md 7).
 std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color) {
     std::array<std::uint32_t, 4> codes{};
     for (std::size_t c = 0; c < 4; ++c) {
@@ -46,6 +47,8 @@ TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels)
       layout_{layout(format)},
       words_(static_cast<std::size_t>(samples) * words_per_sample()) {}
 
+// Const, because the contents are zeros whoever asks first. A region belongs to one thread, so nobody asks at the same
+// time.
 void TargetStorage::write_zeros() const noexcept {
     std::ranges::fill(words_, 0u);
     has_words_ = true;
@@ -65,6 +68,8 @@ std::uint32_t TargetStorage::code(std::size_t pixel, int channel, int sample) co
     return texels(sample).plane(f.word).words[pixel] >> f.shift & f.bits;
 }
 
+// A clear of all samples writes every word, spare ones too, so that no zeros are needed before it. A format with
+// stencil beside its depth needs them: the stencil keeps its contents here.
 void TargetStorage::fill(const std::array<std::uint32_t, 4>& codes, unsigned sample_mask) {
     const unsigned all_samples = (1u << samples_) - 1;
     if (stencil_word() == 0 && (sample_mask & all_samples) == all_samples) has_words_ = true;  // none is left out below

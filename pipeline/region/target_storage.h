@@ -75,7 +75,7 @@ class TargetStorage {
     mutable bool has_words_ = false;  // else zeros that nobody has asked for yet: most targets are cleared first
 };
 
-// What a colour target of this format holds of a colour; 0 for depth and stencil.
+// The codes that a colour target of this format stores for a colour, channel by channel; 0 for depth and stencil.
 [[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color);
 
 }  // namespace strata::pipeline

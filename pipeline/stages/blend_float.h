@@ -53,8 +53,8 @@ template <BlendEquation equation, MinMaxNan rule>
     return canonical(std::bit_cast<float>(result));
 }
 
-// What blend_kernels.h asks of an arithmetic: zero and one, 1 - x, the lesser of two, and one blend equation. Operands
-// are flushed before they come here.
+// Binary32 as an arithmetic of blend_kernels.h: zero and one, 1 - x, the lesser of two, and one blend equation.
+// Operands are flushed before they come here.
 template <DenormalRule denormals, MinMaxNan nan_rule>
 struct FloatArithmetic {
     static constexpr float zero = 0.0f, one = 1.0f;

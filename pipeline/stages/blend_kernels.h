@@ -68,7 +68,7 @@ void with_factor(BlendFactor f, Body&& body) {
     }
 }
 
-// The same for equations.
+// Calls body with the equation as a type: like the factor above, it is chosen before the loop over lanes.
 template <class Body>
 void with_equation(BlendEquation equation, Body&& body) {
     using enum BlendEquation;

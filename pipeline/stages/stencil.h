@@ -29,7 +29,7 @@ template <StencilOp op>
 // Lanes of a batch; masks are 0 or ~0. `front_facing` is read by a two-sided test alone and may be null otherwise.
 struct StencilLanes {
     const std::uint8_t* front_facing = nullptr;
-    // What depth_test answered.
+    // Masks from the depth test, ~0 or 0 a lane.
     const std::uint32_t* depth_pass = nullptr;
     // In: who arrives. Out: who passed stencil and depth.
     std::uint32_t* alive = nullptr;

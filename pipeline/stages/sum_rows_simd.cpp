@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strata::pipeline::HWY_NAMESPACE {
 namespace {
 
-// What a pass of sums keeps: where it adds, how depths become codes, and the counts.
+// State of a pass of sums over all its triangles: the planes it adds to, the conversion of depths to codes, the counts.
 struct SumState {
     SumPlanes planes;
     rasterizer::DepthConversion<float> to_code;

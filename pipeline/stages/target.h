@@ -19,7 +19,7 @@ struct Target {
     friend constexpr bool operator==(Target, Target) = default;
 };
 
-// What a clear leaves: a colour, converted to the target's format like a source's; a depth, clamped to [0,1] unless
+// The values of a clear: a colour, converted to the target's format like a source's; a depth, clamped to [0,1] unless
 // the profile stores it as it is (formats.md 5.5); a stencil value.
 struct ClearValue {
     Rgba color{0, 0, 0, 0};

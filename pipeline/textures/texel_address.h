@@ -93,7 +93,7 @@ inline namespace strict {
     return std::clamp<std::int64_t>(position, 0, std::int64_t{256} * (axis.size - 1));
 }
 
-// The same for lanes [0, count) of a batch.
+// nearest_texel of lanes [0, count) of a batch.
 inline void nearest_texels(const TexelAxis& axis, PointSnap snap, const rasterizer::Lanes<float>& coordinate,
                            TexelLanes& out, int count) noexcept {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)

@@ -49,7 +49,7 @@ struct DrawPart {
     friend bool operator==(const DrawPart&, const DrawPart&) = default;
 };
 
-// What passes draw, made once a frame. It points into the draw list, which must live as long.
+// A draw list as passes draw it, prepared once a frame. It points into the draw list, which must live as long.
 struct PreparedDraw {
     rasterizer::Geometry geometry;
     // In submission order, without gaps; empty unless the order made some.
@@ -73,7 +73,7 @@ struct SubmissionOrder {
 };
 using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>;
 
-// What beside the list decides a frame's vertices. The defaults
+// Options that decide a frame's vertices beside the list. The defaults
 // draw all of it as listed, binned into tiles of 32 pixels.
 struct PrepareOptions {
     Selection selection = Selection::all;

@@ -12,7 +12,7 @@
 
 namespace strata::pipeline {
 
-// What a texture matrix and identity eye-linear planes make of object space: texture * (view * model).
+// Object space to texture coordinates by eye-linear planes that are the identity: texture * (view * model).
 [[nodiscard]] Matrix texture_transform(const Matrix& texture, const Matrix& view, const Matrix& model);
 
 // T S P above: eye space to (0, 0, r, q), r in [n, f].

@@ -35,7 +35,7 @@ struct TexGen {
     friend bool operator==(const TexGen&, const TexGen&) = default;
 };
 
-// What a unit does to its coordinates s, t, r, q.
+// The way of a texture unit's coordinates s, t, r, q: generation, texture matrix, then the factors below.
 struct CoordinateUnit {
     // Somebody looks at this unit; of the others nothing is computed.
     bool enabled = false;

@@ -18,7 +18,7 @@ namespace strata {
 // By rising width. `scalar` means the twins, `best` the last one that the processor has.
 enum class Simd : std::uint8_t { scalar, sse4, avx2, avx512, best };
 
-// What this processor has of the first four, in that order; `scalar` is always there.
+// Those of the first four that this processor can run, by rising width; `scalar` is always there.
 [[nodiscard]] std::vector<Simd> available_simd();
 [[nodiscard]] bool has_simd(Simd simd);  // `best` is there, too
 

@@ -83,7 +83,7 @@ class RowWalker {
             crossing_[i] = {rise, -width_ * rise, inverse, edges.tie(i), step_[i] < 0};
         }
     }
-    // What the edge values change by for a pixel to the right.
+    // Change of the three edge values from a pixel to its right neighbour.
     [[nodiscard]] const EdgeValues& step() const noexcept { return step_; }
     void next_row() noexcept {
         for (std::size_t i = 0; i < 3; ++i) value_[i] += down_[i];

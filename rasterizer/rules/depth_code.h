@@ -61,7 +61,7 @@ inline constexpr float max_d16f = 511.9375f;
     return CodeKind::fixed;  // unreachable: the enum is closed
 }
 
-// What depth 1.0 is in the buffer's own units: 2^n - 1, 1, or 511.9375.
+// Depth 1.0 in the buffer's own units: 2^n - 1, 1, or 511.9375.
 [[nodiscard]] constexpr double buffer_units(DepthFormat format) noexcept {
     switch (code_kind(format)) {
         case CodeKind::fixed: return max_code(format);

@@ -47,7 +47,7 @@ struct TriangleRun {
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
 };
 
-// What one draw hands in. Runs cover triples of `indices`; triangles are numbered through the runs, in their order.
+// The input of one draw. Runs cover triples of `indices`; triangles are numbered through the runs, in their order.
 struct TriangleSoup {
     UninitializedVector<ClipVertex> vertices;
     UninitializedVector<std::uint32_t> indices;
@@ -66,7 +66,7 @@ struct TriangleRecord {
     bool front_facing = true;
 };
 
-// The same with its corners gathered.
+// A TriangleRecord with the values of its corners gathered from the arrays of Geometry.
 struct SetupTriangle {
     std::array<SubpixelPoint, 3> p;
     std::array<std::array<float, 2>, 3> unsnapped;

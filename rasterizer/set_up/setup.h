@@ -19,9 +19,9 @@
 
 namespace strata::rasterizer {
 
-// What may go wrong with a triangle at one of its vertices, found once for each vertex and not for each triangle. Bits
-// 0 .. max_clip_planes - 1 name the clip planes that the vertex lies outside of; the bits below name which of its
-// values are not finite.
+// Marks of a vertex that get its triangles clipped or dropped, found once a vertex and not once a triangle. Bits 0 ..
+// max_clip_planes - 1 name the clip planes that the vertex lies outside of; the higher bits, named below, say which of
+// its values are not finite.
 using VertexMarks = std::uint32_t;
 inline constexpr VertexMarks marks_planes = (1u << max_clip_planes) - 1;
 inline constexpr VertexMarks marks_input = 1u << max_clip_planes;  // as given
@@ -58,13 +58,13 @@ class TriangleSetup {
     void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
     // ... then triangles: appends what is left of `triangle` to `out` and counts what is not.
     void add(const SourceTriangle& triangle, SetupChunk& out) const;
-    // The same of up to TriangleGroup::size triangles.
+    // Adds up to TriangleGroup::size triangles in their order; boxes and areas are found for all of them at once.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
 
     [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
 
   private:
-    // What becomes of a source triangle, or of a piece of a clipped one (coverage.md 7.1).
+    // The outcome of set-up for a source triangle or for a piece of a clipped one (coverage.md 7.1).
     enum class Fate : std::uint8_t { kept, culled, outside, degenerate, non_finite };
 
     // Three vertices in the window, and all that is marked at any of them.

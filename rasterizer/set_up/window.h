@@ -99,7 +99,7 @@ class WindowTransform {
         const float scaled = axis.scale * c;
         return scaled + axis.offset;
     }
-    // The same by the vertex engine's own product, sum and reciprocal (numbers.md 4.5).
+    // The projection by the vertex engine's own product, sum and reciprocal (numbers.md 4.5).
     [[nodiscard]] constexpr WindowVertex project_nv20(const ClipVertex& v) const noexcept {
         const float inverse_w = nv20::reciprocal(v.w);
         const auto mapped = [&](const Axis& axis, float c) {

@@ -30,7 +30,8 @@ int rounded_plane(const RationalPlane& plane, const TriangleLanes& lanes, int bi
     return fallbacks;
 }
 
-// The same coordinate with nothing rounded to less than binary64; the vertex products are exact.
+// The projective coordinate in binary64: products u_i * (1 / w_i) of two binary32 are exact there, everything behind
+// them rounds to binary64.
 void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w,
                         const TriangleLanes& lanes, double* out) noexcept {
     if (is_constant(u)) return static_cast<void>(std::fill_n(out, lanes.count, double{u[0]}));

@@ -29,7 +29,7 @@ struct DrawnTriangle {
 
     DrawnTriangle(const Geometry& g, std::uint32_t i) noexcept
         : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record} {}
-    // The same of small triangle `k` of a group.
+    // Takes the edge planes from lane `k` of a group of small triangles, which has set them up already.
     DrawnTriangle(const Geometry& g, std::uint32_t i, const TriangleGroup& group, std::size_t k) noexcept
         : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record, group, k} {}
     [[nodiscard]] TriangleEdges edges() const noexcept { return {geometry.points(record), geometry.rules.tie_rule}; }

@@ -18,7 +18,7 @@ inline namespace strict {
 struct PixelWeights {
     enum class Kind : std::uint8_t { snapped, snapped_wide, unsnapped };
 
-    // What e_i is at pixel (x, y): (x * step_x + y * step_y) + constant.
+    // Edge function e_i as a plane over pixels: (x * step_x + y * step_y) + constant, in this order.
     struct EdgePlane {
         double step_x, step_y, constant;
         [[nodiscard]] constexpr double at(double x, double y) const noexcept {

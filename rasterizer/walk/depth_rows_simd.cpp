@@ -12,7 +12,7 @@ namespace strata::rasterizer::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What a depth pass keeps: the region's codes, how values become codes, and the counts.
+// State of a depth pass over all its triangles: the region's codes, the conversion to codes, and the counts.
 struct DepthState {
     DepthConversion<float> to_code;
     double z_units;

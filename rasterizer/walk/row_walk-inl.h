@@ -241,7 +241,7 @@ class RowWalk {
         }
     }
 
-    // What depends on the column alone is computed once for all rows.
+    // Draws a triangle by covered spans. The terms of the columns are computed once for all rows.
     template <bool unsnapped>
     HWY_INLINE void draw_spans(const DrawnTriangle& triangle, const Rect& rows) {
         const WeightsAt<unsnapped> at{triangle.weights};

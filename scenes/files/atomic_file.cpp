@@ -19,7 +19,7 @@
 namespace strata::scenes {
 namespace {
 
-// What a signal handler may read: fixed storage and lock-free flags.
+// A temporary file's path where a signal handler may read it: fixed storage and lock-free flags.
 // A path is written while its slot is `claimed`, when the handler passes it over, and read only while `active`.
 // 16 slots: a run writes a few files at a time.
 struct Slot {

@@ -19,8 +19,8 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    // What was written; less than asked after a failure, which commit() reports. Never throws: image libraries call
-    // these.
+    // Returns the number of bytes written: less than asked after a failure, which commit() reports. These functions
+    // never throw, because image libraries call them.
     std::size_t write(const void* bytes, std::size_t size) noexcept;
     bool seek(std::int64_t position) noexcept;
     [[nodiscard]] std::int64_t position() const noexcept;

@@ -28,7 +28,7 @@ struct OutputColor {
     Attributes attributes{};  // formats, digests and colour space are added by the writer
 };
 
-// What the ending of a file's name asks for.
+// The kind of file that the ending of its name asks for.
 enum class ImageFile : std::uint8_t { png, exr };
 
 // By the name's ending; InputError if it is neither .png nor .exr. Call it before rendering.
@@ -82,7 +82,7 @@ struct FileDigest {
 // Part by part, so that no more than one part of a large file is in memory.
 [[nodiscard]] std::vector<FileDigest> digests_of(const std::string& path);
 
-// What a .png of `image` holds: straight 8-bit colours, encoded.
+// The pixels of a .png of `image`: straight alpha, 8-bit colours, encoded.
 [[nodiscard]] pipeline::Image as_straight_rgba8(const OutputColor& image);
 
 }  // namespace strata::scenes

@@ -82,7 +82,7 @@ std::string text(const json& document, const std::string& key, std::size_t longe
     return found->get<std::string>();
 }
 
-// What an error says the field may be.
+// The values that the field may have, as an error states them.
 [[nodiscard]] std::string expectation(const ProfileField& field) {
     switch (field.kind) {
         case FieldKind::boolean: return "true or false";

@@ -8,7 +8,7 @@
 namespace strata::scenes {
 namespace {
 
-// What the file may require. An extension that is used without being required may be ignored, with a warning.
+// Extensions that a file may require. An extension that is used without being required may be ignored, with a warning.
 constexpr std::array implemented{"KHR_materials_unlit", "KHR_mesh_quantization", "KHR_texture_transform"};
 
 bool is_implemented(const std::string& name) {

@@ -27,7 +27,7 @@ void check_view(const JsonAt& view, const JsonAt& root, const std::vector<std::u
     if (stride && stride->integer(4, 252) % 4 != 0) stride->fail("VALUE_MULTIPLE_OF", "a multiple of 4");
 }
 
-// What an accessor, or one half of its sparse part, takes from a bufferView: count elements of `size` bytes.
+// The part of a bufferView that an accessor, or one half of its sparse part, reads: count elements of `size` bytes.
 struct Range {
     std::uint64_t count, size, component_size;
 };

@@ -68,8 +68,8 @@ void check_metallic_roughness(const JsonAt& pbr, const JsonAt& root, Warnings& w
             warnings.add(ignored->place().pointer, "metallic and roughness are ignored: lighting is diffuse");
 }
 
-// What is ignored is warned of and not looked into: a fault in a normal map does not keep the scene from being
-// drawn.
+// Features that the renderer ignores get a warning and no check: a fault in a normal map does not keep the scene from
+// being drawn.
 void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnings) {
     if (const auto pbr = material.find("pbrMetallicRoughness")) check_metallic_roughness(pbr->object(), root, warnings);
     if (const auto mode = material.find("alphaMode")) {

@@ -5,7 +5,7 @@
 namespace strata::scenes {
 namespace {
 
-// What the rules for primitives look at in an accessor.
+// The fields of an accessor that the rules for primitives look at.
 struct Format {
     ElementType type;
     ComponentType component;

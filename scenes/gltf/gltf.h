@@ -9,7 +9,7 @@
 
 namespace strata::scenes {
 
-// What one file may unfold to; README.md, "Limits".
+// Limits of one file's contents once unfolded; README.md, "Limits".
 struct GltfLimits {
     std::uint64_t elements = std::uint64_t{1}
                              << 22;  // vertices and indices, beside 16 for each byte of the file and its buffers

@@ -8,7 +8,7 @@ void erase(Json& object, std::initializer_list<const char*> keys) {
     for (const char* key : keys) object.erase(key);
 }
 
-// What is left of a material: its name, alpha mode, cutoff, sides, base colour factor and texture.
+// Erases all of a material but name, alpha mode, cutoff, sides, base colour factor and texture.
 void reduce_material(Json& material) {
     erase(material, {"extras", "extensions", "normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"});
     if (!material.contains("pbrMetallicRoughness")) return;

@@ -28,7 +28,7 @@ struct StoredChannel {
     StoredType type = StoredType::single;
 };
 
-// What other programs are told of the colours: sRGB values, or linear light.
+// The colour space that a file declares to other programs: sRGB values, or linear light.
 enum class StoredSpace : std::uint8_t { srgb, linear };
 
 // One part of an EXR file without its pixels.
@@ -55,7 +55,7 @@ struct PartSource {
     std::span<const std::uint32_t> samples{};  // of each pixel; deep parts alone have them
 };
 
-// What the reader hands over, a part at a time.
+// One part of an EXR file as the reader hands it over.
 struct StoredPart {
     PartHeader header;
     bool is_whole = false;                 // else the file is damaged and there are no bytes
@@ -98,7 +98,7 @@ struct ImageModule {
     std::vector<std::uint8_t> (*decode)(const EncodedPicture& picture, const Place& place);
 };
 
-// What the module exports.
+// The module's only exported symbol, and the type of the function behind it.
 inline constexpr const char* image_module_symbol = "strata_image_module";
 using ImageModuleEntry = const ImageModule* (*)();
 

@@ -22,7 +22,7 @@ inline constexpr double cotangent = 2.414213562373095;  // of 22.5 degrees
     return units * (200.0 / 199.0) * (1.0 - 1.0 / (z + 7.0));
 }
 
-// The same as the chip's vertex engine has it.
+// window_z by the arithmetic of the chip's vertex engine (rasterizer/base/nv20_arithmetic.h).
 [[nodiscard]] constexpr float chip_window_z(float z, float units) {
     namespace nv20 = rasterizer::nv20;
     const auto scale = static_cast<float>(double{units} * 200.0 / 199.0);

@@ -15,13 +15,13 @@ inline bool take(std::string_view& name, std::string_view prefix) {
     name.remove_prefix(prefix.size());
     return true;
 }
-// The same at the other end of the name.
+// Removes `suffix`, or answers false and leaves the name.
 inline bool take_last(std::string_view& name, std::string_view suffix) {
     if (!name.ends_with(suffix)) return false;
     name.remove_suffix(suffix.size());
     return true;
 }
-// What stands before `separator`, which is removed with it; all of it if there is none.
+// Removes and returns the text before `separator`, which goes with it; the whole name if there is no separator.
 inline std::string_view take_until(std::string_view& name, std::string_view separator) {
     const std::size_t end = name.find(separator);
     const std::string_view word = name.substr(0, end);

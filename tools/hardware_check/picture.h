@@ -31,15 +31,15 @@ enum class Reading : std::uint8_t {
     depth24   // a 24-bit word in A R G, the stencil in B
 };
 
-// What may differ; 0 and 0: nothing. A pixel that differs by more than `units` (1/255 or depth units) is always too
-// much.
+// The difference that is allowed; 0 and 0: none. A pixel that differs by more than `units` (1/255 or depth units) is
+// always too much.
 struct Bound {
     std::uint64_t pixels = 0;
     std::uint32_t units = 0;
     friend bool operator==(const Bound&, const Bound&) = default;
 };
 
-// What a suite drew for one name, and how it is to be compared.
+// The picture that a suite drew for one name, and how it is to be compared.
 struct Picture {
     Reading reading = Reading::color;
     // rgba8 for colours; else the depth buffer in its own format.

@@ -68,7 +68,7 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& root) {
     return error.what();
 }
 
-// What somebody sees who types `strata` alone.
+// The text for somebody who types `strata` alone.
 std::string short_help(const std::vector<Command>& commands) {
     Table table{{{"strata COMMAND"}, {"what it does"}}, {}};
     for (const Command& command : commands)

@@ -30,7 +30,7 @@ constexpr std::string_view alpha_mode_name(pipeline::AlphaMode mode) {
     return "";  // unreachable: the enum is closed
 }
 
-// What instances draw: a mesh that is placed twice counts twice.
+// Totals over instances: a mesh that is placed twice counts twice.
 struct Drawn {
     std::uint64_t instances = 0, triangles = 0;
 };
@@ -89,7 +89,7 @@ std::string bounds_text(const scenes::Bounds& bounds) {
                        bounds.hi[0], bounds.hi[1], bounds.hi[2]);
 }
 
-// The same for people, a fact a row.
+// The scene's facts as a table for people, a fact a line.
 std::string describe(const scenes::Scene& scene) {
     const Drawn all = drawn(scene.list, std::nullopt);
     std::vector<std::string> textures, cameras;

@@ -25,8 +25,9 @@ struct Document {
     }
 };
 
-// What a file may unfold to: elements (vertices and indices of all meshes) and texels. Sharing may multiply what a file
-// holds, zero-filled accessors and compressed images too, so each is paid for before memory is asked for it.
+// The budget that a file may unfold to: elements (vertices and indices of all meshes) and texels. Sharing may multiply
+// what a file holds, zero-filled accessors and compressed images too, so each is paid for before memory is asked for
+// it.
 class Budget {
   public:
     Budget(std::uint64_t elements, std::uint64_t texels) : elements_{elements}, texels_{texels} {}

@@ -13,8 +13,8 @@
 
 namespace strata::mesa {
 
-// What both programs draw: scene, camera, pixels. `threads` are those of either side; 0: all that
-// there are.
+// The picture that both programs draw: scene, camera, pixels. `threads` are those of either side; 0: all that there
+// are.
 struct Subject {
     scenes::Scene scene;
     pipeline::View view;

@@ -30,8 +30,8 @@ constexpr Layout layouts[] = {{"A8R8G8B8", 4},
                               {"X1A7R8G8B8_Z1A7R8G8B8", 4, 0x80000000, 0},
                               {"X1A7R8G8B8_O1A7R8G8B8", 4, 0x80000000, 0x80000000}};
 
-// What the surface holds after a clear with `word`: a 16-bit surface takes the low half as it is,
-// without any conversion.
+// The surface's contents after a clear with `word`: a 16-bit surface takes the low half as it is, without any
+// conversion.
 [[nodiscard]] Argb stored(const Layout& layout, Argb word) {
     const Argb kept = layout.bytes == 2 ? word & 0xffff : word;
     return (kept & ~layout.unused) | layout.value;

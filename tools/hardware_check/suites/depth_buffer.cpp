@@ -14,7 +14,8 @@ namespace {
 
 using pipeline::DepthFormat;
 
-// What a name says. `clear` is a code of `format`; `is_float` is FZy, and `shows_depth` is _ZB.
+// The settings that a capture's name spells. `clear` is a code of `format`; `is_float` is FZy, and `shows_depth` is
+// _ZB.
 struct Setting {
     DepthFormat format = DepthFormat::d16;
     std::uint32_t clear = 0;

@@ -16,7 +16,7 @@ using pipeline::Surface;
 // The clear word of depth, a code of 24 bits.
 constexpr std::uint32_t far_depth = 0x00ffff;
 
-// The same test for both faces; reference, masks and operations are the face's.
+// A stencil test with `face` for front and back alike.
 StencilTest stencil_test(const StencilFace& face) { return {.enabled = true, .front = face, .back = face}; }
 
 // With _ZB the picture shows depth words with the stencil below them.

@@ -25,8 +25,8 @@ using pipeline::Image;
 // Where the texels come from: the CPU, a vertex program, or the fixed pipeline.
 enum class Source : std::uint8_t { raw, program, fixed };
 
-// What a name says. The raw numbers are codes and hold for Source::raw alone; the others are world
-// z and hold for the two others.
+// The settings that a capture's name spells. The raw numbers are codes and hold for Source::raw alone; the others are
+// world z and hold for the two others.
 struct Setting {
     bool compares_r = false;
     Source source = Source::raw;

@@ -24,7 +24,7 @@ struct EffectsOptions {
     bool json = false;
 };
 
-// What is told of one algorithm.
+// The answer of the command for one algorithm.
 struct Explained {
     const peeling::Algorithm* algorithm = nullptr;
     std::string refusal;  // empty: it ran

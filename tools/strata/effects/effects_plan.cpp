@@ -252,7 +252,7 @@ class Planner {
             "no material has a texture", passes([](const PassRecord& p) { return p.samples_textures; }));
     }
 
-    // What the frame as a whole calls for.
+    // Adds the effects that belong to the frame as a whole, not to one tile or pass.
     void add_frame() {
         const peeling::RenderOptions& o = job_.scene->options.render;
         const std::uint64_t drawn = total(plan_.tiles.transparent_fragments);

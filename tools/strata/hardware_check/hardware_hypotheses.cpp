@@ -26,7 +26,7 @@ constexpr Titled subjects[] = {{Subject::window_depth, "depths that are written"
                                {Subject::color, "vertex colours"},
                                {Subject::coordinates, "texture coordinates"}};
 
-// What one capture says of every hypothesis; empty where it cannot tell.
+// One capture's comparison under every hypothesis; empty where the capture cannot tell them apart.
 using Verdicts = std::vector<hc::Comparison>;
 
 // True if a picture of this suite, read like this, shows what the subject can change. Depth

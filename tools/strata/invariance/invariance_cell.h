@@ -42,7 +42,7 @@ class CellRunner {
   private:
     [[nodiscard]] const scenes::Scene& scene(const std::string& name);
     [[nodiscard]] pipeline::DeviceProfile profile(const Cell& cell);
-    // What further passes draw; null: the scene's own list.
+    // The list that passes after the first draw; null: the scene's own list.
     [[nodiscard]] const pipeline::DrawList* split_list(const Cell& cell);
 
     scenes::SceneOptions scene_options_;

@@ -87,7 +87,7 @@ void check_journal(const std::string& path, const Lines& lines, const Lines& exp
 }
 
 Journal::Journal(const std::string& path, std::size_t whole_bytes) : path_{path} {
-    // What is torn goes before anything is appended: a line behind it would be lost with it.
+    // A torn last line is cut off before anything is appended: a line behind it would be lost with it.
     if (std::filesystem::exists(path)) std::filesystem::resize_file(path, whole_bytes);
     file_ = std::fopen(path.c_str(), "ab");
     if (file_ == nullptr) throw SystemError(path, "write", std::strerror(errno));

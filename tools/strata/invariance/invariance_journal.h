@@ -31,7 +31,7 @@ struct Shard {
 
 using Lines = std::vector<nlohmann::ordered_json>;
 
-// What a journal held when it was opened.
+// The contents of a journal when it was opened.
 struct Found {
     Lines lines;
     bool torn = false;  // the file has a last line without newline

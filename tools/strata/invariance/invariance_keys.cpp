@@ -16,7 +16,7 @@ bool set_name(std::string& target, const std::string& text) {
     return !text.empty();
 }
 
-// What an option of the same meaning parses.
+// Stores the value of an option if it was given, and says whether it was.
 template <class Target, class T>
 bool assign(Target& target, const std::optional<T>& value) {
     if (value) target = *value;

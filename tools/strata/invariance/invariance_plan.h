@@ -16,7 +16,7 @@
 
 namespace strata::tools {
 
-// What a remedy changes; a default one is none.
+// The changes that a remedy makes to a cell; a default one changes nothing.
 struct Remedy {
     float bias_constant = 0, bias_slope = 0;  // glPolygonOffset's units and factor
     pipeline::CompareEpsilon epsilon;

@@ -14,7 +14,7 @@
 
 namespace strata::tools {
 
-// What is known before the cell runs: a line that was written before must begin like this.
+// The keys that are known before the cell runs: a line of an earlier run must begin with them.
 [[nodiscard]] nlohmann::ordered_json description(std::size_t number, const Cell& cell, const CellView& view);
 
 // The whole line, without its end.

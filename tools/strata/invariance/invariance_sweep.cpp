@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// What each line of the shard must begin with.
+// The beginning that each line of the shard must have.
 Lines descriptions(const Sweep& sweep, CellRunner& runner, const Shard& shard) {
     Lines lines;
     for (const std::size_t number : shard.cells(sweep.cells.size()))

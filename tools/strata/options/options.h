@@ -13,7 +13,7 @@
 
 namespace strata::tools {
 
-// What a command was asked for; every field has the default of reports.md 6.
+// The options of a command; every field has the default of reports.md 6.
 struct RunOptions {
     // The process's own start, as far as this program sees it: statistics tell the seconds since.
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
@@ -34,10 +34,10 @@ struct RunOptions {
 // SCENE, --scene, --colour, --no-light.
 void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options);
 
-// What is drawn: SCENE and all options that a result bit depends on.
+// Adds SCENE and all options that a result bit depends on.
 void add_picture_options(CLI::App& app, RunOptions& options);
 
-// How it is run: options that no bit depends on (--execution, --fragment-memory, --simd, --effects, --tile, --threads).
+// Adds the options that no bit depends on (--execution, --fragment-memory, --simd, --effects, --tile, --threads).
 void add_execution_options(CLI::App& app, RunOptions& options);
 
 // Parts of both, for a command that takes lists of the rest.
@@ -57,7 +57,8 @@ void check_simd(Simd simd);
 // Where results go: --stats, -o, --no-audit.
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);
 
-// What only all options together can say: exclusions, defaults that are lists. Throws CLI::ValidationError.
+// Checks exclusions and fills in defaults that are lists, which needs all options together. Throws
+// CLI::ValidationError.
 void complete(RunOptions& options);
 
 // The command that makes the same picture of one algorithm again, in one spelling: every option that a bit depends on

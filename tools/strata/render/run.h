@@ -42,7 +42,7 @@ using Writer = std::function<void(const Finished&)>;  // writes one algorithm's 
 [[nodiscard]] std::string path_for(const std::string& path, const RunOptions& options,
                                    const peeling::Algorithm& algorithm);
 
-// What stands in the attributes of every file: command, profile, camera. Digests and formats are the writer's.
+// The attributes of every file: command, profile, camera. The writer adds digests and formats.
 [[nodiscard]] scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options,
                                                const Finished& finished);
 

@@ -17,7 +17,7 @@ struct RunSummary {
     std::string color_digest, depth_digest;
 };
 
-// What all runs of a command have in common.
+// Settings that all runs of a command share.
 struct RunContext {
     std::string profile;
     int width = 0, height = 0;
@@ -34,7 +34,7 @@ struct RunContext {
 // The document of --stats (reports.md 1), with its newline.
 [[nodiscard]] std::string to_json(const std::vector<RunSummary>& runs, const RunContext& context);
 
-// The same for people, with the diagnostics and refusals below the table.
+// A table for people, with the diagnostics and refusals below it.
 [[nodiscard]] std::string to_table(const std::vector<RunSummary>& runs, const RunContext& context);
 
 }  // namespace strata::tools

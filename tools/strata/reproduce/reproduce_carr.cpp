@@ -15,7 +15,7 @@ namespace strata::tools {
 
 namespace {
 
-// What one algorithm needed for one picture.
+// The cost of one algorithm for one picture.
 struct Run {
     int iterations = 0, passes = 0;
     // Rasterized in all geometry passes.
@@ -65,7 +65,7 @@ peeling::RenderOptions options_for(const ReproduceOptions& options, int size) {
 constexpr int beam_size = 32;
 const std::array beam_algorithms{"layer_peel", "hybrid", "coherent_stencil", "coherent_blend", "coherent_ideal"};
 
-// What the paper tells of a row, and why ours differs.
+// The paper's figure for a row of the table, and the reason why ours differs.
 struct Printed {
     std::string figure, why;
 };

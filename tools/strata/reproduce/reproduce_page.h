@@ -30,7 +30,7 @@ struct Section {
     std::vector<Picture> pictures{};
 };
 
-// What a paper's page holds, from top to bottom.
+// The page of one paper: its sections from top to bottom.
 struct Page {
     std::string title;
     std::vector<Section> sections{};
