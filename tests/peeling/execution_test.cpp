@@ -156,7 +156,8 @@ TEST_CASE("scenes of one corner, of nothing and of opaque surfaces alone execute
         }
 }
 
-TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface, counts like the frame that goes on") {
+TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface, counts like the frame that goes on",
+          "[slow]") {
     FragmentScene scene{16, 16};  // four tiles of 8 x 8
     const strata::pipeline::Rgba glass{1, 0.5f, 0.25f, 0.5f};
     scene.pixels[0] = {{{0.5f, glass}}, GivenFragment{0.5f, glass}};
@@ -206,7 +207,7 @@ TEST_CASE("an algorithm that keeps layers keeps one for each distinct depth of t
         }
 }
 
-TEST_CASE("alpha for everything, other formats and the whole state of the rasterizer execute alike") {
+TEST_CASE("alpha for everything, other formats and the whole state of the rasterizer execute alike", "[slow]") {
     const TriangleScene scene = random_triangles(77, 30);
     RenderOptions options = small_frame();
     options.alpha = 0.375f;
@@ -218,7 +219,7 @@ TEST_CASE("alpha for everything, other formats and the whole state of the raster
         check_all_ways(scene, {"geforce8_dx101", algorithm}, options);
 }
 
-TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back") {
+TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back", "[slow]") {
     TriangleScene scene = random_triangles(78, 30);
     scene.view.view = {0.95, 0.02, 0.1, 0, -0.03, 0.99, 0.05, 0, -0.1, -0.04, 0.97, 0, 0.01, 0.02, -0.03, 1};
     for (auto& instance : scene.list.instances) instance.model[0][0] = 1.1;  // the matrices' product must be rounded
@@ -246,7 +247,8 @@ TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits
 }
 
 TEST_CASE(
-    "one renderer sorts triangles into the tiles that each algorithm asks for, and every size gives the same bits") {
+    "one renderer sorts triangles into the tiles that each algorithm asks for, and every size gives the same bits",
+    "[slow]") {
     const TriangleScene scene = random_triangles(79, 20);
     RenderOptions options = small_frame();
     options.width = 1024;

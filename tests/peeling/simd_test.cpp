@@ -49,7 +49,7 @@ class HostOfSse4 {
 
 }  // namespace
 
-TEST_CASE("two renderers with different instruction sets draw the same bits at the same time") {
+TEST_CASE("two renderers with different instruction sets draw the same bits at the same time", "[slow]") {
     const TriangleScene scene = random_triangles(1207, 40);
     const std::vector<RenderResult> expected = frames(scene, Simd::scalar);
     for (const Simd simd : strata::available_simd()) {

@@ -112,7 +112,8 @@ TEST_CASE("an audit's figures depend neither on its memory nor on tiles, threads
         }
 }
 
-TEST_CASE("what does not fit into the memory is run again in parts, and nothing is run again where all fits") {
+TEST_CASE("what does not fit into the memory is run again in parts, and nothing is run again where all fits",
+          "[slow]") {
     const FragmentScene scene = scene_of(12);
     const Algorithm peel = forgetful();
     for (const Execution execution : {Execution::literal, Execution::replay}) {
@@ -140,7 +141,7 @@ TEST_CASE("what a blank tile is found to have done is counted in every tile that
     CHECK(found.misordered == PixelCount{8, 2, 0});
 }
 
-TEST_CASE("where one pixel's fragments alone exceed the memory, the sentence names it and what is enough") {
+TEST_CASE("where one pixel's fragments alone exceed the memory, the sentence names it and what is enough", "[slow]") {
     constexpr int fragments = 300;
     const FragmentScene scene = deep_pixel(fragments);
     for (const char* name : {"front_to_back", "unsorted"}) {
@@ -183,7 +184,7 @@ TEST_CASE("a renderer without fragment memory audits with the least, and refuses
           std::string::npos);
 }
 
-TEST_CASE("all fragments of a frame are refused beforehand if they exceed the memory") {
+TEST_CASE("all fragments of a frame are refused beforehand if they exceed the memory", "[slow]") {
     const FragmentScene scene = deep_pixel(270000);
     const DrawList list = draw_list(scene);
     const auto fragments = [&](std::uint64_t memory) {

@@ -158,7 +158,7 @@ Color values(const Values& v) {
 
 }  // namespace
 
-TEST_CASE("general combiners compute what the tables of the extension say, one rounding a sum") {
+TEST_CASE("general combiners compute what the tables of the extension say, one rounding a sum", "[slow]") {
     Random random{321};
     Tally tally;
     for (int round = 0; round < 3000; ++round) {

@@ -115,7 +115,7 @@ TEST_CASE("every mode of the texture environment gives its formula, rounded once
     CHECK(tally.wrong() == 0);
 }
 
-TEST_CASE("COMBINE gives its formulas with any argument, operand and scale") {
+TEST_CASE("COMBINE gives its formulas with any argument, operand and scale", "[slow]") {
     Random random{332};
     Tally tally;
     for (int round = 0; round < 4000; ++round) {

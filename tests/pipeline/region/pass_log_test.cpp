@@ -42,7 +42,7 @@ FrameResult logged(const TestFrame& test, Execution execution, int threads) {
 
 }  // namespace
 
-TEST_CASE("a pass log holds every region's passes in the order of the regions, whatever threads ran them") {
+TEST_CASE("a pass log holds every region's passes in the order of the regions, whatever threads ran them", "[slow]") {
     const TestFrame test{one_fragment_a_pixel(), "ideal", tile};
     for (const int threads : {1, 2, 8}) {
         const PassLog log = logged(test, Execution::replay, threads).pass_log;

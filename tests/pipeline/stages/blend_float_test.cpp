@@ -74,7 +74,7 @@ constexpr BlendTerm min_term{BlendEquation::min, BlendFactor::one, BlendFactor::
 
 }  // namespace
 
-TEST_CASE("float targets follow binary32 operation by operation, for random states and hard fragments") {
+TEST_CASE("float targets follow binary32 operation by operation, for random states and hard fragments", "[slow]") {
     Random random{1622};
     Tally tally;
     for (int round = 0; round < 10000; ++round) {

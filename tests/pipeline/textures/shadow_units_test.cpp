@@ -54,7 +54,8 @@ struct ShadowDevice {
 
 }  // namespace
 
-TEST_CASE("R is compared in the texels' units on every device: 0 to 1 or codes, floored, rounded, or as it is") {
+TEST_CASE("R is compared in the texels' units on every device: 0 to 1 or codes, floored, rounded, or as it is",
+          "[slow]") {
     Random random{721};
     Tally tally;
     for (const ShadowDevice& device : shadow_devices()) {

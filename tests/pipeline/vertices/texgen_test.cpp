@@ -47,7 +47,7 @@ std::array<Rational, 4> exact(const Plane4& p) {
 
 }  // namespace
 
-TEST_CASE("generated coordinates are planes over object or eye space, taken through the texture matrix") {
+TEST_CASE("generated coordinates are planes over object or eye space, taken through the texture matrix", "[slow]") {
     Random random{301};
     Tally tally;
     for (int round = 0; round < 3000; ++round) {

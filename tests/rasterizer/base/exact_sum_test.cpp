@@ -17,7 +17,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("a sum of products has the sign and nearly the value of the rational sum, whatever cancels") {
+TEST_CASE("a sum of products has the sign and nearly the value of the rational sum, whatever cancels", "[slow]") {
     constexpr std::uint64_t seed = 11;
     Random random{seed};
     std::uint64_t wrong_sign = 0, wrong_value = 0, zeros = 0;
@@ -44,7 +44,7 @@ TEST_CASE("a sum of products has the sign and nearly the value of the rational s
     CHECK(wrong_value == 0);
 }
 
-TEST_CASE("sum and product in two terms lose nothing") {
+TEST_CASE("sum and product in two terms lose nothing", "[slow]") {
     Random random{12};
     std::uint64_t wrong = 0;
     for (int n = 0; n < 20000; ++n) {

@@ -58,7 +58,8 @@ TEST_CASE("NV20 multiplies by cutting, flushes denormals, and 0 times anything i
     CHECK(same(nv20::multiply(-2.0f, infinity), -infinity));
 }
 
-TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven low bits, adds once and cuts") {
+TEST_CASE("NV20 aligns every addend to the largest exponent plus two with seven low bits, adds once and cuts",
+          "[slow]") {
     Random random{921};
     std::uint64_t wrong = 0, unlike_binary32 = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -114,7 +115,8 @@ TEST_CASE("NV20's reciprocal is within 2^-22 of 1/d, as its extension promises, 
     CHECK(worst > 0x1p-24);
 }
 
-TEST_CASE("a window of NV20's engine multiplies by its reciprocal of w and adds the viewport's offset, cut each time") {
+TEST_CASE("a window of NV20's engine multiplies by its reciprocal of w and adds the viewport's offset, cut each time",
+          "[slow]") {
     Random random{923};
     RasterState state;
     state.viewport = {0, 0, 640, 480};

@@ -93,7 +93,7 @@ constexpr std::array tie_rules{TieRule::top_left, TieRule::bottom_left, TieRule:
 
 }  // namespace
 
-TEST_CASE("a mesh of triangles that share edges covers every sample exactly once, slivers included") {
+TEST_CASE("a mesh of triangles that share edges covers every sample exactly once, slivers included", "[slow]") {
     constexpr std::uint64_t seed = 3;
     Random random{seed};
     std::uint64_t samples = 0, wrong = 0;

@@ -29,7 +29,8 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("a D16F code has the value of its four exponent and twelve mantissa bits, and that value has the code") {
+TEST_CASE("a D16F code has the value of its four exponent and twelve mantissa bits, and that value has the code",
+          "[slow]") {
     std::uint32_t wrong = 0, first = 0;
     for (std::uint32_t code = 0x1000; code <= 0xffff; ++code) {
         const Rational value = d16f_meaning(code);
@@ -64,7 +65,8 @@ TEST_CASE(
         CHECK(to_d16f_code(beyond) == 0xffff);
 }
 
-TEST_CASE("depth 1 is the greatest D16F value, and a depth between is its product with it, cut under either rounding") {
+TEST_CASE("depth 1 is the greatest D16F value, and a depth between is its product with it, cut under either rounding",
+          "[slow]") {
     Random random{611};
     std::uint64_t wrong = 0;
     float first = 0;
@@ -85,7 +87,7 @@ TEST_CASE("depth 1 is the greatest D16F value, and a depth between is its produc
         CHECK(to_depth_code(z, DepthFormat::d16f, DepthRounding::nearest) == 0);
 }
 
-TEST_CASE("a code of any depth format reads back as its share of depth 1, rounded once to binary64") {
+TEST_CASE("a code of any depth format reads back as its share of depth 1, rounded once to binary64", "[slow]") {
     std::uint64_t wrong = 0;
     const auto near53 = [](const Rational& v, double found) {  // half a unit of 53 bits at most
         return abs(Rational{found} - v) <= power(floor_log2(v) - 53);

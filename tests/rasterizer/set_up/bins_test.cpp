@@ -11,7 +11,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("every fragment's triangle is in the bin of its tile, once and in submission order") {
+TEST_CASE("every fragment's triangle is in the bin of its tile, once and in submission order", "[slow]") {
     constexpr std::uint64_t seed = 111;
     const TriangleSoup soup = random_soup(seed, 300, SoupKind::needs_clipping);
     RasterState state = scene_state(150, 90);

@@ -79,7 +79,8 @@ struct PlaneCase {
 }  // namespace
 
 TEST_CASE(
-    "a vertex is outside as many planes as the rule's inequalities say, for every state, and bit 0 is the plane of w") {
+    "a vertex is outside as many planes as the rule's inequalities say, for every state, and bit 0 is the plane of w",
+    "[slow]") {
     Random random{621};
     std::uint64_t wrong = 0, inside = 0, vertices = 0;
     for (const PlaneCase& c : plane_cases()) {

@@ -27,7 +27,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, ties to even") {
+TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, ties to even", "[slow]") {
     CHECK(snap(.5624f, 4, Snap::toward_zero) == 8);  // the hardware's own cases: coverage.md 4.1
     CHECK(snap(.5625f, 4, Snap::toward_zero) == 9);
     CHECK(snap(-.0624f, 4, Snap::toward_zero) == 0);
@@ -49,7 +49,8 @@ TEST_CASE("positions are cut toward zero or rounded to the nearest subpixel, tie
     CHECK(wrong == 0);
 }
 
-TEST_CASE("window positions are the rounded operations of the rule, for every divide and viewport arithmetic") {
+TEST_CASE("window positions are the rounded operations of the rule, for every divide and viewport arithmetic",
+          "[slow]") {
     constexpr std::uint64_t seed = 32;
     Random random{seed};
     std::uint64_t wrong = 0, differences = 0;

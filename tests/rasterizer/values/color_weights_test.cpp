@@ -84,7 +84,8 @@ TEST_CASE("14 leading bits of a vertex colour reach its code, as captures show")
     CHECK(wrong_with_all > 0);
 }
 
-TEST_CASE("interpolated colours are the 8-bit weights of the captures, for triangles of every shape and winding") {
+TEST_CASE("interpolated colours are the 8-bit weights of the captures, for triangles of every shape and winding",
+          "[slow]") {
     constexpr std::uint64_t seed = 51;
     Random random{seed};
     std::uint64_t fragments = 0, wrong = 0, not_a_code = 0;
@@ -114,7 +115,7 @@ TEST_CASE("interpolated colours are the 8-bit weights of the captures, for trian
     CHECK(not_a_code == 0);
 }
 
-TEST_CASE("a captured quad differs from exact weights at as many pixels as silicon does") {
+TEST_CASE("a captured quad differs from exact weights at as many pixels as silicon does", "[slow]") {
     // Color_mask_blend, second quad (chip-depth.md 3.1): 374 of 8,520 pixels.
     const int x0 = 213 * 16, x1 = (213 + 71) * 16, y0 = 180 * 16, y1 = 300 * 16;
     SetupTriangle upper = window_triangle({{{x0, y0}, {x1, y0}, {x1, y1}}}, bits);

@@ -84,7 +84,7 @@ TEST_CASE("depth 32 of 511.9375 is D16F's code 49152 by every depth path") {
         }
 }
 
-TEST_CASE("every depth path stores the D16F code of its value, in buffer units and in the unit interval") {
+TEST_CASE("every depth path stores the D16F code of its value, in buffer units and in the unit interval", "[slow]") {
     Random random{931};
     for (const WindowZ units : {WindowZ::buffer_units, WindowZ::unit_interval})
         for (const WindowZRule rule : {WindowZRule::chip, WindowZRule::exact, WindowZRule::float32})
@@ -131,7 +131,8 @@ TEST_CASE("a pass of depth alone stores the D16F codes that a pass with everythi
     CHECK(wrong == 0);
 }
 
-TEST_CASE("a depth of the unit interval becomes the greatest D16F code whose value is not above 511.9375 of it") {
+TEST_CASE("a depth of the unit interval becomes the greatest D16F code whose value is not above 511.9375 of it",
+          "[slow]") {
     std::uint64_t wrong = 0;
     for (std::uint32_t code = 0; code < 0x10000; code += 7)
         for (const int step : {-1, 0, 1}) {

@@ -141,7 +141,8 @@ struct Tally {
 
 }  // namespace
 
-TEST_CASE("the compared depth is comparison (4): planes of r/w, q/w and 1/w and three divides, each rounded once") {
+TEST_CASE("the compared depth is comparison (4): planes of r/w, q/w and 1/w and three divides, each rounded once",
+          "[slow]") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
         const Tally tally = compare_quotients(901, {}, format);
         CHECK(tally.fragments > 500);
@@ -149,7 +150,7 @@ TEST_CASE("the compared depth is comparison (4): planes of r/w, q/w and 1/w and 
     }
 }
 
-TEST_CASE("fewer bits of the interpolants and divides by a reciprocal change what their hypothesis says") {
+TEST_CASE("fewer bits of the interpolants and divides by a reciprocal change what their hypothesis says", "[slow]") {
     for (const int bits : {16, 17, 20, 23})
         CHECK(compare_quotients(902, {.interpolant_bits = bits}, DepthFormat::d24).wrong == 0);
     for (const DivideRule rule : {DivideRule::cut_reciprocal, DivideRule::low_reciprocal})
@@ -180,7 +181,8 @@ TEST_CASE("with full double interpolants R is the true quotient of the vertex pr
     CHECK(far == 0);
 }
 
-TEST_CASE("depth replace stores the depth that perspective_rq compares, and drops what leaves the depth range") {
+TEST_CASE("depth replace stores the depth that perspective_rq compares, and drops what leaves the depth range",
+          "[slow]") {
     struct Case {
         DepthFormat format;
         RasterRules rules;
@@ -254,7 +256,7 @@ namespace {
 
 }  // namespace
 
-TEST_CASE("float32_plane rounds its slopes and every step from its anchor to binary32") {
+TEST_CASE("float32_plane rounds its slopes and every step from its anchor to binary32", "[slow]") {
     for (const PlaneAnchor anchor : {PlaneAnchor::first_vertex, PlaneAnchor::window_corner})
         for (const int bits : {4, 8}) {
             RasterRules rules{.subpixel_bits = bits};

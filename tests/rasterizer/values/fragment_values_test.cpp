@@ -46,7 +46,7 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("attributes are perspective-correct with every rounding of the rule, for every subpixel setting") {
+TEST_CASE("attributes are perspective-correct with every rounding of the rule, for every subpixel setting", "[slow]") {
     constexpr std::uint64_t seed = 71;
     Random random{seed};
     std::uint64_t values = 0, wrong = 0;
@@ -62,7 +62,7 @@ TEST_CASE("attributes are perspective-correct with every rounding of the rule, f
     CHECK(wrong == 0);
 }
 
-TEST_CASE("with w = 1 the quotient is left out and nothing changes") {
+TEST_CASE("with w = 1 the quotient is left out and nothing changes", "[slow]") {
     Random random{72};
     std::uint64_t values = 0, wrong = 0;
     for (SetupTriangle t : random_triangles(random, 60, 12, 8)) {

@@ -96,7 +96,8 @@ using Shares = std::array<Rational, 3>;
 }  // namespace
 
 TEST_CASE(
-    "with unequal w colours are weighted by products with 1/w, of edge values or of cut weights, rounded as written") {
+    "with unequal w colours are weighted by products with 1/w, of edge values or of cut weights, rounded as written",
+    "[slow]") {
     for (const PerspectiveColor rule : {PerspectiveColor::edge_products, PerspectiveColor::weight_products}) {
         Random random{651};
         std::uint64_t fragments = 0, wrong = 0;
@@ -118,7 +119,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("weights that end on a 256th or a hair beside it fall on their own side, by either rule for products") {
+TEST_CASE("weights that end on a 256th or a hair beside it fall on their own side, by either rule for products",
+          "[slow]") {
     // Edge values whose products with 1/w are k / 256 of their sum, the sum being `odd` times a power of two: r is inexact.
     std::uint64_t wrong = 0, cases = 0, unlike = 0, not_whole = 0;
     for (const std::int64_t odd : {3, 7, 13, 1021, 65537})
@@ -153,8 +155,8 @@ TEST_CASE("weights that end on a 256th or a hair beside it fall on their own sid
     CHECK(not_whole > cases / 20);
 }
 
-TEST_CASE(
-    "a vertex colour keeps as many leading bits as the hypothesis says, the rest is cut before it becomes 8 bits") {
+TEST_CASE("a vertex colour keeps as many leading bits as the hypothesis says, the rest is cut before it becomes 8 bits",
+          "[slow]") {
     Random random{653};
     std::uint64_t wrong = 0;
     for (int n = 0; n < 4000; ++n) {

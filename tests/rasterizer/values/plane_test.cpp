@@ -85,7 +85,7 @@ TEST_CASE(
     CHECK(tally.wrong_code == 0);
 }
 
-TEST_CASE("depth in buffer units is divided and rounded once, for shader_z and for the code") {
+TEST_CASE("depth in buffer units is divided and rounded once, for shader_z and for the code", "[slow]") {
     constexpr std::uint64_t seed = 22;
     Random random{seed};
     Tally tally;
@@ -126,7 +126,7 @@ TEST_CASE("planes that pass through rounding boundaries reach the exact arithmet
     CHECK(tally.wrong_code == 0);
 }
 
-TEST_CASE("values a hair beside a tie go to their own side, whatever the triangle") {
+TEST_CASE("values a hair beside a tie go to their own side, whatever the triangle", "[slow]") {
     // z = base + x step exactly, a tie at every second or every pixel; then one vertex moves by a few units of 2^-52 of
     // it.
     constexpr std::uint64_t seed = 24;
@@ -174,7 +174,7 @@ TEST_CASE("complete cancellation gives +0 and almost complete cancellation the r
     CHECK(tally.wrong_code == 0);
 }
 
-TEST_CASE("at n = 12 edge values beyond 2^53 are as exact as small ones") {
+TEST_CASE("at n = 12 edge values beyond 2^53 are as exact as small ones", "[slow]") {
     constexpr std::uint64_t seed = 23;
     Random random{seed};
     Tally tally;

@@ -61,7 +61,8 @@ constexpr FragmentNeeds depth_and_reference{.color = false, .reference = true};
 
 TEST_CASE(
     "a depth that is a value is stored clamped to the depth range and rounded by its format, on devices of either "
-    "unit") {
+    "unit",
+    "[slow]") {
     std::uint64_t wrong = 0, fragments = 0, clamped = 0;
     for (const DepthPath path : {DepthPath::perspective_rq, DepthPath::float32_plane})
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
@@ -137,7 +138,8 @@ TEST_CASE("per-fragment z clip keeps the depths between near and far, reversed o
     CHECK(above > 100);
 }
 
-TEST_CASE("a 16-bit float buffer keeps the plane cut to its mantissa, within the depth range, reversed or not") {
+TEST_CASE("a 16-bit float buffer keeps the plane cut to its mantissa, within the depth range, reversed or not",
+          "[slow]") {
     const auto value_of = [](std::uint32_t code) {
         return code < 4096 ? Rational{0}
                            : power(static_cast<int>(code / 4096) - 7) * Rational{4096 + code % 4096, 4096};

@@ -45,7 +45,7 @@ float expected(const Geometry& g, const TriangleRecord& t, const std::array<floa
 
 }  // namespace
 
-TEST_CASE("texture units are interpolated by perspective with three roundings, those that are asked for") {
+TEST_CASE("texture units are interpolated by perspective with three roundings, those that are asked for", "[slow]") {
     Random random{501};
     for (const bool has_rq : {false, true}) {
         RasterState state;

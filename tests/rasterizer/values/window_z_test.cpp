@@ -133,7 +133,7 @@ TEST_CASE("small quads of the captured grid are floor(exact), because their weig
     CHECK(wrong == 0);
 }
 
-TEST_CASE("in the depth of a whole scene about 97 words of 100 equal floor(exact) at 24 bits") {
+TEST_CASE("in the depth of a whole scene about 97 words of 100 equal floor(exact) at 24 bits", "[slow]") {
     Random random{42};
     Difference sum;
     for (int n = 0; n < 40; ++n) {  // triangles whose depths differ by a part of the range, as a scene's do
@@ -167,7 +167,7 @@ TEST_CASE("D16 by the rule equals floor(exact) on the captured quads") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("window_z is the rule of the captures for triangles of every shape, winding and depth") {
+TEST_CASE("window_z is the rule of the captures for triangles of every shape, winding and depth", "[slow]") {
     constexpr std::uint64_t seed = 43;
     Random random{seed};
     Difference sum;
@@ -202,7 +202,7 @@ static_assert(WindowZ24{{0.0, 0.0, 0x1p-100}, 256}.value({64, 128, 64}) == 0x1p-
 static_assert(WindowZ24{{0.0, 0x1p-140, 0.0}, 256}.at({128, 64, 64}) == 0.0);
 static_assert(WindowZ24{{-0x1p-120, 0.0, 0.0}, 256}.at({64, 128, 64}) == -1.0);
 
-TEST_CASE("where two corners have depth 0 the sum is the rule's, however small the third one's is") {
+TEST_CASE("where two corners have depth 0 the sum is the rule's, however small the third one's is", "[slow]") {
     constexpr std::uint64_t seed = 46;
     Random random{seed};
     std::uint64_t fragments = 0, wrong = 0;
@@ -243,7 +243,8 @@ TEST_CASE("GeForce3 depth depends on the order of a triangle's vertices") {
     CHECK(first != turned);
 }
 
-TEST_CASE("other widths of the reciprocal and of the aligned add change what their hypothesis says, and many words") {
+TEST_CASE("other widths of the reciprocal and of the aligned add change what their hypothesis says, and many words",
+          "[slow]") {
     Random random{45};
     for (const auto& [reciprocal_bits, sum_bits] :
          {std::pair{24, 29}, std::pair{27, 29}, std::pair{30, 29}, std::pair{28, 24}, std::pair{26, 26}}) {

@@ -74,7 +74,7 @@ struct Batches {
 
 }  // namespace
 
-TEST_CASE("every instruction set hands out the batches of the scalar twins, to the bit") {
+TEST_CASE("every instruction set hands out the batches of the scalar twins, to the bit", "[slow]") {
     std::vector<Device> all = devices();
     const RasterRules unsnapped{.tie_rule = TieRule::bottom_left, .plane_origin = PlaneOrigin::unsnapped};
     all.push_back({unsnapped, {DepthPath::float32, DepthFormat::d32f}});
@@ -149,7 +149,7 @@ TEST_CASE("the arrays that a pass looks at do not depend on those that it leaves
     }
 }
 
-TEST_CASE("rotating a triangle's vertices changes nothing, except depth and colour on GeForce3") {
+TEST_CASE("rotating a triangle's vertices changes nothing, except depth and colour on GeForce3", "[slow]") {
     TriangleSoup soup = random_soup(123, 150, SoupKind::perspective);  // unclipped: a fan depends on its first corner
     TriangleSoup rotated = soup;
     for (std::size_t i = 0; i < soup.indices.size(); i += 3) {
