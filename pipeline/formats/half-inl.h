@@ -34,6 +34,9 @@ HWY_INLINE hn::Vec<Words> half_codes(Words words, hn::Vec<hn::RebindToFloat<Word
     const auto narrow = hn::DemoteTo(hn::Rebind<hwy::float16_t, Words>{}, values);
     return hn::PromoteTo(words, hn::BitCast(hn::Rebind<std::uint16_t, Words>{}, narrow));
 }
+#else
+constexpr bool has_halves = false;
+#endif
 
 // A denormal as the zero of its sign: flushed of blend_float.h.
 template <class Words>
@@ -50,9 +53,6 @@ HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> canonical(Words d, hn::Vec<hn::Rebi
     const auto nan = hn::BitCast(hn::RebindToFloat<Words>{}, hn::Set(d, 0x7fffffffu));
     return hn::IfThenElse(hn::Eq(v, v), v, nan);
 }
-#else
-constexpr bool has_halves = false;
-#endif
 
 }  // namespace strata::pipeline::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
