@@ -28,6 +28,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
+    if (compare.is_plain()) state.selection = {.keeps = Keeps::ends, .before = region.opaque_depth(), .range = min_max};
     return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes side;
         classify(compare, in, own.color(0), own.depth(1), side);

@@ -65,6 +65,8 @@ class Peel {
         state.reads[0] = peeled_;
         state.needs = code_only;
         state.primitives = as_span(sets_.unordered);
+        state.selection = {.keeps = Keeps::nearest};
+        if (!from_the_start_) state.selection.behind = peeled_;
         return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             if (!from_the_start_) keep_behind(in, own.depth(0), out);
         });
@@ -92,6 +94,7 @@ class Peel {
         PassState state = composite_state(accumulated_);
         state.reads = {layer_, region_.opaque_depth()};
         state.primitives = as_span(sets_.unordered);
+        state.selection = {.keeps = Keeps::window, .at = layer_};
         ties_.start();
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             keep_at(in, own.depth(0), out);

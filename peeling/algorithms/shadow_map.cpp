@@ -34,6 +34,9 @@ Drawn peel(Region& region, const Buffers& to) {
     state.reads[0] = to.map;
     state.needs.shader_z = false;
     state.needs.reference = !first;
+    if (compare.quantizes && compare.epsilon == CompareEpsilon{})
+        state.selection = {
+            .keeps = Keeps::nearest, .outside = Outside::alpha_test, .behind = to.map, .by_reference = !first};
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;

@@ -104,6 +104,7 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     state.reads[0] = region.opaque_depth();
     state.needs = {
         .shader_z = true, .code = false, .exact_code = false, .color = false, .texcoord = false, .facing = false};
+    state.selection = {.keeps = Keeps::ends, .outside = Outside::nothing_new, .before = region.opaque_depth()};
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         Lanes<std::uint32_t> visible;
         for (std::size_t i = 0; i < lanes(in); ++i)

@@ -10,15 +10,12 @@
 #include "pipeline/stages/depth_compare.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/base/numerics.h"
+#include "rasterizer/rules/depth_code.h"
 
 namespace strata::peeling {
 inline namespace strict {
 
-// An order-preserving code of any float that is not NaN: the audit's form of a shader_z key.
-[[nodiscard]] inline std::uint32_t ordered_code(float z) noexcept {
-    const auto bits = std::bit_cast<std::uint32_t>(z == 0.0f ? 0.0f : z);  // -0 is 0
-    return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
-}
+using rasterizer::ordered_code;  // the audit's form of a shader_z key
 
 [[nodiscard]] inline std::size_t lanes(const pipeline::FragmentBatch& batch) noexcept {
     return static_cast<std::size_t>(batch.count);

@@ -9,6 +9,7 @@ namespace strata::pipeline {
 
 struct Work {                     // what was really done; may differ by execution
     std::uint64_t fragments = 0;  // rasterized
+    std::uint64_t visited = 0;    // by programs of geometry passes, in the last run of every region
     std::uint64_t regions = 0, reruns = 0;
     int tile_size = 0;
 };

@@ -25,7 +25,9 @@ struct Instruments {
     Effect once_more =
         Effect::none;         // simulated once more than the state asks for, and never replayed: its cost can be timed
     bool log_passes = false;  // fill FrameResult::pass_log
-    bool trust_idle = true;   // false: as if every algorithm promised Idle::no; finds promises that are not kept
+    bool check_selections =
+        false;               // visit every fragment, too, and throw std::logic_error where a selection promised wrongly
+    bool trust_idle = true;  // false: as if every algorithm promised Idle::no; finds promises that are not kept
 };
 
 }  // namespace strata::pipeline

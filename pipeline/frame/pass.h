@@ -6,6 +6,7 @@
 #include <span>
 
 #include "pipeline/device/state.h"
+#include "pipeline/frame/selection.h"
 #include "pipeline/stages/target.h"
 #include "pipeline/vertices/primitive_range.h"
 
@@ -38,6 +39,7 @@ struct PassState {
     rasterizer::FragmentNeeds needs;   // what the program looks at; the stages add what they need themselves
     std::span<const PrimitiveRange>
         primitives{};                  // of a geometry pass: these alone, ascending and disjoint; empty: all
+    FragmentSelection selection;       // of a geometry pass: the fragments that decide what it leaves
     bool saturates_by_design = false;  // a stencil count that stops at its limit is what the listing wants
 };
 

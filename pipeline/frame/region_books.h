@@ -45,6 +45,7 @@ struct RegionBooks {
     std::vector<Diagnostic> diagnostics;
     PassLog pass_log;
     std::uint64_t fragments_drawn = 0;
+    std::uint64_t fragments_visited = 0;  // by programs of geometry passes
     int geometry_passes = 0;
     bool counts = true;         // false during the emulator's own work (opaque priming, capture)
     IterationRecord uncounted;  // where that work is counted instead

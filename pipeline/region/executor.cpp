@@ -113,7 +113,7 @@ class FrameRun {
     // The copy has the twin's books, for the machine would have worked in both tiles; but it rasterized nothing itself.
     void copy_blank(std::size_t r) {
         regions_[r] = regions_[twin_[r]];
-        regions_[r].fragments = 0;
+        regions_[r].fragments = regions_[r].books.fragments_visited = 0;
         copy(twin_[r], r, result_.color);
         if (watch_.alike) watch_.alike(twin_[r], r);
         if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
@@ -221,6 +221,7 @@ class FrameRun {
             for (const Diagnostic& d : books.diagnostics) merge(result_.diagnostics, d);
             gather_log(books.pass_log);
             result_.work.fragments += regions_[r].fragments;
+            result_.work.visited += books.fragments_visited;
         }
         const auto watched = static_cast<double>(time_in_watch_), bodies = static_cast<double>(time_in_bodies_);
         result_.watched = watched > 0 ? watched / (watched + bodies) : 0;

@@ -5,6 +5,7 @@
 #include "pipeline/region/fragment_store.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 
@@ -115,6 +116,32 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     else
         std::fill_n(alive.begin(), packed.count, ~0u);
     for_each_array(needs_, batch, unpack);
+}
+
+// Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.
+// Arrays that few passes look at are fetched wherever they are held.
+void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs,
+                          FragmentBatch& batch) const noexcept {
+    std::array<const std::byte*, rasterizer::batch_capacity> begin;
+    std::array<std::uint32_t, rasterizer::batch_capacity> count, number;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Packed& packed = batches_[places[i] >> 8];
+        count[i] = packed.count;
+        number[i] = places[i] & 0xff;
+        begin[i] = packed.begin + (packed.has_dead ? count[i] * sizeof(std::uint32_t) : 0);
+    }
+    const auto is_left_out = [&](const void* array) {
+        const bool is_color = array >= &batch.color[0] && array <= &batch.color[3];
+        return array == &batch.pixel || array == &batch.x || array == &batch.y || (is_color && !needs.color) ||
+               (array == &batch.code && !needs.code) || (array == &batch.shader_z && !needs.shader_z);
+    };
+    std::uint32_t before = 0;
+    for_each_array(needs_, batch, [&](auto& array) {
+        constexpr auto size = static_cast<std::uint32_t>(sizeof(array[0]));
+        for (std::size_t i = 0; i < places.size() && !is_left_out(&array); ++i)
+            std::memcpy(&array[i], begin[i] + (count[i] * before + number[i] * size), size);
+        before += size;
+    });
 }
 
 }  // namespace strata::pipeline

@@ -31,6 +31,18 @@ class FragmentStore {
     [[nodiscard]] std::size_t batches() const noexcept { return batches_.size(); }
     void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive) const;
 
+    // A fragment's place among all of the store: places rise with arrival.
+    [[nodiscard]] static constexpr std::uint32_t place(std::size_t batch, std::size_t lane) noexcept {
+        return static_cast<std::uint32_t>(batch << 8 | lane);
+    }
+    [[nodiscard]] std::size_t count(std::size_t number) const noexcept { return batches_[number].count; }
+    [[nodiscard]] const rasterizer::FragmentNeeds& needs() const noexcept { return needs_; }
+    // `primitive`, and what else `needs` names, of the fragments at `places` to the first lanes of a batch, in this order.
+    // Pixels and their positions are the caller's: it knows them.
+    void fetch(std::span<const std::uint32_t> places, const rasterizer::FragmentNeeds& needs,
+               rasterizer::FragmentBatch& batch) const noexcept;
+
+    [[nodiscard]] std::uint64_t used_bytes() const noexcept { return used_chunks_ * std::uint64_t{chunk_bytes}; }
     [[nodiscard]] std::uint64_t bytes() const noexcept { return chunks_.size() * std::uint64_t{chunk_bytes}; }
 
   private:

@@ -36,6 +36,7 @@ namespace strata::pipeline {
 class FragmentStore;
 class RegionScratchPool;
 struct RegionScratch;  // the arrays that a batch passes through
+struct SelectedFragments;
 
 enum class Extent : std::uint8_t { frame, tile };
 // Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
@@ -150,6 +151,12 @@ class Region {
 
     template <FragmentProgram P>
     Drawn draw_list(const PassState& state, const PreparedDraw& list, P& program);
+    template <FragmentProgram P>
+    Drawn draw_everything(const PassState& state, const PreparedDraw& list, P& program);
+    template <FragmentProgram P>
+    Drawn draw_selected(const PassState& state, P& program);
+    template <FragmentProgram P>
+    Drawn draw_checked(const PassState& state, const PreparedDraw& list, P& program);
     template <class P>
     void run_program(P& program, FragmentBatch& batch, Outputs& out);
 
@@ -158,6 +165,25 @@ class Region {
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void replay(rasterizer::BatchSink sink);
+    // Selections: region_selection.cpp.
+    [[nodiscard]] bool may_select(const PassState& state, const PreparedDraw& list);
+    void capture_unseen(const PreparedDraw& list, const rasterizer::FragmentNeeds& kept);
+    void select(const PassState& state);
+    void select_nearest(const PassState& state);
+    void select_window(const PassState& state);
+    void select_ends(const PassState& state);
+    // Null where there is no such target.
+    [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? storage(t).depth(0) : nullptr; }
+    [[nodiscard]] FragmentBatch* next_selected(const PassState& state);  // null after the last
+    [[nodiscard]] Drawn book_selected(const PassState& state, const Counters& before, const Drawn& visited);
+    struct Snapshot {
+        std::vector<TargetStorage> targets;
+        Counters counters;
+        std::size_t traced;
+    };
+    [[nodiscard]] Snapshot snapshot();
+    void restore(Snapshot& from);
+    void require_equal(const Snapshot& selected, Count selected_passed, Count passed);
     [[nodiscard]] FragmentStore& store() noexcept;
     [[nodiscard]] std::span<const std::uint32_t> triangles_of(const PreparedDraw& list) const noexcept;
     [[nodiscard]] bool may_walk_rows(const PreparedDraw& list) const;
@@ -240,6 +266,13 @@ class Region {
 template <FragmentProgram P>
 Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& program) {
     begin_pass(state, PassKind::geometry);
+    if (state.selection.keeps == Keeps::everything || !may_select(state, list))
+        return draw_everything(state, list, program);
+    return instruments_.check_selections ? draw_checked(state, list, program) : draw_selected(state, program);
+}
+
+template <FragmentProgram P>
+Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, P& program) {
     Drawn drawn;
     auto sink = [&](FragmentBatch& batch) {
         Outputs& out = start_batch(batch);
@@ -249,6 +282,32 @@ Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& pro
         finish(state, batch, out, drawn);
     };
     for_each_batch(list, state, rasterizer::BatchSink{sink});
+    return drawn;
+}
+
+template <FragmentProgram P>
+Drawn Region::draw_selected(const PassState& state, P& program) {
+    const Counters before = record().counters;
+    select(state);
+    Drawn drawn;
+    while (FragmentBatch* const batch = next_selected(state)) {
+        Outputs& out = start_batch(*batch);
+        load(state, *batch);
+        run_program(program, *batch, out);
+        finish(state, *batch, out, drawn);
+    }
+    return book_selected(state, before, drawn);
+}
+
+// Both ways from the same targets. What is kept is the outcome of visiting everything, the definition. A program that
+// writes elsewhere than to its outputs does so twice.
+template <FragmentProgram P>
+Drawn Region::draw_checked(const PassState& state, const PreparedDraw& list, P& program) {
+    Snapshot taken = snapshot();
+    const Count selected_passed = draw_selected(state, program).passed;
+    restore(taken);  // and takes what the selection left
+    const Drawn drawn = draw_everything(state, list, program);
+    require_equal(taken, selected_passed, drawn.passed);
     return drawn;
 }
 
@@ -290,7 +349,9 @@ void Region::run_program(P& program, FragmentBatch& batch, Outputs& out) {
     program(static_cast<const FragmentBatch&>(batch), loads(), out);
     if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
     tallied_ += out.tally - tally;
-    if (kind_ == PassKind::geometry) record().counters.discarded += before - alive_count(out, batch.count);
+    if (kind_ != PassKind::geometry) return;
+    record().counters.discarded += before - alive_count(out, batch.count);
+    if (books_.counts) books_.fragments_visited += static_cast<std::uint64_t>(batch.count);
 }
 
 }  // namespace strata::pipeline

@@ -97,6 +97,7 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
         needs.texcoord |= materials.texcoord && needs.color;
         if (needs.color) needs.units |= materials.shadow;
         store().start(kept | frame_.replay.needs, frame_.replay.bytes);
+        scratch_->sorted.forget();
         rasterize(list, needs, {}, sink);
         store().finish();
     } else {

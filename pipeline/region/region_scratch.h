@@ -9,10 +9,12 @@
 #include "pipeline/frame/trace.h"
 #include "pipeline/region/arena.h"
 #include "pipeline/region/fragment_store.h"
+#include "pipeline/region/selected_fragments.h"
+#include "pipeline/region/sorted_fragments.h"
 
 namespace strata::pipeline {
 
-// Contents last from one stage of a batch to the next, but for `store`, `trace` and `arena`, which last as long as the
+// Contents last from one stage of a batch to the next, but for `store`, `sorted`, `trace` and `arena`, which last as long as the
 // region.
 struct alignas(64) RegionScratch {
     Loads loads;
@@ -28,6 +30,8 @@ struct alignas(64) RegionScratch {
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     FragmentStore store;
+    SortedFragments sorted;  // of the store
+    SelectedFragments selected;
     Trace trace;
     Arena arena;
 };
@@ -41,6 +45,7 @@ class RegionScratchPool {
         std::unique_ptr<RegionScratch> scratch = std::move(free_.back());
         free_.pop_back();
         scratch->store.forget();
+        scratch->sorted.forget();
         scratch->arena.reset();
         return scratch;
     }

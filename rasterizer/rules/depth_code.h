@@ -37,6 +37,12 @@ struct DepthConversion {
 
 inline namespace strict {
 
+// An order-preserving code of any float that is not NaN: what depths that are no stored codes are sorted by.
+[[nodiscard]] constexpr std::uint32_t ordered_code(float z) noexcept {
+    const auto bits = std::bit_cast<std::uint32_t>(z == 0.0f ? 0.0f : z);  // -0 is 0
+    return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
+}
+
 // The code of depth 1.0: 2^n - 1, or the bits of 1.0f.
 [[nodiscard]] constexpr std::uint32_t max_code(DepthFormat format) noexcept {
     switch (format) {

@@ -1,0 +1,46 @@
+// pipeline/frame/selection.h - which fragments a geometry pass looks at, as data: replay visits those alone, and counts the others.
+//
+// Rule     A selection is a promise about the pass's own state and program. At every pixel the *window* is a range of keys
+//          (Frame::key) between bounds that targets hold there when the pass begins, and the pass keeps some fragments of the
+//          window. The others leave every target as it is: those of the window because the kept ones decide alone, those outside
+//          because the machine drops them at the stage that `outside` names. `Instruments::check_selections` visits every
+//          fragment, too, and compares.
+// Source   execution.md 7.1.
+// Tests    tests/peeling/selection_test.cpp, execution_test.cpp
+#pragma once
+#include <cstdint>
+
+#include "pipeline/stages/target.h"
+
+namespace strata::pipeline {
+
+// The fragments of its window that decide what a pass leaves at a pixel.
+enum class Keeps : std::uint8_t {
+    everything,  // no selection: every fragment is visited
+    nearest,     // the first arrival of the least key, by a depth test LESS with a write and without blending
+    window,      // all of the window, in the order of arrival: for windows of one key
+    ends  // the window's first and last key, all arrivals, and the nearest and farthest between: for MAX of (-z, z)
+};
+
+// The stage at which a fragment outside the window ends.
+enum class Outside : std::uint8_t {
+    discarded,    // by the program
+    alpha_test,   // its alpha becomes 0; within the window it is the fragment's own
+    depth_unit,   // by the first depth unit
+    nothing_new,  // at the targets: what it writes they hold already, under an idempotent blend
+    one_value  // at the targets: under MAX every such fragment writes one value a pixel, which only one needs to write
+};
+
+struct FragmentSelection {
+    Keeps keeps = Keeps::everything;
+    Outside outside = Outside::discarded;
+    Target behind{};  // depth target: keys greater than its code
+    Target at{};      // depth target: keys equal to its code
+    Target before{};  // depth target: keys less than its code
+    Target range{};   // float target: keys from minus its red to its green, both included
+    bool by_reference =
+        false;  // `behind` bounds reference_code, the program looks at it alone, and it is the stored code
+    friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;
+};
+
+}  // namespace strata::pipeline

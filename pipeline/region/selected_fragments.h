@@ -1,0 +1,36 @@
+// pipeline/region/selected_fragments.h - the fragments that a selection keeps of one pass, on their way to the program, and the counts of
+// the others.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+namespace strata::pipeline {
+
+// Several fragments of a pixel follow each other in the order of arrival, and a batch holds no pixel twice: so the
+// first ones of all pixels go ahead, then all second ones.
+struct SelectedFragments {
+    struct One {
+        std::uint32_t key, place, pixel;
+    };
+    std::vector<std::vector<One>> of_rank;      // pixels rise
+    std::size_t ranks = 0, rank = 0, next = 0;  // in use; of the next batch, and its first fragment there
+    std::uint64_t inside = 0;                   // fragments in their pixel's window
+    std::uint64_t passed = 0;                   // of these, the ones that pass the depth test, of Keeps::nearest
+
+    void start() {
+        for (auto& fragments : of_rank) fragments.clear();
+        ranks = rank = next = 0;
+        inside = passed = 0;
+    }
+    // A word of SortedFragments.
+    void add(std::size_t pixel, std::uint64_t word, std::size_t at_rank) {
+        if (at_rank >= ranks) {
+            ranks = at_rank + 1;
+            if (of_rank.size() < ranks) of_rank.resize(ranks);
+        }
+        of_rank[at_rank].push_back({static_cast<std::uint32_t>(word >> 32), static_cast<std::uint32_t>(word),
+                                    static_cast<std::uint32_t>(pixel)});
+    }
+};
+
+}  // namespace strata::pipeline

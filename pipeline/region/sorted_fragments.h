@@ -1,0 +1,89 @@
+// pipeline/region/sorted_fragments.h - the fragments of a store, every pixel's sorted by (key, arrival): where passes with a selection
+// find what they keep.
+//
+// Rule     A fragment is a word of 64 bits: its key above, below it its place in the store, which rises with arrival. So one
+//          comparison orders words by (key, arrival). Fragments that MASK killed have no word, nor have those that the request's
+//          alpha test kills.
+// Layout   Pixel after pixel, in one piece. A finger remembers for each pixel which bound was looked for last, and where it is:
+//          bounds of successive passes move by a few words, so finding the next takes a few comparisons, however long the column.
+// Numbers  12 bytes a fragment and 32 a pixel. No key is a NaN, and no stored code of a float buffer negative: else nothing is sorted.
+// Source   execution.md 7.1.
+// Tests    tests/pipeline/region/sorted_fragments_test.cpp
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "pipeline/device/state.h"
+#include "pipeline/frame/run_settings.h"
+#include "pipeline/region/fragment_store.h"
+#include "rasterizer/base/uninitialized.h"
+
+namespace strata::pipeline {
+
+// What is sorted by, and what is left out.
+struct SortRequest {
+    DepthKey key = DepthKey::stored_code;
+    bool is_float = false;  // stored codes are bits of binary32
+    AlphaTest alpha{};
+    bool eight_bit_alpha = true;
+    friend bool operator==(const SortRequest&, const SortRequest&) = default;
+};
+
+class SortedFragments {
+  public:
+    // Sorts the fragments of a complete store, within `limit` bytes. False if that cannot be done.
+    [[nodiscard]] bool sort(const FragmentStore& store, const SortRequest& request, std::size_t pixels,
+                            std::uint64_t limit);
+    void forget() noexcept { state_ = State::empty; }
+    [[nodiscard]] bool serves(const SortRequest& request) const noexcept {
+        return state_ == State::sorted && request_ == request;
+    }
+    [[nodiscard]] bool may_sort(const SortRequest& request) const noexcept {
+        return state_ == State::empty || request_ != request;
+    }
+
+    [[nodiscard]] std::uint64_t rasterized() const noexcept { return rasterized_; }
+    [[nodiscard]] std::uint64_t masked() const noexcept { return masked_; }              // killed by MASK
+    [[nodiscard]] std::uint64_t alpha_killed() const noexcept { return alpha_killed_; }  // by the request's alpha test
+    // Whether every colour is in [0, 1024] and every alpha in [0, 1], none of them -0: MAX of such has no order.
+    [[nodiscard]] bool has_plain_colors() const noexcept { return has_plain_colors_; }
+    // Whether the reference code is every fragment's stored one.
+    [[nodiscard]] bool stores_reference() const noexcept { return stores_reference_; }
+
+    [[nodiscard]] std::size_t pixels() const noexcept { return start_.size() - 1; }
+    [[nodiscard]] std::uint64_t size() const noexcept { return start_.back(); }
+    [[nodiscard]] std::span<const std::uint64_t> of(std::size_t pixel) const noexcept {
+        return {words_.data() + start_[pixel], start_[pixel + 1] - start_[pixel]};
+    }
+    // The number of the pixel's fragments with keys below `bound`, which may be 2^32. `finger` tells bounds apart that
+    // are looked for in every pass.
+    enum class Finger : std::uint8_t { low, high, surface };
+    [[nodiscard]] std::uint32_t below(std::size_t pixel, std::uint64_t bound, Finger finger) noexcept;
+    // How many of the fragments [first, last) pass a depth test LESS with a write, as they arrive.
+    [[nodiscard]] std::uint32_t passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) noexcept;
+
+  private:
+    enum class State : std::uint8_t { empty, sorted, declined };
+
+    [[nodiscard]] bool take(const FragmentStore& store, std::uint64_t limit);
+    [[nodiscard]] bool has_sortable_keys(const rasterizer::FragmentBatch& batch) const noexcept;
+    void look_at_values(const FragmentStore& store, const rasterizer::FragmentBatch& batch) noexcept;
+    void count_updates(std::size_t pixel, std::uint32_t last) noexcept;
+
+    State state_ = State::empty;
+    SortRequest request_;
+    std::uint64_t rasterized_ = 0, masked_ = 0, alpha_killed_ = 0;
+    bool has_plain_colors_ = false, stores_reference_ = false;
+    UninitializedVector<std::uint64_t> words_;
+    std::vector<std::uint32_t> start_ = std::vector<std::uint32_t>(1);  // by pixel, and the end of the last
+    struct Found {
+        std::uint32_t bound = 0, at = 0;
+    };
+    std::array<std::vector<Found>, 3> finger_;
+    // By word: how many fragments pass from it on to `updates_end_`, if every nearer one is peeled.
+    UninitializedVector<std::uint32_t> updates_;
+    std::vector<std::uint32_t> updates_end_;  // by pixel; ~0: not counted yet
+    std::vector<std::uint32_t> next_nearer_;  // of one column, while it is counted
+};
+
+}  // namespace strata::pipeline

@@ -1,0 +1,107 @@
+// Passes that visit only what they keep. Models: visiting everything, pass by pass, from the same targets; and counts of
+// layers that the scene was built with.
+#include <catch2/catch.hpp>
+#include <stdexcept>
+
+#include "peeling/registry.h"
+#include "tests/peeling/rendering.h"
+#include "tests/pipeline/frames.h"
+#include "tests/support/random_triangles.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::peeling::RenderOptions;
+
+RenderOptions frame_of_many_tiles() {
+    RenderOptions options;
+    options.width = 76;
+    options.height = 52;
+    options.tile_size = 16;
+    options.threads = 1;
+    options.background = {0.1f, 0.2f, 0.3f, 1};
+    return options;
+}
+
+// `layers` at every pixel, in an order of arrival that is no order of depth.
+FragmentScene deep_scene(std::uint32_t layers) {
+    FragmentScene scene{16, 16};
+    Random random{5};
+    for (auto& pixel : scene.pixels) {
+        std::vector<std::uint32_t> order(layers);
+        for (std::uint32_t k = 0; k < layers; ++k) order[k] = k;
+        std::shuffle(order.begin(), order.end(), random);
+        for (const std::uint32_t k : order)
+            pixel.fragments.push_back(
+                {static_cast<float>(k + 1) / 2048.0f, {random_channel(random), 0.5f, 0.25f, 0.5f}});
+    }
+    return scene;
+}
+
+const std::vector<Machine> one_layer_peels{{"geforce3", "depth_units"},
+                                           {"geforce3", "shadow_map_depth_replace"},
+                                           {"geforce8", "layer_peel"},
+                                           {"geforce8_dx101", "dual_independent"}};
+
+}  // namespace
+
+TEST_CASE("every selection keeps the promise that it makes of its program, on every algorithm and format", "[slow]") {
+    const TriangleScene scene = random_triangles(91, 24);
+    for (const auto& algorithm : strata::peeling::algorithms())
+        for (const char* profile : {"geforce3", "geforce8", "geforce8_dx101", "ideal"})
+            for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
+                for (const int max_passes : {0, 7}) {
+                    if (refusal(algorithm, *find_profile(profile))) continue;
+                    if (check(*find_profile(profile), format)) continue;
+                    RenderOptions options = frame_of_many_tiles();
+                    options.color_format = format;
+                    options.max_passes = max_passes;
+                    INFO(algorithm.name << " on " << profile << ", at most " << max_passes << " passes");
+                    CHECK_NOTHROW(
+                        render(scene.list, scene.view, {profile, algorithm.name}, options, {.check_selections = true}));
+                }
+}
+
+TEST_CASE("a selection that its program does not keep is found where selections are checked") {
+    TestFrame frame{deep_scene(5), "geforce8"};
+    frame.frame.replay = {std::uint64_t{1} << 20, {}};
+    bool drops_the_nearest = false;
+    const Body body = [&](Region& region) {
+        const Target nearest = region.make_depth();
+        region.copy(region.opaque_depth(), nearest);
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = nearest;
+        state.color[0] = region.make_color();
+        state.selection = {.keeps = Keeps::nearest};
+        static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+            out.color[0] = in.color;
+            for (int i = 0; drops_the_nearest && i < in.count; ++i)
+                if (in.shader_z[static_cast<std::size_t>(i)] <= 1.5f / 2048.0f) out.discard(i);
+        }));
+        region.publish(state.color[0]);
+    };
+    const auto run_with = [&](const Instruments& instruments) {
+        return run(frame.frame, body, Execution::replay, 1, {}, instruments);
+    };
+    CHECK_NOTHROW(run_with({.check_selections = true}));
+    drops_the_nearest = true;
+    CHECK_THROWS_AS(run_with({.check_selections = true}), std::logic_error);
+    CHECK_NOTHROW(run_with({}));
+}
+
+TEST_CASE("the fragments that a peel visits grow with its layers, and not with their square", "[slow]") {
+    for (const Machine& machine : one_layer_peels)
+        for (const std::uint32_t layers : {16u, 64u, 256u, 1024u}) {
+            const FragmentScene scene = deep_scene(layers);
+            RenderOptions options = options_for(scene);
+            options.tile_size = 8;
+            options.audit = false;
+            const std::uint64_t visited = render(scene, machine, options).frame.work.visited;
+            const std::uint64_t fragments = std::uint64_t{layers} * scene.pixels.size();
+            INFO(machine.algorithm << ", " << layers << " layers: " << visited << " of " << fragments);
+            CHECK(visited >= fragments);
+            CHECK(visited <= 2 * fragments + 8 * scene.pixels.size());
+        }
+}

@@ -1,0 +1,169 @@
+// Models: every pixel's fragments in a list of its own, sorted by std::stable_sort; bounds counted one by one; a depth buffer
+// that is a single number, for the fragments that pass it.
+#include "pipeline/region/sorted_fragments.h"
+
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+
+#include "tests/support/random_numbers.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::rasterizer::batch_capacity;
+
+constexpr std::size_t column_pixels = 300;
+
+struct SortedArrival {
+    std::uint32_t key;
+    float red;
+};
+
+// The store of some batches, and beside it the same fragments pixel by pixel as they arrived.
+struct StoredColumns {
+    FragmentStore store;
+    std::vector<std::vector<SortedArrival>> columns = std::vector<std::vector<SortedArrival>>(column_pixels);
+    std::uint64_t rasterized = 0, masked = 0, faint = 0;
+};
+
+// Distinct pixels, in no order.
+void choose_pixels(Random& random, strata::rasterizer::FragmentBatch& batch) {
+    std::vector<std::uint32_t> all(column_pixels);
+    for (std::uint32_t p = 0; p < column_pixels; ++p) all[p] = p;
+    std::shuffle(all.begin(), all.end(), random);
+    std::copy_n(all.begin(), batch.count, batch.pixel.begin());
+}
+
+// `codes`: how many different ones there are. Alpha below 0.25 counts as faint.
+void fill_columns(Random& random, int batches, int codes, StoredColumns& to) {
+    to.store.start({.shader_z = true, .code = true, .color = true}, std::uint64_t{64} << 20);
+    auto batch = std::make_unique<strata::rasterizer::FragmentBatch>();
+    for (int b = 0; b < batches; ++b) {
+        batch->count = random_int(random, 1, 240);
+        choose_pixels(random, *batch);
+        strata::rasterizer::Lanes<std::uint32_t> alive{};
+        const bool has_dead = random_int(random, 0, 2) == 0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch->count); ++i) {
+            batch->code[i] = static_cast<std::uint32_t>(random_int(random, 0, codes - 1));
+            batch->shader_z[i] = random_float(random, -1, 1);
+            for (auto& channel : batch->color) channel[i] = random_channel(random);
+            alive[i] = has_dead && random_int(random, 0, 3) == 0 ? 0u : ~0u;
+            const bool is_faint = batch->color[3][i] < 0.25f;
+            to.masked += alive[i] == 0 ? 1 : 0;
+            to.faint += alive[i] != 0 && is_faint ? 1 : 0;
+            if (alive[i] != 0 && !is_faint) to.columns[batch->pixel[i]].push_back({batch->code[i], batch->color[0][i]});
+        }
+        to.rasterized += static_cast<std::uint64_t>(batch->count);
+        to.store.append(*batch, alive);
+    }
+    to.store.finish();
+    for (auto& column : to.columns)
+        std::stable_sort(column.begin(), column.end(),
+                         [](const SortedArrival& a, const SortedArrival& b) { return a.key < b.key; });
+}
+
+const SortRequest without_faint{.alpha = {.enabled = true, .func = CompareFunc::gequal, .ref = 0.25f},
+                                .eight_bit_alpha = false};
+
+// The columns' fragments in the order of arrival: places rise with it.
+std::uint32_t passing_one_by_one(std::span<const std::uint64_t> words, std::uint32_t first, std::uint32_t last) {
+    std::vector<std::uint64_t> arrived(words.begin() + first, words.begin() + last);
+    std::sort(arrived.begin(), arrived.end(),
+              [](std::uint64_t a, std::uint64_t b) { return (a & 0xffffffff) < (b & 0xffffffff); });
+    std::uint64_t stored = ~std::uint64_t{0};
+    std::uint32_t passed = 0;
+    for (const std::uint64_t word : arrived)
+        if (word >> 32 < stored) {
+            stored = word >> 32;
+            ++passed;
+        }
+    return passed;
+}
+
+}  // namespace
+
+TEST_CASE("sorted fragments are each pixel's by key and arrival, without those that MASK or the alpha test killed") {
+    for (const int codes : {1, 7, 1'000'000}) {
+        Random random{17};
+        StoredColumns given;
+        fill_columns(random, 60, codes, given);
+        SortedFragments sorted;
+        REQUIRE(sorted.sort(given.store, without_faint, column_pixels, std::uint64_t{64} << 20));
+        CHECK(sorted.rasterized() == given.rasterized);
+        CHECK(sorted.masked() == given.masked);
+        CHECK(sorted.alpha_killed() == given.faint);
+        CHECK(sorted.size() == given.rasterized - given.masked - given.faint);
+        std::uint64_t wrong = 0;
+        auto one = std::make_unique<strata::rasterizer::FragmentBatch>();
+        for (std::size_t p = 0; p < column_pixels; ++p) {
+            const auto words = sorted.of(p);
+            REQUIRE(words.size() == given.columns[p].size());
+            for (std::size_t k = 0; k < words.size(); ++k) {
+                const auto place = static_cast<std::uint32_t>(words[k]);
+                given.store.fetch({&place, 1}, {.code = true, .color = true}, *one);
+                const SortedArrival& expected = given.columns[p][k];
+                wrong +=
+                    one->code[0] == expected.key && one->color[0][0] == expected.red && words[k] >> 32 == expected.key
+                        ? 0
+                        : 1;
+            }
+        }
+        INFO(codes << " codes");
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("a bound is found wherever its finger stood, and as many fragments pass as a depth buffer lets through") {
+    Random random{18};
+    StoredColumns given;
+    fill_columns(random, 60, 40, given);
+    SortedFragments sorted;
+    REQUIRE(sorted.sort(given.store, without_faint, column_pixels, std::uint64_t{64} << 20));
+    std::uint64_t wrong_bounds = 0, wrong_counts = 0;
+    for (int look = 0; look < 40'000; ++look) {
+        const auto p = static_cast<std::size_t>(random_int(random, 0, column_pixels - 1));
+        const auto words = sorted.of(p);
+        const auto bound = [&] {
+            const auto key = static_cast<std::uint64_t>(random_int(random, 0, 41));
+            return key == 41 ? std::uint64_t{1} << 32 : key;
+        };
+        const std::uint64_t low = bound();
+        const std::uint64_t high = bound();
+        const std::uint32_t first = sorted.below(p, low, SortedFragments::Finger::low);
+        const std::uint32_t last = sorted.below(p, high, SortedFragments::Finger::high);
+        const auto count = [&](std::uint64_t key) {
+            return std::count_if(words.begin(), words.end(), [&](std::uint64_t w) { return w >> 32 < key; });
+        };
+        wrong_bounds += first == count(low) && last == count(high) ? 0 : 1;
+        const std::uint32_t expected = first < last ? passing_one_by_one(words, first, last) : 0;
+        wrong_counts += sorted.passing(p, first, last) == expected ? 0 : 1;
+    }
+    CHECK(wrong_bounds == 0);
+    CHECK(wrong_counts == 0);
+}
+
+TEST_CASE("what has no order, or no room, is not sorted") {
+    Random random{19};
+    StoredColumns given;
+    fill_columns(random, 10, 40, given);
+    SortedFragments sorted;
+    const std::uint64_t needed = given.store.used_bytes() + 12 * given.rasterized + 32 * column_pixels;
+    CHECK_FALSE(sorted.sort(given.store, {}, column_pixels, needed - 1));
+    CHECK(sorted.sort(given.store, {}, column_pixels, needed));
+    CHECK(sorted.sort(given.store, {.key = DepthKey::shader_z}, column_pixels, needed));
+    auto batch = std::make_unique<strata::rasterizer::FragmentBatch>();
+    strata::rasterizer::Lanes<std::uint32_t> alive{};
+    alive.fill(~0u);
+    batch->count = 1;
+    batch->pixel[0] = 3;
+    batch->code[0] = std::bit_cast<std::uint32_t>(-0.5f);
+    batch->shader_z[0] = std::bit_cast<float>(0x7fc00000u);
+    given.store.start({.shader_z = true, .code = true, .color = false}, std::uint64_t{64} << 20);
+    given.store.append(*batch, alive);
+    given.store.finish();
+    CHECK_FALSE(sorted.sort(given.store, {.key = DepthKey::shader_z}, column_pixels, std::uint64_t{64} << 20));
+    CHECK_FALSE(sorted.sort(given.store, {.is_float = true}, column_pixels, std::uint64_t{64} << 20));
+    CHECK(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+}
