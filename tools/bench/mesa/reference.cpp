@@ -50,19 +50,24 @@ std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup,
     return counts;
 }
 
-Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job) {
+Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
+                const TargetFormats& formats, int max_passes) {
     const bool depth = job == "depth";
     peeling::RenderOptions options;
     options.width = subject.size.width;
     options.height = subject.size.height;
     options.alpha = subject.alpha;
+    options.color_format = formats.color;
+    options.depth = pipeline::depth_format(formats.depth);
+    options.max_passes = max_passes;
     options.threads = subject.threads;
     // The audit compares nothing here, and the nearest depth is wanted for `depth` alone.
     options.audit = false;
     options.nearest_depth = depth;
     peeling::Renderer renderer(subject.scene.list, subject.view, profile, options);
-    // Any algorithm finds the nearest depths; weighted_average takes one pass.
-    auto result = renderer.render(*peeling::find_algorithm(depth ? "weighted_average" : job));
+    // weighted_average finds the nearest binary32 depths in one pass; codes of fixed point are those that a peel stores.
+    const char* const finder = formats.depth == pipeline::Format::d32f ? "weighted_average" : "front_to_back";
+    auto result = renderer.render(*peeling::find_algorithm(depth ? finder : job));
     return {depth ? std::move(result.frame.depth) : std::move(result.frame.color), result.frame.passes.geometry};
 }
 

@@ -9,7 +9,7 @@
 #include "pipeline/formats/image.h"
 #include "rasterizer/set_up/geometry.h"
 #include "scenes/scene.h"
-#include "tools/bench/mesa/objects.h"
+#include "tools/bench/mesa/job.h"
 
 namespace strata::mesa {
 
@@ -38,7 +38,8 @@ struct Rendered {
     pipeline::Image image;  // depth: the nearest depth of every pixel; else the colours
     int geometry_passes = 0;
 };
-// `job` is a name of job_names(). No audit runs.
-[[nodiscard]] Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job);
+// `job` is a name of job_names(). No audit runs. max_passes 0: to the end.
+[[nodiscard]] Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
+                              const TargetFormats& formats = {}, int max_passes = 0);
 
 }  // namespace strata::mesa
