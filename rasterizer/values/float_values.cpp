@@ -6,17 +6,12 @@
 #include "rasterizer/values/fragment_values.h"
 
 namespace strata::rasterizer {
-namespace {
-
 // The plane's values at fragments [first, batch.count).
-void fill_plane(PlaneRule rule, const FloatPlane& plane, int first, const FragmentBatch& batch, float* out) noexcept {
-    for (int i = first; i < batch.count; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        out[i - first] = plane.at(rule, batch.x[k], batch.y[k]);
-    }
+void FragmentValues::fill_plane(const FloatPlane& plane, int first, const FragmentBatch& batch,
+                                float* out) const noexcept {
+    const auto f = static_cast<std::size_t>(first);
+    kernels_.float_plane(rules_.plane_rule, plane, &batch.x[f], &batch.y[f], batch.count - first, out);
 }
-
-}  // namespace
 
 void FragmentValues::fill_float_z(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                   FragmentBatch& batch) const noexcept {
@@ -24,7 +19,7 @@ void FragmentValues::fill_float_z(const SetupTriangle& t, const DrawnTriangle& t
     for (std::size_t i = 0; i < 3; ++i) z[i] = static_cast<float>(t.z[i]) / static_cast<float>(z_units_);
     float* const out = &batch.shader_z[static_cast<std::size_t>(first)];
     const FloatPlanes planes = float_planes(triangle.geometry, triangle.record);
-    fill_plane(rules_.plane_rule, planes.plane(z), first, batch, out);
+    fill_plane(planes.plane(z), first, batch, out);
     for (int i = 0; i < batch.count - first; ++i) out[i] = std::min(out[i] > 0.0f ? out[i] : 0.0f, 1.0f);
 }
 
@@ -40,8 +35,8 @@ void FragmentValues::fill_float_attributes(const DrawnTriangle& triangle, int fi
     }
     const int count = batch.count - first;
     const bool multiplies = rules_.perspective == PerspectiveDivide::reciprocal;
-    Lanes<float> divisor;
-    fill_plane(rules_.plane_rule, planes.plane(w), first, batch, divisor.data());
+    alignas(64) Lanes<float> divisor;
+    fill_plane(planes.plane(w), first, batch, divisor.data());
     for (std::size_t i = 0; multiplies && i < static_cast<std::size_t>(count); ++i) divisor[i] = 1.0f / divisor[i];
     const std::size_t begin = needs_.color ? 0 : color_channels;
     const std::size_t end = needs_.texcoord ? attribute_count : color_channels;
@@ -55,7 +50,7 @@ void FragmentValues::fill_float_attributes(const DrawnTriangle& triangle, int fi
         }
         auto& lanes = a < color_channels ? batch.color[a] : batch.texcoord[a - color_channels];
         float* const out = &lanes[static_cast<std::size_t>(first)];
-        fill_plane(rules_.plane_rule, planes.plane(over_w), first, batch, out);
+        fill_plane(planes.plane(over_w), first, batch, out);
         for (int i = 0; i < count; ++i) {
             const float d = divisor[static_cast<std::size_t>(i)];
             out[i] = multiplies ? out[i] * d : out[i] / d;

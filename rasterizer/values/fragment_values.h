@@ -81,6 +81,7 @@ class FragmentValues {
                                      FragmentBatch& batch, const WeightLanes& weights) const;
     [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
     // Depth and attributes by another PlaneRule than the exact plane (float_values.cpp).
+    void fill_plane(const FloatPlane& plane, int first, const FragmentBatch& batch, float* out) const noexcept;
     void fill_float_z(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                       FragmentBatch& batch) const noexcept;
     void fill_float_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;

@@ -30,7 +30,8 @@ struct Options {
     std::vector<std::string> algorithms;
     int threads = 2, repeat = 3;
     double budget = 10, warm_up = 0.3;
-    bool check = false, compare = false, each_pass = false;
+    bool check = false, compare = false;
+    int each_pass = 0;
     TargetFormats formats;
 };
 
@@ -117,7 +118,7 @@ ordered_json compare_each_pass(const Job& job, const Options& options, const Sub
                                const pipeline::DeviceProfile& profile, int passes) {
     std::vector<std::uint32_t> pixels;
     std::size_t differ = 0, pictures = 0;
-    for (int most = 1; most < passes; ++most, ++pictures) {
+    for (int most = 1; most < std::min(passes, options.each_pass + 1); ++most, ++pictures) {
         static_cast<void>(job.draw(pixels, most));
         const Rendered ours = render(subject, profile, job.name, options.formats, most);
         differ += pixels_that_differ(as_image(job, subject.size, pixels), ours.image);
@@ -137,7 +138,7 @@ void run(const Job& job, const Options& options, const Subject& subject, const p
                           {"differ", pixels_that_differ(image, ours.image)},
                           {"largest_difference", largest_difference(image, ours.image)}};
     }
-    if (options.each_pass)
+    if (options.each_pass > 0)
         line["each_pass"] = compare_each_pass(job, options, subject, profile, line["geometry_passes"].get<int>());
     fmt::print("{}\n", line.dump());
     std::fflush(stdout);
@@ -148,14 +149,15 @@ void run(const Job& job, const Options& options, const Subject& subject, const p
 // The number of pixels in which the two programs draw another number of fragments.
 std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, const Options& options, Size size,
                   const pipeline::DeviceProfile& profile) {
-    const auto theirs = count_fragments(scene, size), ours = count_fragments(soup, profile, size);
+    const std::vector<std::uint32_t> theirs = count_fragments(scene, size);
+    const auto [ours, clipped] = count_fragments(soup, profile, size);
     std::size_t differ = 0, first = 0;
     std::uint64_t fragments = 0;
     for (std::size_t i = 0; i < ours.size(); ++i) {
         fragments += theirs[i];
         if (ours[i] != theirs[i] && differ++ == 0) first = i;
     }
-    ordered_json line{{"pixels", ours.size()}, {"differ", differ}, {"fragments", fragments}};
+    ordered_json line{{"pixels", ours.size()}, {"differ", differ}, {"fragments", fragments}, {"clipped", clipped}};
     const auto width = static_cast<std::size_t>(size.width);
     if (differ > 0)
         line["first"] = {
@@ -214,7 +216,8 @@ void add_options(CLI::App& app, Options& o) {
         ->transform(CLI::CheckedTransformer(colors));
     app.add_option("--depth", o.formats.depth, "the format of depths: d32f (default), d24 or d16")
         ->transform(CLI::CheckedTransformer(depths));
-    app.add_flag("--each-pass", o.each_pass, "compare the pictures after every number of passes, too");
+    app.add_option("--each-pass", o.each_pass, "compare the pictures after 1, 2 ... so many passes, too")
+        ->check(CLI::NonNegativeNumber);
     app.add_flag("--compare", o.compare, "compare passes and pictures with Strata's");
     app.add_option("--coverage", o.coverage, "write the number of fragments of every pixel: u32, rows from the top");
     app.add_option("--image", o.image, "write the last colour picture, .png or .exr");

@@ -32,8 +32,8 @@ rasterizer::TriangleSoup clip_vertices(const Subject& subject) {
                                {.alpha_scale = subject.alpha.value_or(1.0f), .threads = subject.threads});
 }
 
-std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
-                                           Size size) {
+FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
+                               Size size) {
     rasterizer::RasterState state;
     // Row 0 is the top on both sides: strata_mesa sets GL_UPPER_LEFT.
     state.viewport = {0, 0, size.width, size.height};
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup,
     rasterizer::TileRasterizer(state.viewport)
         .draw(geometry, triangles, {}, {.shader_z = false, .code = false, .color = false},
               rasterizer::BatchSink{count});
-    return counts;
+    return {std::move(counts), geometry.counters.clipped};
 }
 
 Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,

@@ -29,9 +29,13 @@ struct Subject {
 [[nodiscard]] rasterizer::TriangleSoup clip_vertices(const Subject& subject);
 
 // How many fragments of `soup` each pixel has under the profile's coverage rules, rows from the
-// top. No test drops any.
-[[nodiscard]] std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup,
-                                                         const pipeline::DeviceProfile& profile, Size size);
+// top, and how many triangles were cut. No test drops any fragment.
+struct FragmentCounts {
+    std::vector<std::uint32_t> pixels;
+    std::uint64_t clipped = 0;
+};
+[[nodiscard]] FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup,
+                                             const pipeline::DeviceProfile& profile, Size size);
 
 // Strata's picture of a job.
 struct Rendered {
