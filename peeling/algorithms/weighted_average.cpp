@@ -38,7 +38,7 @@ Target accumulate(Region& region, Target sums, Target count) {
 // Reads sums, count and background.
 StuckPixels resolve(Region& region, const PassState& state) {
     constexpr std::array reads{Format::rgba16f, Format::r16f, Format::rgba8};
-    if (resolves_words())
+    if (resolves_words() && region.profile().rounds_codes_once())
         if (const auto words = RegionShortcuts{region}.full_screen_words(state, reads, Format::rgba8))
             return resolve_average_words(*words);
     const bool half_count = region.storage(state.reads[1]).format() == Format::r16f;

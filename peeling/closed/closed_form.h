@@ -18,13 +18,14 @@ namespace strata::peeling {
 [[nodiscard]] bool front_to_back_closed(pipeline::Region& region);
 
 // True if the frame is peeled to its end: every layer answers the query, all passes see the same depth of a fragment,
-// and the caller keeps no single layers. A closed form declines every other frame, and one without memory for
+// the caller keeps no single layers, and the device rounds 8-bit codes once. A closed form declines every other frame, and one without memory for
 // fragments.
 [[nodiscard]] inline bool peels_to_the_end(const pipeline::Frame& frame) {
     using pipeline::TerminationRule;
     const bool exact =
         frame.termination.rule == TerminationRule::exact || frame.termination.rule == TerminationRule::any;
-    return frame.is_invariant() && frame.replay.bytes > 0 && exact && frame.max_passes == 0 && !frame.keep_layers;
+    return frame.profile->rounds_codes_once() && frame.is_invariant() && frame.replay.bytes > 0 && exact &&
+           frame.max_passes == 0 && !frame.keep_layers;
 }
 
 // The pixels of a block whose columns hold a depth twice, or all of them.

@@ -77,14 +77,17 @@ DeviceProfile ideal() {
     return p;
 }
 
-// A software rasterizer to run side by side with: which fragments it draws is measured (tools/bench/README.md).
-DeviceProfile llvmpipe() {
+// Mesa's software rasterizers, to run side by side with: what is set here is measured (mesa-rasterizers.md).
+DeviceProfile mesa() {
     DeviceProfile p = geforce8_dx101();
-    p.name = "llvmpipe";
-    p.description = "no device: Mesa 22.3's llvmpipe, whose fragments tools/bench compares with ours";
-    p.raster.tie_rule = TieRule::bottom_left;
+    p.raster.clip = ClipVolume::view_volume;
     p.raster.w_divide = WDivide::reciprocal;
     p.raster.plane_origin = PlaneOrigin::unsnapped;
+    p.raster.perspective = PerspectiveDivide::reciprocal;
+    p.raster.depth_rounding = DepthRounding::product_even;
+    p.half_rounding = HalfRounding::toward_zero;
+    p.unorm_rounding = UnormRounding::product_even;
+    p.blend_rounding = BlendRounding::each_product;
     p.has_d16 = true;
     p.max_texture_units = 32;
     p.max_viewport_px = 16384;
@@ -92,17 +95,47 @@ DeviceProfile llvmpipe() {
     return p;
 }
 
+DeviceProfile llvmpipe() {
+    DeviceProfile p = mesa();
+    p.name = "llvmpipe";
+    p.description = "no device: Mesa 22.3's llvmpipe on a processor with fused multiply-add";
+    p.raster.tie_rule = TieRule::bottom_left;
+    p.raster.viewport = ViewportArithmetic::fused_given;
+    p.raster.plane_rule = PlaneRule::reciprocal_area_fused;
+    return p;
+}
+
+DeviceProfile llvmpipe_sse() {
+    DeviceProfile p = llvmpipe();
+    p.name = "llvmpipe_sse";
+    p.description = "no device: Mesa 22.3's llvmpipe on a processor without fused multiply-add";
+    p.raster.viewport = ViewportArithmetic::separate;
+    p.raster.plane_rule = PlaneRule::reciprocal_area;
+    return p;
+}
+
+DeviceProfile softpipe() {
+    DeviceProfile p = mesa();
+    p.name = "softpipe";
+    p.description = "no device: Mesa 22.3's softpipe in coverage and depth; its colours are not known";
+    p.raster.coverage = CoverageRule::float_spans;
+    p.raster.plane_rule = PlaneRule::least_corner;
+    p.max_samples = 1;
+    return p;
+}
+
 // Column of ProfileField::source.
 int source_column(std::string_view name) {
     if (name == "geforce3") return 0;
     if (name == "geforce8" || name == "geforce8_dx101") return 1;
-    return name == "llvmpipe" ? 3 : 2;
+    return name == "ideal" ? 2 : 3;
 }
 
 }  // namespace
 
 const std::vector<DeviceProfile>& builtin_profiles() {
-    static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(), geforce8_dx101(), ideal(), llvmpipe()};
+    static const std::vector<DeviceProfile> profiles{geforce3(), geforce8(),     geforce8_dx101(), ideal(),
+                                                     llvmpipe(), llvmpipe_sse(), softpipe()};
     return profiles;
 }
 

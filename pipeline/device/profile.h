@@ -5,16 +5,16 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/format.h"
-#include "pipeline/formats/half.h"
 #include "rasterizer/rules/rules.h"
 
 namespace strata::pipeline {
 
 // The alpha test compares 8-bit codes always, or on 8-bit targets alone (fragment-stages.md 3).
 enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
-// How the exact sum of an 8-bit blend becomes a code: half up, or cut (fragment-stages.md 8.2).
-enum class BlendRounding : std::uint8_t { nearest, truncate };
+// How an 8-bit blend becomes a code: its exact sum half up, or cut; or each product by itself (fragment-stages.md 8.2).
+enum class BlendRounding : std::uint8_t { nearest, truncate, each_product };
 // The result of MIN and MAX of one NaN and one number (fragment-stages.md 9.3).
 enum class MinMaxNan : std::uint8_t { other_operand, propagate };
 // Whether binary32 blending turns operands and results below 2^-126 into zeros (fragment-stages.md 9.1).
@@ -35,6 +35,7 @@ struct DeviceProfile {
     AlphaTestPrecision alpha_test = AlphaTestPrecision::by_target;
     BlendRounding blend_rounding = BlendRounding::nearest;
     HalfRounding half_rounding = HalfRounding::nearest_even;
+    UnormRounding unorm_rounding = UnormRounding::half_up;
     MinMaxNan min_max_nan = MinMaxNan::other_operand;
     DenormalRule denormals = DenormalRule::flush;
     TextureFilterPrecision texture_filter = TextureFilterPrecision::single;
@@ -76,6 +77,12 @@ struct DeviceProfile {
     int max_viewport_px = 4096;
     int max_samples = 1;
     friend bool operator==(const DeviceProfile&, const DeviceProfile&) = default;
+
+    [[nodiscard]] ColorRounding color_rounding() const noexcept { return {half_rounding, unorm_rounding}; }
+    // Whether 8-bit targets follow one of the rules that kernels beside the stages know: one rounding of the exact value.
+    [[nodiscard]] bool rounds_codes_once() const noexcept {
+        return unorm_rounding == UnormRounding::half_up && blend_rounding != BlendRounding::each_product;
+    }
 
     // Whether depth buffers of that format exist; d24s8 is a d24 with stencil beside it.
     [[nodiscard]] bool has_depth(DepthFormat f) const noexcept {

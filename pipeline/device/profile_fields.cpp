@@ -105,12 +105,16 @@ constexpr std::array fields{
                                     "[S] coverage.md 1.2: D3D 11.3 3.4.1", ours, drawn}),
     choice<&Rules::snap>("raster.snap", {"[M] coverage.md 4.1: 0.5624 lands on 0.5",
                                          "[A] coverage.md 4.1: 0.6 ULP is allowed, the ideal is taken", ours, drawn}),
+    choice<&Rules::coverage>("raster.coverage", {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels",
+                                                 "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
     choice<&Rules::tie_rule>("raster.tie_rule", {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels",
                                                  "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
     integer<&Rules::guard_band_px>(
         "raster.guard_band_px", {1, 32768},
         {"[A] coverage.md 1.3: the fixed-point range", "[S] coverage.md 1.3: D3D 11.3 15.6.1", ours,
          "[A] Mesa cuts at the viewport: compare scenes that lie inside it"}),
+    choice<&Rules::clip>("raster.clip", {"[A] coverage.md 2.3: the guard band", "[S] coverage.md 1.3: D3D 11.3 15.6.1",
+                                         ours, "[M] mesa-rasterizers.md 1.2"}),
     choice<&Rules::z_clip>("raster.z_clip", {"[M] depth.md 5.2: fragments outside zmin..zmax are discarded",
                                              "[S] depth.md 5.2: D3D 11.3 15.4", ours, "[S] OpenGL 4.5 13.7"}),
     choice<&Rules::w_clip>("raster.w_clip",
@@ -121,6 +125,12 @@ constexpr std::array fields{
     choice<&Rules::plane_origin>("raster.plane_origin", {"[M] chip-geometry.md 2.2: 99.80 % of 65,536 pixels",
                                                          "[S] depth.md 3.7: D3D 11.3 15.16.2", ours,
                                                          "[M] Mesa 22.3: planes start at the float32 positions"}),
+    choice<&Rules::plane_rule>(
+        "raster.plane_rule", {"[A] depth.md 3.1: the exact plane, rounded once",
+                              "[A] depth.md 3.1: the exact plane, rounded once", ours, "[M] mesa-rasterizers.md 2.4"}),
+    choice<&Rules::perspective>(
+        "raster.perspective", {"[A] attributes.md 1.1: a quotient rounded once",
+                               "[A] attributes.md 1.1: a quotient rounded once", ours, "[M] mesa-rasterizers.md 2.5"}),
     choice<&Rules::window_z>("raster.window_z", {"[M] chip-depth.md 1.4", "[A] coverage.md 3.4", ours, unmeasured}),
     choice<&Rules::depth_path>("raster.depth_path",
                                {"[M] chip-depth.md 1.1: 4,927,976 of 4,927,976 words",
@@ -166,6 +176,9 @@ constexpr std::array fields{
     choice<&Profile::half_rounding>(
         "half_rounding", {"[A] formats.md 3.2: no float targets",
                           "[A] formats.md 3.2: GL and NV round to nearest, D3D allows zero", ours, unmeasured}),
+    choice<&Profile::unorm_rounding>(
+        "unorm_rounding", {"[S] formats.md 2.1: D3D 11.3 3.2.3.6", "[S] formats.md 2.1: D3D 11.3 3.2.3.6", ours,
+                           "[M] mesa-rasterizers.md 2.6: 0 of 303,960 channels wrong"}),
     choice<&Profile::min_max_nan>(
         "min_max_nan", {"[A] fragment-stages.md 9.3: no float targets",
                         "[A] fragment-stages.md 9.3: D3D 11.3 22.10.10, envytools fp32_minmax", ours, unmeasured}),

@@ -7,9 +7,8 @@
 #include <cassert>
 #include <cstdint>
 
+#include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/format.h"
-#include "pipeline/formats/half.h"
-#include "pipeline/formats/unorm8.h"
 #include "rasterizer/coverage/fragment_batch.h"
 
 namespace strata::pipeline {
@@ -17,7 +16,7 @@ namespace strata::pipeline {
 // Lanes [0, count), and scratch up to the next multiple of 16; `type` is unorm8, half or single.
 void decode(ChannelType type, const rasterizer::Lanes<std::uint32_t>& codes, rasterizer::Lanes<float>& values,
             int count) noexcept;
-void encode(ChannelType type, HalfRounding rounding, const rasterizer::Lanes<float>& values,
+void encode(ChannelType type, ColorRounding rounding, const rasterizer::Lanes<float>& values,
             rasterizer::Lanes<std::uint32_t>& codes, int count) noexcept;
 
 inline namespace strict {
@@ -27,6 +26,11 @@ namespace scalar {
 template <HalfRounding rounding>
 void encode_half(const float* __restrict values, std::uint32_t* __restrict codes, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) codes[i] = to_half<rounding>(values[i]);
+}
+
+template <UnormRounding rounding>
+void encode_unorm8(const float* __restrict values, std::uint32_t* __restrict codes, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) codes[i] = to_unorm8<rounding>(values[i]);
 }
 
 // The type is chosen once for a batch; each case is a loop that compilers vectorise.
@@ -48,14 +52,15 @@ inline void decode(ChannelType type, const std::uint32_t* __restrict codes, floa
     assert(!"depth and stencil targets have no colour channels");
 }
 
-inline void encode(ChannelType type, HalfRounding rounding, const float* __restrict values,
+inline void encode(ChannelType type, ColorRounding rounding, const float* __restrict values,
                    std::uint32_t* __restrict codes, std::size_t count) noexcept {
     switch (type) {
         case ChannelType::unorm8:
-            for (std::size_t i = 0; i < count; ++i) codes[i] = to_unorm8(values[i]);
-            return;
+            if (rounding.unorm == UnormRounding::half_up)
+                return encode_unorm8<UnormRounding::half_up>(values, codes, count);
+            return encode_unorm8<UnormRounding::product_even>(values, codes, count);
         case ChannelType::half:
-            if (rounding == HalfRounding::nearest_even)
+            if (rounding.half == HalfRounding::nearest_even)
                 return encode_half<HalfRounding::nearest_even>(values, codes, count);
             return encode_half<HalfRounding::toward_zero>(values, codes, count);
         case ChannelType::single:

@@ -1,7 +1,7 @@
 // pipeline/formats/unorm8.h - 8-bit normalised colour: the code k means k / 255.
 //
-// Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product. From UNORM8: k / 255,
-//          rounded once.
+// Rule     to UNORM8: NaN is 0, clamp to [0,1], floor(255 x + 1/2) of the exact product; UnormRounding::product_even: 255 x
+//          rounded to binary32, and that to the nearest even code. From UNORM8: k / 255, rounded once.
 // Source   formats.md 2 (D3D 11.3 3.2.3.5 and 3.2.3.6, GL 2.1 2.14.9).
 // Numbers  255 x has at most 32 significant bits: exact in binary64. Where adding 1/2 rounds, x is far from every
 //          half code.
@@ -18,10 +18,30 @@
 namespace strata::pipeline {
 inline namespace strict {
 
+// How a binary32 value becomes an 8-bit code.
+enum class UnormRounding : std::uint8_t { half_up, product_even };
+
+// x within [0,1]; 0 for NaN.
+[[nodiscard]] constexpr float unorm_clamped(float x) noexcept {
+    const std::uint32_t positive = std::bit_cast<std::uint32_t>(x) & mask(x > 0.0f);  // orders like x
+    return std::bit_cast<float>(std::min(static_cast<std::int32_t>(positive), std::bit_cast<std::int32_t>(1.0f)));
+}
+
+template <UnormRounding rounding = UnormRounding::half_up>
 [[nodiscard]] constexpr std::uint8_t to_unorm8(float x) noexcept {
-    const std::uint32_t positive = std::bit_cast<std::uint32_t>(x) & mask(x > 0.0f);  // 0 for NaN; orders like x
-    const auto clamped = std::min(static_cast<std::int32_t>(positive), std::bit_cast<std::int32_t>(1.0f));
-    return static_cast<std::uint8_t>(static_cast<std::int32_t>(double{std::bit_cast<float>(clamped)} * 255.0 + 0.5));
+    const float clamped = unorm_clamped(x);
+    if constexpr (rounding == UnormRounding::half_up)
+        return static_cast<std::uint8_t>(static_cast<std::int32_t>(double{clamped} * 255.0 + 0.5));
+    const float product = clamped * 255.0f;
+    // The unit in the last place of a sum with this number is 1.
+    constexpr float round_at_one = 0x1.8p23f;
+    const float code = (product + round_at_one) - round_at_one;
+    return static_cast<std::uint8_t>(static_cast<std::int32_t>(code));
+}
+
+[[nodiscard]] constexpr std::uint8_t to_unorm8(float x, UnormRounding rounding) noexcept {
+    return rounding == UnormRounding::half_up ? to_unorm8<UnormRounding::half_up>(x)
+                                              : to_unorm8<UnormRounding::product_even>(x);
 }
 
 [[nodiscard]] constexpr float from_unorm8(std::uint8_t code) noexcept {

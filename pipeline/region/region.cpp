@@ -85,7 +85,7 @@ void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_m
     TargetStorage& storage = at(target);
     const Format format = storage.format();
     if (is_color(format)) {
-        storage.fill(color_codes(format, profile().half_rounding, value.color), sample_mask);
+        storage.fill(color_codes(format, profile().color_rounding(), value.color), sample_mask);
     } else if (is_depth(format)) {
         // D32F is cleared as it is on devices with NV_depth_buffer_float's unclamped clear, clamped elsewhere (formats.md 5.5).
         const bool unclamped = format == Format::d32f && profile().has_unclamped_depth_clear;

@@ -89,7 +89,7 @@ Target RegionShortcuts::nearest_depth() {
 
 void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba& color) {
     TargetStorage& to = region_.at(target);
-    const auto codes = color_codes(to.format(), region_.profile().half_rounding, color);
+    const auto codes = color_codes(to.format(), region_.profile().color_rounding(), color);
     RegionScratch& s = *region_.scratch_;
     Lanes<std::uint32_t>& index = s.depth_stored;  // one lane of it
     index[0] = pixel;

@@ -9,12 +9,14 @@
 namespace strata::pipeline {
 
 // The conversion of a write without blending (formats.md 7).
-std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color) {
+std::array<std::uint32_t, 4> color_codes(Format format, ColorRounding rounding, const Rgba& color) {
     std::array<std::uint32_t, 4> codes{};
     for (std::size_t c = 0; c < 4; ++c) {
         switch (info(format).type) {
-            case ChannelType::unorm8: codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c])); break;
-            case ChannelType::half: codes[c] = to_half(color[c], rounding); break;
+            case ChannelType::unorm8:
+                codes[c] = narrowed(format, static_cast<int>(c), to_unorm8(color[c], rounding.unorm));
+                break;
+            case ChannelType::half: codes[c] = to_half(color[c], rounding.half); break;
             case ChannelType::single: codes[c] = std::bit_cast<std::uint32_t>(color[c]); break;
             case ChannelType::depth:
             case ChannelType::stencil: break;

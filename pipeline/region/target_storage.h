@@ -76,6 +76,6 @@ class TargetStorage {
 };
 
 // The codes that a colour target of this format stores for a colour, channel by channel; 0 for depth and stencil.
-[[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, HalfRounding rounding, const Rgba& color);
+[[nodiscard]] std::array<std::uint32_t, 4> color_codes(Format format, ColorRounding rounding, const Rgba& color);
 
 }  // namespace strata::pipeline

@@ -42,9 +42,9 @@ struct PlainHalves {
 
 // The rounding of a store: `Halves` knows the nearest even one alone.
 template <class Halves>
-void store(ChannelType type, HalfRounding rounding, const float* values, std::uint32_t* codes,
+void store(ChannelType type, ColorRounding rounding, const float* values, std::uint32_t* codes,
            std::size_t count) noexcept {
-    if (type == ChannelType::half && rounding == HalfRounding::nearest_even)
+    if (type == ChannelType::half && rounding.half == HalfRounding::nearest_even)
         return Halves::encode_nearest(values, codes, count);
     encode(type, rounding, values, codes, count);
 }
@@ -71,15 +71,15 @@ void blend_channels(const Job& job, const std::array<float, 4>& constant, const 
 }
 
 // 8-bit targets: codes are loaded as whole numbers in binary32, blended, and stored again.
-template <BlendRounding rounding>
+template <BlendRounding rounding, UnormRounding to_code>
 void blend_unorm8(const Job& job) noexcept {
     alignas(64) ColorLanes s, d;
     std::array<float, 4> constant{};
     for (int channel = 0; channel < 4; ++channel) {
         const auto c = static_cast<std::size_t>(channel);
-        constant[c] = static_cast<float>(to_unorm8(job.state.constant[c]));
+        constant[c] = static_cast<float>(to_unorm8<to_code>(job.state.constant[c]));
         if (job.writes(channel) || channel == 3)
-            load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8(x)}); });
+            load(job.src[c], s[c], job.count, [](float x) { return static_cast<float>(int{to_unorm8<to_code>(x)}); });
         // The mask is for lanes beyond the batch, which fill up a vector and may hold any 32 bits.
         if (channel < job.channels)
             load(job.codes[c], d[c], job.count,
@@ -91,6 +91,15 @@ void blend_unorm8(const Job& job) noexcept {
         for (std::size_t i = 0; i < job.count; ++i)
             job.codes[c][i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(out[i]));
     });
+}
+
+template <UnormRounding to_code>
+void blend_unorm8(const Job& job, BlendRounding rounding) noexcept {
+    switch (rounding) {
+        case BlendRounding::nearest: return blend_unorm8<BlendRounding::nearest, to_code>(job);
+        case BlendRounding::truncate: return blend_unorm8<BlendRounding::truncate, to_code>(job);
+        case BlendRounding::each_product: return blend_unorm8<BlendRounding::each_product, to_code>(job);
+    }
 }
 
 // Float targets: operands are widened and flushed once, each result is rounded to its format once.
@@ -136,13 +145,13 @@ void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, i
     if (!state.enabled) {
         for (std::size_t c = 0; c < 4; ++c)
             if (job.writes(static_cast<int>(c)))
-                store<Halves>(type, profile.half_rounding, src[c].data(), codes[c].data(), count);
+                store<Halves>(type, profile.color_rounding(), src[c].data(), codes[c].data(), count);
     } else if (type != ChannelType::unorm8) {
         blend_float<Halves>(job, type, profile);
-    } else if (profile.blend_rounding == BlendRounding::nearest) {
-        blend_unorm8<BlendRounding::nearest>(job);
+    } else if (profile.unorm_rounding == UnormRounding::half_up) {
+        blend_unorm8<UnormRounding::half_up>(job, profile.blend_rounding);
     } else {
-        blend_unorm8<BlendRounding::truncate>(job);
+        blend_unorm8<UnormRounding::product_even>(job, profile.blend_rounding);
     }
 }
 

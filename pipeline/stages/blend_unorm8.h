@@ -1,7 +1,8 @@
 // pipeline/stages/blend_unorm8.h - blending on 8-bit normalised targets: integers, one rounding.
 //
 // Rule     The source becomes 8 bits first. With s, d and the factors F, G as codes (1 - x is 255 - x):
-//          t = clamp(s F + d G, 0, 65025), then t / 255 rounded half up, or cut, by the profile. Signed equations:
+//          t = clamp(s F + d G, 0, 65025), then t / 255 rounded half up, or cut, by the profile. BlendRounding::each_product:
+//          s F and d G by themselves, (t + (t >> 8) + 128) >> 8 each, then their clamped sum. Signed equations:
 //          clamp(d +- s', 0, 255), s' the source code as two's complement.
 // Source   fragment-stages.md 8; measured on NV2A: 1,673 of 1,673 pictures (chip-fragment.md 1).
 // Numbers  Products <= 65025, sums within +-130050. The kernels hold these integers as binary32 values, where all of
@@ -23,7 +24,7 @@ inline namespace strict {
 // t / 255 for t in [0, 65025]; checked for every t. A half cannot occur, since 255 is odd.
 template <BlendRounding rounding>
 [[nodiscard]] constexpr std::int32_t over_255(std::int32_t t) noexcept {
-    const std::int32_t biased = t + (rounding == BlendRounding::nearest ? 128 : 1);
+    const std::int32_t biased = t + (rounding == BlendRounding::truncate ? 1 : 128);
     return (biased + (biased >> 8)) >> 8;
 }
 
@@ -47,6 +48,12 @@ struct Unorm8Arithmetic {
     }
     [[nodiscard]] static constexpr float clamped(float v) noexcept { return v < 0.0f ? 0.0f : v > 255.0f ? 255.0f : v; }
 
+    // a b / 255 by shifts: 24 of the 65,536 products miss the nearest code.
+    [[nodiscard]] static constexpr float product(float a, float b) noexcept {
+        const auto ab = static_cast<std::int32_t>(a * b);
+        return static_cast<float>((ab + (ab >> 8) + 128) >> 8);
+    }
+
     // keeps_s and keeps_d are there for the interface alone: s * 255 is a product like any other here.
     template <BlendEquation equation, bool keeps_s = false, bool keeps_d = false>
     [[nodiscard]] static constexpr float combine(float s, float F, float d, float G) noexcept {
@@ -54,6 +61,12 @@ struct Unorm8Arithmetic {
         if constexpr (equation == BlendEquation::max) return greater(s, d);
         if constexpr (equation == BlendEquation::signed_add) return clamped(d + signed_value(s));
         if constexpr (equation == BlendEquation::signed_reverse_subtract) return clamped(d - signed_value(s));
+        if constexpr (rounding == BlendRounding::each_product) {
+            const float source = product(s, F), destination = product(d, G);
+            if constexpr (equation == BlendEquation::add) return clamped(source + destination);
+            if constexpr (equation == BlendEquation::subtract) return clamped(source - destination);
+            if constexpr (equation == BlendEquation::reverse_subtract) return clamped(destination - source);
+        }
         // In units of 1/255^2; within +-130050, so exact.
         float sum = 0;
         if constexpr (equation == BlendEquation::add) sum = s * F + d * G;

@@ -269,7 +269,7 @@ bool add(const Texels& to, const PixelLanes& at, const Word* alive, const raster
     scalar::decode(type, codes, values, padded(count));
 }
 
-[[gnu::flatten]] void encode_lanes(ChannelType type, HalfRounding rounding, const float* values, std::uint32_t* codes,
+[[gnu::flatten]] void encode_lanes(ChannelType type, ColorRounding rounding, const float* values, std::uint32_t* codes,
                                    std::size_t count) {
     scalar::encode(type, rounding, values, codes, padded(count));
 }
@@ -336,7 +336,7 @@ void decode(ChannelType type, const rasterizer::Lanes<std::uint32_t>& codes, ras
     kernel_of(HWY_DISPATCH_TABLE(decode_lanes))(type, codes.data(), values.data(), n);
 }
 
-void encode(ChannelType type, HalfRounding rounding, const rasterizer::Lanes<float>& values,
+void encode(ChannelType type, ColorRounding rounding, const rasterizer::Lanes<float>& values,
             rasterizer::Lanes<std::uint32_t>& codes, int count) noexcept {
     const auto n = static_cast<std::size_t>(count);
     if (simd_is_scalar()) return scalar::encode(type, rounding, values.data(), codes.data(), n);

@@ -1,6 +1,6 @@
 // rasterizer/rules/depth_code.h - window depth to its stored code. Depth is compared on stored codes only.
 //
-// Rule     D16, D24: clamp to [0,1], scale by 2^n - 1, round by the profile's rule (a half goes up); NaN is 0.
+// Rule     D16, D24: clamp to [0,1], scale by 2^n - 1, round by the profile's rule (DepthRounding); NaN is 0.
 //          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned
 //          integers. D16F: depth 1 is its greatest value, 511.9375; the depth cut to 12 bits of mantissa, an exponent
 //          field of 0 flushed to 0, whatever the rule. The text of it all is depth_text-inl.h's.
@@ -19,12 +19,12 @@ namespace strata::rasterizer {
 
 // d16f: 4 bits of exponent, 12 of mantissa, no sign; values below its smallest normal one are 0.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f };
-// How a value becomes a fixed-point code: cut, or to nearest
-// with a half going up. The float formats do not look at it.
-enum class DepthRounding : std::uint8_t { floor, nearest };
+// How a value becomes a fixed-point code: cut; to nearest with a half going up; or scaled in binary32, and that product to
+// nearest with a half going to the even code. The float formats do not look at it.
+enum class DepthRounding : std::uint8_t { floor, nearest, product_even };
 
 // The ways in which formats make a code of a value.
-enum class CodeKind : std::uint8_t { fixed, binary32, d16f };
+enum class CodeKind : std::uint8_t { fixed, fixed_product, binary32, d16f };
 
 // How values of one unit become codes of one format. `Limit` is binary32 for values in [0,1], whose range it holds exactly.
 template <class Limit>
@@ -32,7 +32,9 @@ struct DepthConversion {
     CodeKind kind;
     Limit least, greatest;  // the depth range, in the values' unit
     double scale, half;     // the buffer's units in one of the values', and what rounding adds before the cut
-    [[nodiscard]] constexpr bool is_fixed() const noexcept { return kind == CodeKind::fixed; }
+    [[nodiscard]] constexpr bool is_fixed() const noexcept {
+        return kind == CodeKind::fixed || kind == CodeKind::fixed_product;
+    }
 };
 
 inline namespace strict {
@@ -70,7 +72,8 @@ inline constexpr float max_d16f = 511.9375f;
 // Depth 1.0 in the buffer's own units: 2^n - 1, 1, or 511.9375.
 [[nodiscard]] constexpr double buffer_units(DepthFormat format) noexcept {
     switch (code_kind(format)) {
-        case CodeKind::fixed: return max_code(format);
+        case CodeKind::fixed:
+        case CodeKind::fixed_product: return max_code(format);
         case CodeKind::binary32: return 1.0;
         case CodeKind::d16f: return max_d16f;
     }
@@ -107,6 +110,11 @@ struct OneLane {
     static constexpr std::uint32_t cut_sum(double v, double half) noexcept {
         return static_cast<std::uint32_t>(static_cast<std::int32_t>(v + half));  // vectors have no unsigned cast
     }
+    // A sum with this number has a unit of 1 in the last place.
+    static constexpr std::uint32_t nearest_even_of_product(double v) noexcept {
+        constexpr double round_at_one = 0x1.8p52;
+        return static_cast<std::uint32_t>((double{static_cast<float>(v)} + round_at_one) - round_at_one);
+    }
     static constexpr std::uint32_t cut_to_d16f(double v) noexcept { return to_d16f_code(v); }
 };
 
@@ -117,6 +125,7 @@ template <class Value>
 [[nodiscard]] constexpr std::uint32_t depth_code(Value z, const DepthConversion<Value>& to) noexcept {
     switch (to.kind) {
         case CodeKind::fixed: return depth_code<CodeKind::fixed>(OneLane<Value>{}, z, to);
+        case CodeKind::fixed_product: return depth_code<CodeKind::fixed_product>(OneLane<Value>{}, z, to);
         case CodeKind::binary32: return depth_code<CodeKind::binary32>(OneLane<Value>{}, z, to);
         case CodeKind::d16f: return depth_code<CodeKind::d16f>(OneLane<Value>{}, z, to);
     }
@@ -130,10 +139,11 @@ template <class Value>
 template <class Limit>
 [[nodiscard]] constexpr DepthConversion<Limit> depth_conversion(DepthFormat format, DepthRounding rounding, Limit units,
                                                                 float near = 0.0f, float far = 1.0f) noexcept {
-    const bool rounds = rounding == DepthRounding::nearest && code_kind(format) == CodeKind::fixed;
+    const bool is_fixed = code_kind(format) == CodeKind::fixed, rounds = rounding == DepthRounding::nearest && is_fixed;
+    const bool is_product = rounding == DepthRounding::product_even && is_fixed;
     const float n = range_limit(near), f = range_limit(far);
-    return {code_kind(format), std::min(n, f) * units, std::max(n, f) * units, buffer_units(format) / units,
-            rounds ? 0.5 : 0.0};
+    return {is_product ? CodeKind::fixed_product : code_kind(format), std::min(n, f) * units, std::max(n, f) * units,
+            buffer_units(format) / units, rounds ? 0.5 : 0.0};
 }
 
 // The code of one depth, clamped to [0,1] (depth.md 2.1 to 2.3).
@@ -144,7 +154,8 @@ template <class Limit>
 // A code in the buffer's own units, exact.
 [[nodiscard]] constexpr double buffer_value(std::uint32_t code, DepthFormat format) noexcept {
     switch (code_kind(format)) {
-        case CodeKind::fixed: return code;
+        case CodeKind::fixed:
+        case CodeKind::fixed_product: return code;
         case CodeKind::binary32: return double{std::bit_cast<float>(code)};
         case CodeKind::d16f: return double{d16f_value(code)};
     }

@@ -22,8 +22,17 @@ enum class ZClip : std::uint8_t { per_primitive, per_fragment };
 enum class WClip : std::uint8_t { clip, drop };
 // x / w, or x * (1 / w), or that with NV20's vertex arithmetic (nv20_arithmetic.h).
 enum class WDivide : std::uint8_t { quotient, reciprocal, nv20 };
-// Scale, then offset: two roundings, or one of both together (coverage.md 3.3).
-enum class ViewportArithmetic : std::uint8_t { separate, fused };
+// Scale, then offset: two roundings, or one of both together; fused_given: one for the vertices that were given, two for
+// the corners that clipping made (coverage.md 3.3).
+enum class ViewportArithmetic : std::uint8_t { separate, fused, fused_given };
+// Which pixels are covered: by exact edges of the snapped corners, or by spans stepped in binary32 (float_spans.h).
+enum class CoverageRule : std::uint8_t { snapped_edges, float_spans };
+// Where polygons are cut: at the guard band in binary64, or at the view volume in binary32 (coverage.md 2.8).
+enum class ClipVolume : std::uint8_t { guard_band, view_volume };
+// How the plane of a value is computed: exactly and rounded once, or step by step in binary32 (float_planes.h).
+enum class PlaneRule : std::uint8_t { exact, reciprocal_area, reciprocal_area_fused, least_corner };
+// A perspective attribute: its plane over that of 1 / w, or times the reciprocal of it (attributes.md 1.8).
+enum class PerspectiveDivide : std::uint8_t { quotient, reciprocal };
 // Planes of depth and attributes go through the snapped corners, or through the binary32 positions (depth.md 3.7).
 enum class PlaneOrigin : std::uint8_t { snapped, unsnapped };
 // The units of vertex z: depth 1 is 1, or the depth buffer's greatest value (coverage.md 3.4).
@@ -42,14 +51,18 @@ struct RasterRules {
     // n of the 1/2^n pixel: 4, 8 or 12.
     int subpixel_bits = 8;
     Snap snap = Snap::nearest_even;
-    TieRule tie_rule = TieRule::top_left;
+    CoverageRule coverage = CoverageRule::snapped_edges;
+    TieRule tie_rule = TieRule::top_left;  // of snapped edges
     // x and y beyond +- this many pixels are clipped; 1 to 32768, the range for which edge functions are exact.
     int guard_band_px = 32768;
+    ClipVolume clip = ClipVolume::guard_band;
     ZClip z_clip = ZClip::per_primitive;
     WClip w_clip = WClip::clip;
     WDivide w_divide = WDivide::quotient;
     ViewportArithmetic viewport = ViewportArithmetic::separate;
     PlaneOrigin plane_origin = PlaneOrigin::snapped;
+    PlaneRule plane_rule = PlaneRule::exact;
+    PerspectiveDivide perspective = PerspectiveDivide::quotient;
     WindowZ window_z = WindowZ::unit_interval;
     DepthPath depth_path = DepthPath::float32;  // the device's own
     DepthRounding depth_rounding = DepthRounding::nearest;

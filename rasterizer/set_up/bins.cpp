@@ -44,7 +44,7 @@ class TileWalk {
         const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
         const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
         if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly
-        if (is_small(triangle.box)) {
+        if (is_small(triangle.box) || geometry_.rules.coverage == CoverageRule::float_spans) {
             for (int y = y0; y <= y1; ++y)
                 for (int x = x0; x <= x1; ++x) visit(number(x, y));
             return;

@@ -1,6 +1,7 @@
 #include "rasterizer/set_up/clip.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "rasterizer/base/numerics.h"
@@ -11,20 +12,38 @@ namespace {
 // The share t of the way from a to b.
 [[nodiscard]] float mix(float a, float b, double t) noexcept { return static_cast<float>(a + t * (double{b} - a)); }
 
+// Whether the guard band holds the viewport, or there is none.
+[[nodiscard]] bool guard_holds(const Rect& viewport, const RasterRules& rules) noexcept {
+    const int guard = rules.guard_band_px;
+    return rules.clip == ClipVolume::view_volume ||
+           (viewport.x0 >= -guard && viewport.y0 >= -guard && viewport.x1 <= guard && viewport.y1 <= guard);
+}
+
 }  // namespace
 
 Clipper::Clipper(const RasterState& state, const RasterRules& rules)
     : symmetric_{state.clip_depth == ClipDepth::minus_one_to_one},
-      guard_holds_viewport_{state.clip_plane_count == 0 && state.viewport.x0 >= -rules.guard_band_px &&
-                            state.viewport.y0 >= -rules.guard_band_px && state.viewport.x1 <= rules.guard_band_px &&
-                            state.viewport.y1 <= rules.guard_band_px} {
+      is_single_{rules.clip == ClipVolume::view_volume},
+      holds_view_volume_{state.clip_plane_count == 0 && guard_holds(state.viewport, rules)} {
     if (state.window_positions) return;  // there is no clip space; set-up keeps positions within the guard band
-    const auto add = [&](Plane plane) { plane_[static_cast<std::size_t>(count_++)] = plane; };
     add({0, 0, 0, 1, -double{least_w}, Kind::w});
-    if (!state.depth_clamp && rules.z_clip == ZClip::per_primitive) {
-        add(symmetric_ ? Plane{0, 0, 1, 1, 0, Kind::z_is_minus_w} : Plane{0, 0, 1, 0, 0, Kind::z_is_zero});
-        add({0, 0, -1, 1, 0, Kind::z_is_w});
+    const bool clips_z = !state.depth_clamp && rules.z_clip == ZClip::per_primitive;
+    if (is_single_) add_view_volume(clips_z);
+    if (!is_single_ && clips_z) add_near_and_far();
+    if (!is_single_) add_guard_band(state, rules);
+    assert(state.clip_plane_count <= static_cast<int>(state.clip_planes.size()) && "at most six user clip planes");
+    for (int i = 0; i < state.clip_plane_count; ++i) {
+        const ClipPlane& p = state.clip_planes[static_cast<std::size_t>(i)];
+        add({p.a, p.b, p.c, p.d, 0, Kind::other});
     }
+}
+
+void Clipper::add_near_and_far() noexcept {
+    add(symmetric_ ? Plane{0, 0, 1, 1, 0, Kind::z_is_minus_w} : Plane{0, 0, 1, 0, 0, Kind::z_is_zero});
+    add({0, 0, -1, 1, 0, Kind::z_is_w});
+}
+
+void Clipper::add_guard_band(const RasterState& state, const RasterRules& rules) noexcept {
     // |centre + half x / w| <= guard, times w: products are exact in binary64, so the sign of the distance is.
     const double guard = rules.guard_band_px;
     const auto add_guard = [&](double half, double centre, bool is_x) {
@@ -36,11 +55,15 @@ Clipper::Clipper(const RasterState& state, const RasterRules& rules)
     add_guard(0.5 * v.width(), v.x0 + 0.5 * v.width(), true);
     // With y up, window y = centre - half y / w: the same two planes with the centre's sign exchanged.
     add_guard(0.5 * v.height(), y_sign * (v.y0 + 0.5 * v.height()), false);
-    assert(state.clip_plane_count <= static_cast<int>(state.clip_planes.size()) && "at most six user clip planes");
-    for (int i = 0; i < state.clip_plane_count; ++i) {
-        const ClipPlane& p = state.clip_planes[static_cast<std::size_t>(i)];
-        add({p.a, p.b, p.c, p.d, 0, Kind::other});
-    }
+}
+
+// Their order decides which corners there are (coverage.md 2.8).
+void Clipper::add_view_volume(bool clips_z) noexcept {
+    add({-1, 0, 0, 1, 0, Kind::other});
+    add({1, 0, 0, 1, 0, Kind::other});
+    add({0, -1, 0, 1, 0, Kind::other});
+    add({0, 1, 0, 1, 0, Kind::other});
+    if (clips_z) add_near_and_far();
 }
 
 // From the left in binary64, each step rounded (coverage.md 2.3): a vertex has one distance, whichever triangle asks.
@@ -52,8 +75,19 @@ double Clipper::distance(const Plane& plane, const ClipVertex& v) noexcept {
     return d + plane.constant;
 }
 
+// The same in binary32. With coefficients 1, -1 and 0 the sign is exact, as above.
+float Clipper::distance_single(const Plane& plane, const ClipVertex& v) noexcept {
+    float d = v.x * static_cast<float>(plane.x);
+    d = d + v.y * static_cast<float>(plane.y);
+    d = d + v.z * static_cast<float>(plane.z);
+    return d + v.w * static_cast<float>(plane.w);
+}
+
 std::uint32_t Clipper::outside_planes(const ClipVertex& v) const noexcept {
     std::uint32_t mask = 0;
+    for (int i = 1; is_single_ && i < count_; ++i)
+        mask |= (distance_single(plane_[static_cast<std::size_t>(i)], v) < 0.0f ? 1u : 0u) << i;
+    if (is_single_) return mask | (v.w < least_w ? 1u : 0u);
     for (int i = 0; i < count_; ++i) mask |= (distance(plane_[static_cast<std::size_t>(i)], v) < 0.0 ? 1u : 0u) << i;
     return mask;
 }
@@ -81,36 +115,92 @@ ClipVertex Clipper::crossing(const Plane& plane, const ClipVertex& in, double d_
     return v;
 }
 
+namespace {
+
+// Corner i of `from` becomes the next one of `to`. Returns its number there.
+std::size_t append(const ClipPolygon& from, std::size_t i, ClipPolygon& to) noexcept {
+    const auto n = static_cast<std::size_t>(to.count++);
+    to.corner[n] = from.corner[i];
+    to.is_new[n] = from.is_new[i];
+    std::copy_n(from.extra[i].begin(), from.extra_count, to.extra[n].begin());
+    return n;
+}
+
+// from + t (other - from), each operation rounded to binary32.
+[[nodiscard]] float step(float from, float other, float t) noexcept {
+    const float difference = other - from, product = t * difference;
+    return from + product;
+}
+
+[[nodiscard]] ClipVertex step(const ClipVertex& from, const ClipVertex& other, float t) noexcept {
+    static_assert(sizeof(ClipVertex) == 14 * sizeof(float));
+    using Floats = std::array<float, 14>;
+    auto values = std::bit_cast<Floats>(from);
+    const auto others = std::bit_cast<Floats>(other);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = step(values[i], others[i], t);
+    return std::bit_cast<ClipVertex>(values);
+}
+
+}  // namespace
+
 // One step of Sutherland and Hodgman. A corner on the plane is
 // kept and makes no second corner there (coverage.md 2.5).
-void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept {
+void Clipper::cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
     to.count = 0;
     to.extra_count = from.extra_count;
-    const auto keep = [&](std::size_t i) {
-        const auto n = static_cast<std::size_t>(to.count++);
-        to.corner[n] = from.corner[i];
-        std::copy_n(from.extra[i].begin(), from.extra_count, to.extra[n].begin());
-    };
     const auto cross = [&](std::size_t in, double d_in, std::size_t out, double d_out) {
-        const auto n = static_cast<std::size_t>(to.count++);
+        const std::size_t n = append(from, in, to);
         to.corner[n] = crossing(plane, from.corner[in], d_in, from.corner[out], d_out);
+        to.is_new[n] = true;
         for (std::size_t e = 0; e < from.extra_count; ++e)
             to.extra[n][e] = mix(from.extra[in][e], from.extra[out][e], d_in / (d_in - d_out));
     };
     for (int i = 0; i < from.count; ++i) {
         const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1);
         const double da = distance(plane, from.corner[a]), db = distance(plane, from.corner[b]);
-        if (da >= 0.0) keep(a);
+        if (da >= 0.0) append(from, a, to);
         if (da >= 0.0 && db < 0.0 && da > 0.0) cross(a, da, b, db);
         if (da < 0.0 && db > 0.0) cross(b, db, a, da);
     }
 }
 
+// Here a corner on the plane does make a second corner beside it, and the end that is nearer to the plane is where the
+// new corner starts (coverage.md 2.8).
+void Clipper::cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept {
+    to.count = 0;
+    to.extra_count = from.extra_count;
+    const auto cross = [&](std::size_t start, std::size_t other, float t) {
+        const std::size_t n = append(from, start, to);
+        to.corner[n] = step(from.corner[start], from.corner[other], t);
+        to.is_new[n] = true;
+        for (std::size_t e = 0; e < from.extra_count; ++e)
+            to.extra[n][e] = step(from.extra[start][e], from.extra[other][e], t);
+    };
+    for (int i = 0; i < from.count; ++i) {
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(i + 1 == from.count ? 0 : i + 1);
+        const float da = distance_single(plane, from.corner[a]), db = distance_single(plane, from.corner[b]);
+        const bool leaves = da >= 0.0f && db < 0.0f, enters = da < 0.0f && db >= 0.0f;
+        if (da >= 0.0f) append(from, a, to);
+        if (!leaves && !enters) continue;
+        const float difference = db - da;
+        const bool starts_at_b = leaves ? -db < da : !(-da < db);
+        if (starts_at_b)
+            cross(b, a, db / difference);
+        else
+            cross(a, b, -da / difference);
+    }
+}
+
 void Clipper::clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept {
     ClipPolygon other;
-    for (int i = 0; i < count_; ++i) {
+    // The view volume has no plane of w: inside its planes of x no w is negative.
+    for (int i = is_single_ ? 1 : 0; i < count_; ++i) {
         if ((planes >> i & 1u) == 0) continue;
-        cut(plane_[static_cast<std::size_t>(i)], polygon, other);
+        const Plane& plane = plane_[static_cast<std::size_t>(i)];
+        if (is_single_)
+            cut_single(plane, polygon, other);
+        else
+            cut(plane, polygon, other);
         polygon = other;
         if (polygon.count < 3) break;
     }

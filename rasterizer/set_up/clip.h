@@ -4,7 +4,8 @@
 //          in x and y; the user's planes. A side that crosses a plane gets one new corner, computed from its inside end
 //          I to its outside end O whichever way it is walked: t = dI / (dI - dO), corner = I + t (O - I) in binary64,
 //          each component rounded once to binary32. So two triangles that share a side share its new corners to the
-//          bit, and equal values stay equal.
+//          bit, and equal values stay equal. ClipVolume::view_volume: the planes x = w, -x = w, y = w, -y = w, near, far
+//          and the user's in binary32; the new corner starts from the end that is nearer to the plane.
 // Source   Sutherland and Hodgman 1974; GL 2.1 2.12; coverage.md 2. The w bound is ours [A]: 1 / w and u / w stay
 //          finite. Tests    tests/rasterizer/set_up/clip_test.cpp
 #pragma once
@@ -26,6 +27,8 @@ struct ClipPolygon {
     int count = 0;
     std::size_t extra_count = 0;
     std::array<std::array<float, max_extras>, 3 + max_clip_planes> extra{};  // the first extra_count of each corner
+    // Which corners a plane made; the others are the triangle's own.
+    std::array<bool, 3 + max_clip_planes> is_new{};
 };
 
 // The planes of one draw. Most vertices lie in the view volume and never meet a plane's equation.
@@ -38,7 +41,7 @@ class Clipper {
         return within_viewport(v) ? 0u : outside_planes(v);
     }
     // To be in the view volume is to be inside all planes.
-    [[nodiscard]] bool holds_view_volume() const noexcept { return guard_holds_viewport_; }
+    [[nodiscard]] bool holds_view_volume() const noexcept { return holds_view_volume_; }
     // Cuts `polygon` by the planes of the set `planes`; corners stay in walking order from corner 0.
     void clip(ClipPolygon& polygon, std::uint32_t planes) const noexcept;
 
@@ -53,18 +56,25 @@ class Clipper {
     // user's. The signs of the exact distances are those of these comparisons.
     [[nodiscard]] bool within_viewport(const ClipVertex& v) const noexcept {
         const float w = v.w, least_z = symmetric_ ? -w : 0.0f;
-        return guard_holds_viewport_ && w >= least_w && v.x >= -w && v.x <= w && v.y >= -w && v.y <= w &&
-               v.z >= least_z && v.z <= w;
+        return holds_view_volume_ && w >= least_w && v.x >= -w && v.x <= w && v.y >= -w && v.y <= w && v.z >= least_z &&
+               v.z <= w;
     }
     [[nodiscard]] std::uint32_t outside_planes(const ClipVertex& v) const noexcept;
     [[nodiscard]] static double distance(const Plane& plane, const ClipVertex& v) noexcept;
+    [[nodiscard]] static float distance_single(const Plane& plane, const ClipVertex& v) noexcept;
     [[nodiscard]] static ClipVertex crossing(const Plane& plane, const ClipVertex& in, double d_in,
                                              const ClipVertex& out, double d_out) noexcept;
-    void cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) const noexcept;
+    void add_near_and_far() noexcept;
+    void add_guard_band(const RasterState& state, const RasterRules& rules) noexcept;
+    void add_view_volume(bool clips_z) noexcept;
+    void add(const Plane& plane) noexcept { plane_[static_cast<std::size_t>(count_++)] = plane; }
+    static void cut(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
+    // The same by ClipVolume::view_volume.
+    static void cut_single(const Plane& plane, const ClipPolygon& from, ClipPolygon& to) noexcept;
 
     std::array<Plane, max_clip_planes> plane_{};
     int count_ = 0;
-    bool symmetric_, guard_holds_viewport_;
+    bool symmetric_, is_single_, holds_view_volume_;
 };
 
 }  // namespace strata::rasterizer

@@ -21,6 +21,28 @@ namespace {
     return (std::fabs(d1 * y2 - d2 * y1) + std::fabs(d2 * x1 - d1 * x2)) / std::fabs(area);
 }
 
+// A bound of what rounding each step to binary32 does to a depth (float_planes.h), to first order with room: the rounded
+// area may be off by 4 units of its two products, each slope by as much and 4 roundings, which counts over the
+// triangle's extent; the start at pixel (0, 0) and the steps from there round values of the size of slope times position.
+[[nodiscard]] double step_error(const Geometry& geometry, const TriangleRecord& triangle,
+                                const std::array<double, 3>& z) {
+    const auto at = geometry.positions(triangle);
+    const double x1 = double{at[1][0]} - at[0][0], y1 = double{at[1][1]} - at[0][1];
+    const double x2 = double{at[2][0]} - at[0][0], y2 = double{at[2][1]} - at[0][1];
+    const double area = std::fabs(x1 * y2 - x2 * y1), products = std::fabs(x1 * y2) + std::fabs(x2 * y1);
+    constexpr double unit = 0x1p-24;
+    const double relative = 8.0 * unit * (products / area + 1.0);
+    if (!(relative < 0.25)) return std::numeric_limits<double>::infinity();
+    const double d1 = std::fabs(z[1] - z[0]), d2 = std::fabs(z[2] - z[0]), d12 = std::fabs(z[2] - z[1]);
+    // Differences from either corner that the rules may start at.
+    const double d = d1 + d2 + d12, width = std::fabs(x1) + std::fabs(x2) + 2.0,
+                 height = std::fabs(y1) + std::fabs(y2) + 2.0;
+    const double across = d * height / area, down = d * width / area;
+    const double far = std::fabs(double{at[0][0]}) + width, low = std::fabs(double{at[0][1]}) + height;
+    const double size = across * far + down * low + std::fabs(z[0]) + d;
+    return 2.0 * relative * (across * width + down * height) + 16.0 * unit * size;
+}
+
 }  // namespace
 
 double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
@@ -29,7 +51,8 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
     };  // without a branch, as std::max of a list is not
     double greatest = -std::numeric_limits<double>::infinity(), size = 0.0;
     const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
-    const double beyond = geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
+    const bool has_spans = geometry.rules.coverage == CoverageRule::float_spans;
+    const double beyond = has_spans ? 1.0 : geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
     // Memory is asked for this many triangles ahead, because a list names triangles here and there.
     constexpr std::size_t ahead = 16;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
@@ -43,6 +66,7 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
         double most = larger(larger(z[0], z[1]), z[2]);
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped)
             most += beyond * steepness(geometry, geometry.triangles[i], z);
+        if (geometry.rules.plane_rule != PlaneRule::exact) most += step_error(geometry, geometry.triangles[i], z);
         greatest = larger(most, greatest);
         const double corners = larger(larger(std::fabs(z[0]), std::fabs(z[1])), std::fabs(z[2]));
         size = larger(larger(corners, std::fabs(most)), size);

@@ -109,6 +109,10 @@ struct Geometry {
     [[nodiscard]] std::array<SubpixelPoint, 3> points(const TriangleRecord& t) const noexcept {
         return {corners[t.vertex[0]].p, corners[t.vertex[1]].p, corners[t.vertex[2]].p};
     }
+    // Before snapping, in pixels.
+    [[nodiscard]] std::array<std::array<float, 2>, 3> positions(const TriangleRecord& t) const noexcept {
+        return {corners[t.vertex[0]].unsnapped, corners[t.vertex[1]].unsnapped, corners[t.vertex[2]].unsnapped};
+    }
     // Vertex z of the corners with polygon offset, in units of rules.window_z.
     [[nodiscard]] std::array<double, 3> depths(std::size_t i) const noexcept {
         if (!offset_z.empty()) return offset_z[i];

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "rasterizer/coverage/coverage.h"
+#include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/set_up/polygon_offset.h"
 
 namespace strata::rasterizer {
@@ -31,6 +32,23 @@ template <std::size_t n>
     return all_finite(values);
 }
 
+// The sign of a piece's area, 0 if it covers nothing, and a box of the pixels that it may cover.
+struct PieceShape {
+    std::int64_t area_sign;
+    Rect box;
+};
+
+[[nodiscard]] PieceShape shape_of(const std::array<const WindowCorner*, 3>& corner, const RasterRules& rules) noexcept {
+    const auto& [a, b, c] = corner;
+    const std::array p{a->p, b->p, c->p};
+    if (rules.coverage == CoverageRule::snapped_edges)
+        return {Edge{p[0], p[1]}.at(p[2]), centre_box(p, rules.subpixel_bits)};
+    const std::array position{a->unsnapped, b->unsnapped, c->unsnapped};
+    if (!FloatSpans{position}.is_drawn()) return {0, {}};
+    const float area = float_area(position);
+    return {area > 0.0f ? 1 : area < 0.0f ? -1 : 0, float_box(position)};
+}
+
 }  // namespace
 
 TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules, std::span<const ClipVertex> vertices,
@@ -49,8 +67,9 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
 
 // The corner of a vertex that lies inside all planes, and its marks. A position that overflows drops its triangles; a
 // colour that does drops those alone that show its side.
-VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept {
-    const WindowVertex w = window_.project(v);
+VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, VertexOrigin origin,
+                                   WindowCorner& corner) const noexcept {
+    const WindowVertex w = window_.project(v, origin);
     if (!all_finite(std::array{w.x, w.y, w.z, w.inverse_w}) || !products_finite(v.texcoord, w.inverse_w))
         return marks_window;
     for (std::size_t e = 0; e < extras_.stride; ++e)
@@ -64,7 +83,7 @@ void TriangleSetup::set_up_vertex(std::size_t i) noexcept {
     const ClipVertex& v = vertices_[i];
     corners_[i] = {};
     VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
-    if (marks == 0) marks = project(v, extras_.stride == 0 ? nullptr : extras_.of(i), corners_[i]);
+    if (marks == 0) marks = project(v, extras_.stride == 0 ? nullptr : extras_.of(i), VertexOrigin::given, corners_[i]);
     marks_[i] = marks;
 }
 
@@ -104,12 +123,12 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     const auto& [a, b, c] = piece.corner;
     if ((piece.marks & marks_window) != 0) return Fate::non_finite;
     const std::array p{a->p, b->p, c->p};
-    const std::int64_t area = Edge{p[0], p[1]}.at(p[2]);
-    const bool front = is_front(area, triangle.run->mirrored);
+    const PieceShape shape = shape_of({a, b, c}, rules_);
+    const bool front = is_front(shape.area_sign, triangle.run->mirrored);
     if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
-    if (area == 0) return Fate::degenerate;
+    if (shape.area_sign == 0) return Fate::degenerate;
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
-    const Rect box = intersection(centre_box(p, rules_.subpixel_bits), state_.viewport);
+    const Rect box = intersection(shape.box, state_.viewport);
     if (box.area() == 0) return Fate::outside;
     out.triangles.push_back(
         {piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front});
@@ -133,7 +152,7 @@ TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, con
 }
 
 ClipPolygon TriangleSetup::polygon(const SourceTriangle& triangle) const noexcept {
-    ClipPolygon polygon{{}, 3, extras_.stride, {}};
+    ClipPolygon polygon{{}, 3, extras_.stride, {}, {}};
     for (std::size_t i = 0; i < 3; ++i) {
         polygon.corner[i] = vertices_[triangle.vertex[i]];
         if (extras_.stride > 0) std::copy_n(extras_.of(triangle.vertex[i]), extras_.stride, polygon.extra[i].begin());
@@ -151,13 +170,21 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
     const auto first = static_cast<std::uint32_t>(vertices_.size() + out.vertices.size());
     std::array<WindowCorner, std::tuple_size_v<decltype(cut.corner)>> corner;
     std::array<VertexMarks, corner.size()> marks;
-    for (std::size_t i = 0; i < count; ++i) marks[i] = project(cut.corner[i], cut.extra[i].data(), corner[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+        const VertexOrigin origin = cut.is_new[i] ? VertexOrigin::made_by_clip : VertexOrigin::given;
+        marks[i] = project(cut.corner[i], cut.extra[i].data(), origin, corner[i]);
+    }
     Fate fate = Fate::outside;
     bool any_kept = false;
     for (std::size_t i = 2; i < count; ++i) {
         const auto last = first + static_cast<std::uint32_t>(i);
-        const Piece fan{
+        Piece fan{
             {first, last - 1, last}, {&corner[0], &corner[i - 1], &corner[i]}, marks[0] | marks[i - 1] | marks[i]};
+        // The view volume's fan names its common corner last (coverage.md 2.8).
+        if (rules_.clip == ClipVolume::view_volume) {
+            std::ranges::rotate(fan.vertex, fan.vertex.begin() + 1);
+            std::ranges::rotate(fan.corner, fan.corner.begin() + 1);
+        }
         const Fate piece = add_piece(fan, triangle, out);
         any_kept |= piece == Fate::kept;
         if (i == 2 || piece == Fate::kept) fate = piece;
@@ -200,7 +227,7 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const auto& [a, b, c] = triangles[k].vertex;
         const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled;
-        if (is_plain && group.small[k] != 0)
+        if (is_plain && group.small[k] != 0 && rules_.coverage == CoverageRule::snapped_edges)
             count(add_small(triangles[k], group, k, out), triangles[k], out.counters);
         else
             add(triangles[k], out);

@@ -74,7 +74,8 @@ class TriangleSetup {
         VertexMarks marks;
     };
     void set_up_vertex(std::size_t i) noexcept;
-    [[nodiscard]] VertexMarks project(const ClipVertex& v, const float* extras, WindowCorner& corner) const noexcept;
+    [[nodiscard]] VertexMarks project(const ClipVertex& v, const float* extras, VertexOrigin origin,
+                                      WindowCorner& corner) const noexcept;
     [[nodiscard]] ClipPolygon polygon(const SourceTriangle& triangle) const noexcept;
     [[nodiscard]] Fate add_piece(const Piece& piece, const SourceTriangle& triangle, SetupChunk& out) const;
     // A small triangle without marks, its edges in the group.

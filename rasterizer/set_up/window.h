@@ -1,7 +1,7 @@
 // rasterizer/set_up/window.h - from clip space to the window: divide by w, viewport, snapping.
 //
 // Rule     xd = x / w or x * (1 / w) (rules.w_divide); window = scale * xd + offset, rounded after each operation or
-//          once (rules.viewport); all in binary32, for WDivide::nv20 by nv20_arithmetic.h. y up turns the sign
+//          once (rules.viewport, which may ask whether clipping made the vertex); all in binary32, for WDivide::nv20 by nv20_arithmetic.h. y up turns the sign
 //          of the y scale. z goes to n..f, or to n..f times 2^n - 1 with scale and offset pre-multiplied (buffer units;
 //          a float depth buffer has the unit 1). x, y are cut or rounded to 1/2^n.
 // Source   GL 2.1 2.11.1; coverage.md 3 and 4; chip-geometry.md 1; chip-depth.md 1.4.
@@ -24,6 +24,9 @@ inline namespace strict {
 struct WindowVertex {
     float x, y, z, inverse_w;
 };
+
+// Whose vertex it is that is projected (ViewportArithmetic::fused_given).
+enum class VertexOrigin : std::uint8_t { given, made_by_clip };
 
 // The number of vertex z units in depth 1.0: the depth buffer's own, or 1.
 [[nodiscard]] constexpr double z_units(const RasterState& state, const RasterRules& rules) noexcept {
@@ -66,13 +69,16 @@ class WindowTransform {
 
     // Inside the planes of clip.h w is at least least_w. Window positions
     // know no planes: what is not finite then is found by set-up.
-    [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v) const noexcept {
+    [[nodiscard]] constexpr WindowVertex project(const ClipVertex& v,
+                                                 VertexOrigin origin = VertexOrigin::given) const noexcept {
         if (rules_.w_divide == WDivide::nv20) return project_nv20(v);
         const float inverse_w = 1.0f / v.w;
         if (is_done_) return {within_guard(v.x), within_guard(v.y), v.z, inverse_w};
         const auto divided = [&](float c) { return rules_.w_divide == WDivide::quotient ? c / v.w : c * inverse_w; };
-        return {within_guard(map(x_, divided(v.x))), within_guard(map(y_, divided(v.y))), map(z_, divided(v.z)),
-                inverse_w};
+        const bool fuses = origin == VertexOrigin::given ? rules_.viewport != ViewportArithmetic::separate
+                                                         : rules_.viewport == ViewportArithmetic::fused;
+        return {within_guard(map(x_, divided(v.x), fuses)), within_guard(map(y_, divided(v.y), fuses)),
+                map(z_, divided(v.z), fuses), inverse_w};
     }
     [[nodiscard]] constexpr SubpixelPoint snapped(const WindowVertex& v) const noexcept {
         return {snap(v.x, rules_.subpixel_bits, rules_.snap), snap(v.y, rules_.subpixel_bits, rules_.snap)};
@@ -80,7 +86,7 @@ class WindowTransform {
 
     // For sixteen at a time, where no more is done than these rules say.
     [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
-        if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport == ViewportArithmetic::fused) return {};
+        if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport != ViewportArithmetic::separate) return {};
         return PlainVertexRules{.scale = {x_.scale, y_.scale, z_.scale},
                                 .offset = {x_.offset, y_.offset, z_.offset},
                                 .guard = guard_,
@@ -94,8 +100,8 @@ class WindowTransform {
     struct Axis {
         float scale, offset;
     };
-    [[nodiscard]] constexpr float map(const Axis& axis, float c) const noexcept {
-        if (rules_.viewport == ViewportArithmetic::fused) return fused_multiply_add(axis.scale, c, axis.offset);
+    [[nodiscard]] static constexpr float map(const Axis& axis, float c, bool fuses) noexcept {
+        if (fuses) return fused_multiply_add(axis.scale, c, axis.offset);
         const float scaled = axis.scale * c;
         return scaled + axis.offset;
     }

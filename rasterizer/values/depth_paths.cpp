@@ -97,18 +97,19 @@ int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, c
     return fallbacks;
 }
 
-void float32_plane_depth(const SetupTriangle& t, int subpixel_bits, PlaneAnchor anchor, const TriangleLanes& lanes,
+void float32_plane_depth(const SetupTriangle& t, const RasterRules& rules, const TriangleLanes& lanes,
                          double* out) noexcept {
-    const float pixel = 1.0f / static_cast<float>(1 << subpixel_bits);
-    const auto x = [&](std::size_t i) { return static_cast<float>(t.p[i].x) * pixel; };
-    const auto y = [&](std::size_t i) { return static_cast<float>(t.p[i].y) * pixel; };
+    const float pixel = 1.0f / static_cast<float>(1 << rules.subpixel_bits);
+    const bool snapped = rules.plane_origin == PlaneOrigin::snapped;
+    const auto x = [&](std::size_t i) { return snapped ? static_cast<float>(t.p[i].x) * pixel : t.unsnapped[i][0]; };
+    const auto y = [&](std::size_t i) { return snapped ? static_cast<float>(t.p[i].y) * pixel : t.unsnapped[i][1]; };
     const auto z = [&](std::size_t i) { return static_cast<float>(t.z[i]); };
     float x0 = x(0), y0 = y(0), z0 = z(0);
     const float x1 = x(1) - x0, y1 = y(1) - y0, z1 = z(1) - z0;
     const float x2 = x(2) - x0, y2 = y(2) - y0, z2 = z(2) - z0;
     const float area = x1 * y2 - x2 * y1;
     const float dx = (z1 * y2 - z2 * y1) / area, dy = (z2 * x1 - z1 * x2) / area;
-    if (anchor == PlaneAnchor::window_corner) {
+    if (rules.hypothesis.plane_anchor == PlaneAnchor::window_corner) {
         z0 = (z0 - dx * x0) - dy * y0;
         x0 = y0 = 0.0f;
     }

@@ -3,9 +3,10 @@
 // Rule     perspective_rq, depth_replace: R = r/q of the vertices' first two extras (depth_quotient.h); three vertex
 //          values of the same bits are that constant, and where every w is 1 the planes are not divided, as for every
 //          attribute. float32_plane: dz/dx = (z1 y2 - z2 y1) / a, dz/dy = (z2 x1 - z1 x2) / a with corners 1 and 2 seen
-//          from corner 0 and a = x1 y2 - x2 y1; z = (z0 + dz/dx (x - x0)) + dz/dy (y - y0) at the pixel's centre, in
-//          pixels, every operation rounded to binary32. PlaneAnchor::window_corner: moved to x0 = y0 = 0 first.
-// Source   depth.md 4; Mesa and others set planes up like this [A].
+//          from corner 0, at the positions of rules.plane_origin, and a = x1 y2 - x2 y1; z = (z0 + dz/dx (x - x0)) + dz/dy
+//          (y - y0) at the pixel's centre, in pixels, every operation rounded to binary32. PlaneAnchor::window_corner: moved
+//          to x0 = y0 = 0 first.
+// Source   depth.md 4; [A], a form in common use.
 // Tests    tests/rasterizer/values/depth_paths_test.cpp
 #pragma once
 #include <array>
@@ -32,8 +33,8 @@ int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, c
 
 // In the units of vertex z.
 // DepthPath::float32_plane as the head has it. Its bits depend on the order of the corners (depth.md 4.7).
-void float32_plane_depth(const SetupTriangle& triangle, int subpixel_bits, PlaneAnchor anchor,
-                         const TriangleLanes& lanes, double* out) noexcept;
+void float32_plane_depth(const SetupTriangle& triangle, const RasterRules& rules, const TriangleLanes& lanes,
+                         double* out) noexcept;
 
 // The value that window_z turns into a code by its hypothesis' rule, and the exact plane's in binary64; in the units of
 // vertex z. Returns exact fallbacks.

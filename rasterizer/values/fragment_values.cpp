@@ -26,6 +26,7 @@ void to_codes_of(const float* __restrict z, int count, const DepthConversion<flo
 void to_codes(const float* z, int count, const DepthConversion<float>& to, std::uint32_t* out) noexcept {
     switch (to.kind) {
         case CodeKind::fixed: return to_codes_of<CodeKind::fixed>(z, count, to, out);
+        case CodeKind::fixed_product: return to_codes_of<CodeKind::fixed_product>(z, count, to, out);
         case CodeKind::binary32: return to_codes_of<CodeKind::binary32>(z, count, to, out);
         case CodeKind::d16f: return to_codes_of<CodeKind::d16f>(z, count, to, out);
     }
@@ -66,6 +67,11 @@ void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, cons
     }
 }
 
+// The conversions that the kernels know.
+[[nodiscard]] bool has_vector_codes(const DepthConversion<float>& to) noexcept {
+    return to.kind == CodeKind::fixed || to.kind == CodeKind::binary32;
+}
+
 }  // namespace
 
 FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& depth, const FragmentNeeds& needs)
@@ -88,8 +94,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
                      (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
-    is_plain_ = kernels_.depth != nullptr && !clips_fragments_ && !needs.exact_code && !needs.reference && !rejects_ &&
-                (!needs.code || (depth.path == DepthPath::float32 && depth.format != DepthFormat::d16f));
+    is_plain_ = kernels_.depth != nullptr && rules_.plane_rule == PlaneRule::exact && !clips_fragments_ &&
+                !needs.exact_code && !needs.reference && !rejects_ &&
+                (!needs.code || (depth.path == DepthPath::float32 && has_vector_codes(to_code_)));
     assert((depth.path != DepthPath::window_z || (z_units_ == code_units_ && !is_float)) &&
            "window_z works in the buffer units of the format that is stored, which is no d32f");
     assert((geometry.extras.has_rq || !is_quotient(depth.path)) &&
@@ -183,12 +190,15 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
     switch (to_code_.kind) {
         case CodeKind::binary32: to_codes(shader_z, lanes.count, to_code_, out); return 0;
         case CodeKind::d16f: return fill_rounded_codes(t, lanes, out);
-        case CodeKind::fixed: break;
+        case CodeKind::fixed:
+        case CodeKind::fixed_product: break;
     }
     const std::uint32_t max = max_code(depth_.format);
     const bool in_codes = z_units_ == max;
     const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
-    const int fallbacks = round_plane(plane, lanes, CodeRounding{to_code_.half, max}, out);
+    // The exact plane knows no binary32 product: for product_even, too, it rounds once, a half up.
+    const double half = rules_.depth_rounding == DepthRounding::floor ? 0.0 : 0.5;
+    const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
     const std::uint32_t least = depth_code(to_code_.least, to_code_),
                         greatest = depth_code(to_code_.greatest, to_code_);
     for (int i = 0; i < padded(lanes.count); ++i) out[i] = std::clamp(out[i], least, greatest);
@@ -226,7 +236,7 @@ int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, co
         case DepthPath::depth_replace:
             fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record), lanes, h, out);
             break;
-        case DepthPath::float32_plane: float32_plane_depth(t, rules_.subpixel_bits, h.plane_anchor, lanes, out); break;
+        case DepthPath::float32_plane: float32_plane_depth(t, rules_, lanes, out); break;
         case DepthPath::float32:
             for (int i = 0; i < lanes.count; ++i) out[i] = double{shader_z[i]} * code_units_;
             return 0;
@@ -333,7 +343,10 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     TriangleLanes own = lanes(triangle, edges, first, batch, weights);
     const bool clips = clips_fragments_ && may_leave_depth_range(t);
     int fallbacks = 0;
-    if (needs_float_z_ || clips) fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
+    if (rules_.plane_rule != PlaneRule::exact)
+        fill_float_z(t, triangle, first, batch);
+    else if (needs_float_z_ || clips)
+        fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
     if (clips) {
         drop_outside_depth_range(first, batch, weights);
         own.count = batch.count - first;
@@ -353,7 +366,10 @@ int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch
     int fallbacks = 0;
     if (!fill_depth(triangle, first, batch, weights))
         fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
-    if (needs_attributes_) fallbacks += fill_attributes(triangle, first, batch, weights);
+    if (needs_attributes_ && rules_.plane_rule != PlaneRule::exact)
+        fill_float_attributes(triangle, first, batch);
+    else if (needs_attributes_)
+        fallbacks += fill_attributes(triangle, first, batch, weights);
     if (needs_.units != 0) fallbacks += fill_units(triangle, first, batch, weights);
     if (needs_.facing)
         std::fill_n(&batch.front_facing[static_cast<std::size_t>(first)], batch.count - first,

@@ -4,7 +4,8 @@
 //          clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded
 //          once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the
 //          same bits are that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions,
-//          evaluated in binary64 and rounded once. Colours by 8-bit weights, coordinates by cut weights: color_weights.h,
+//          evaluated in binary64 and rounded once. Another PlaneRule: planes of float_planes.h, shader_z clamped to
+//          [0,1]; PerspectiveDivide::reciprocal multiplies by the rounded reciprocal of the plane of 1/w. Colours by 8-bit weights, coordinates by cut weights: color_weights.h,
 //          cut_coordinates.h. depth_replace drops a fragment whose depth is outside the depth
 //          range (with depth clamp: clamps it), after the clip of window z. The reference is another depth of the same
 //          fragment.
@@ -79,6 +80,11 @@ class FragmentValues {
     [[nodiscard]] int fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                      FragmentBatch& batch, const WeightLanes& weights) const;
     [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
+    // Depth and attributes by another PlaneRule than the exact plane (float_values.cpp).
+    void fill_plane(const FloatPlane& plane, int first, const FragmentBatch& batch, float* out) const noexcept;
+    void fill_float_z(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+                      FragmentBatch& batch) const noexcept;
+    void fill_float_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;
 

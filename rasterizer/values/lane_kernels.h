@@ -10,6 +10,7 @@
 
 #include "rasterizer/coverage/pixel_claims.h"
 #include "rasterizer/set_up/triangle_walk.h"
+#include "rasterizer/values/float_planes.h"
 #include "rasterizer/values/pixel_weights.h"
 #include "rasterizer/values/plane.h"
 
@@ -68,6 +69,9 @@ struct LaneKernels {
     // Weights, the rounded plane and its codes in one; true if some lane is not certain.
     bool (*depth)(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t* x, const std::uint16_t* y,
                   int count, const DepthLanes& out) noexcept;
+    // A plane stepped in binary32 at `count` pixels (float_planes.h).
+    void (*float_plane)(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y,
+                        int count, float* out) noexcept;
 };
 
 // The kernels of the chosen instruction set. A draw asks once, not once a triangle.
@@ -172,6 +176,11 @@ inline bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noex
             a.out[k][i] = a.out[k][i] / inverse_w[static_cast<std::size_t>(i)];
     }
     return unsure;
+}
+
+inline void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* __restrict x,
+                        const std::uint16_t* __restrict y, int count, float* __restrict out) noexcept {
+    for (int i = 0; i < count; ++i) out[i] = plane.at(rule, x[i], y[i]);
 }
 
 }  // namespace scalar

@@ -144,8 +144,65 @@ bool depth(const PixelWeights& w, const FilterPlane& plane, const std::uint16_t*
                    : depth_of<false, false>(w, plane, x, y, count, out);
 }
 
+#if HWY_NATIVE_FMA
+using Wide = hn::CappedTag<float, 16>;
+using WideVec = hn::Vec<Wide>;
+
+struct WidePlane {
+    WideVec origin, dx, dy;
+    HWY_INLINE explicit WidePlane(const FloatPlane& p)
+        : origin{hn::Set(Wide{}, p.origin)}, dx{hn::Set(Wide{}, p.dx)}, dy{hn::Set(Wide{}, p.dy)} {}
+
+    template <PlaneRule rule>
+    HWY_INLINE WideVec at(hn::Vec<hn::RebindToSigned<Wide>> x, hn::Vec<hn::RebindToSigned<Wide>> y) const {
+        const Wide d;
+        const hn::RebindToSigned<Wide> di;
+        // The set has a fused multiply-add of its own: rounded once, as the twin's.
+        if constexpr (rule == PlaneRule::reciprocal_area_fused)
+            return hn::MulAdd(dy, hn::ConvertTo(d, y), hn::MulAdd(dx, hn::ConvertTo(d, x), origin));
+        if constexpr (rule == PlaneRule::reciprocal_area)
+            return hn::Add(hn::Add(hn::Mul(dx, hn::ConvertTo(d, x)), origin), hn::Mul(dy, hn::ConvertTo(d, y)));
+        const auto one = hn::Set(di, 1), odd_x = hn::And(x, one), odd_y = hn::And(y, one);
+        const auto even_x = hn::ConvertTo(d, hn::Sub(x, odd_x)), even_y = hn::ConvertTo(d, hn::Sub(y, odd_y));
+        const WideVec corner = hn::Add(hn::Add(origin, hn::Mul(dx, even_x)), hn::Mul(dy, even_y));
+        const WideVec right = hn::IfThenElse(hn::RebindMask(d, hn::Eq(odd_x, one)), hn::Add(corner, dx), corner);
+        return hn::IfThenElse(hn::RebindMask(d, hn::Eq(odd_y, one)), hn::Add(right, dy), right);
+    }
+};
+
+template <PlaneRule rule>
+HWY_INLINE void float_plane_of(const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
+                               float* HWY_RESTRICT out) {
+    const hn::RebindToSigned<Wide> di;
+    const hn::Rebind<std::uint16_t, Wide> narrow;
+    const WidePlane at{plane};
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Wide{}))) {
+        const auto column = hn::PromoteTo(di, hn::LoadU(narrow, x + i)),
+                   row = hn::PromoteTo(di, hn::LoadU(narrow, y + i));
+        hn::StoreU(at.at<rule>(column, row), Wide{}, out + i);
+    }
+}
+
+void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
+                 float* out) noexcept {
+    switch (rule) {
+        case PlaneRule::reciprocal_area: return float_plane_of<PlaneRule::reciprocal_area>(plane, x, y, count, out);
+        case PlaneRule::least_corner: return float_plane_of<PlaneRule::least_corner>(plane, x, y, count, out);
+        case PlaneRule::reciprocal_area_fused:
+        case PlaneRule::exact: break;
+    }
+    float_plane_of<PlaneRule::reciprocal_area_fused>(plane, x, y, count, out);
+}
+#else
+// Without a fused multiply-add the twin's exact emulation is the way.
+void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
+                 float* out) noexcept {
+    scalar::float_plane(rule, plane, x, y, count, out);
+}
+#endif
+
 const LaneKernels* table() {
-    static constexpr LaneKernels kernels{emit, weights, attributes, depth};
+    static constexpr LaneKernels kernels{emit, weights, attributes, depth, float_plane};
     return &kernels;
 }
 
@@ -161,7 +218,7 @@ HWY_EXPORT(table);
 inline namespace strict {
 
 const LaneKernels& lane_kernels() noexcept {
-    static constexpr LaneKernels twins{scalar::emit, scalar::weights, scalar::attributes, nullptr};
+    static constexpr LaneKernels twins{scalar::emit, scalar::weights, scalar::attributes, nullptr, scalar::float_plane};
     return simd_is_scalar() ? twins : *kernel_of(HWY_DISPATCH_TABLE(table))();
 }
 

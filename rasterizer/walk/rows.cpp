@@ -11,7 +11,10 @@ bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const R
     // Of the sets, those with fewer than four lanes of binary64 are faster with batches. D16F has no vector
     // conversion, and row tables hold max_row_pixels columns.
     return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && depth.format != DepthFormat::d16f &&
-           !clips_fragments && geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
+           (depth.format == DepthFormat::d32f || geometry.rules.depth_rounding != DepthRounding::product_even) &&
+           !clips_fragments && geometry.rules.plane_rule == PlaneRule::exact &&
+           geometry.rules.coverage == CoverageRule::snapped_edges && geometry.rules.subpixel_bits <= 8 &&
+           region.width() <= max_row_pixels;
 }
 
 void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,

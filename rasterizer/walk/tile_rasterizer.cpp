@@ -1,5 +1,6 @@
 #include "rasterizer/walk/tile_rasterizer.h"
 
+#include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/set_up/triangle_walk.h"
 #include "rasterizer/values/fragment_values.h"
 
@@ -20,7 +21,10 @@ class TileRasterizer::Pass {
 
     void draw(std::span<const std::uint32_t> triangles) {
         flush();  // the claims of an earlier draw say nothing about this one
-        for_each_group(geometry_, rules_, triangles, group_, [&](auto group) { draw_group(group); });
+        if (geometry_.rules.coverage == CoverageRule::float_spans)
+            for (const std::uint32_t t : triangles) draw_float_spans(t);
+        else
+            for_each_group(geometry_, rules_, triangles, group_, [&](auto group) { draw_group(group); });
         flush();
     }
 
@@ -36,16 +40,31 @@ class TileRasterizer::Pass {
         for (std::size_t k = 0; k < triangles.size(); ++k) {
             if (group_.box(k).area() == 0) continue;
             const TriangleRecord& record = geometry_.triangles[triangles[k]];
-            // A batch has one material: what shades it is chosen once for all its fragments.
-            if (record.material != batch_.material) {
-                flush();
-                batch_.material = record.material;
-            }
+            use_material(record.material);
             if (group_.small[k] != 0)
                 draw_small(triangles[k], k);
             else
                 draw_large(triangles[k]);
         }
+    }
+
+    // A batch has one material: what shades it is chosen once for all its fragments.
+    void use_material(std::uint32_t material) {
+        if (material != batch_.material) flush();
+        batch_.material = material;
+    }
+
+    // Row by row: two parts of a triangle could meet in one.
+    void draw_float_spans(std::uint32_t index) {
+        const DrawnTriangle triangle{geometry_, index};
+        use_material(triangle.record.material);
+        first_ = batch_.count;
+        FloatSpans{geometry_.positions(triangle.record)}.visit(rules_.clip, [&](int y, int x0, int x1) {
+            spans_[0] = {x0, x1};
+            RowRun run = row_run(triangle, {x0, y, x1, y + 1});
+            while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(triangle);
+        });
+        fill(triangle);
     }
 
     void draw_small(std::uint32_t index, std::size_t k) {

@@ -40,7 +40,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --algorithm: expected names of algorithms (strata algorithms lists them) or all, found 'duel' (did "
          "you mean 'dual'?)"},
         {{"render", "teapot", "--profile", "geforce4"},
-         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, found "
+         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
+         "softpipe, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
          "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, planes, "
@@ -126,7 +127,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"bench", "teapot", "--json", ""}, "strata: --json: expected a file name or -, found ''"},
         {{"invariance", "teapot", "-o", ""}, "strata: -o: expected a folder, found ''"},
         {{"profiles", "ideel"},
-         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, found "
+         "strata: --profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
+         "softpipe, or a JSON file, found "
          "'ideel' "
          "(did you mean 'ideal'?)"},
     }));

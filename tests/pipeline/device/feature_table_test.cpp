@@ -19,26 +19,27 @@ struct FeatureOfDevices {
 };
 
 constexpr FeatureOfDevices feature_table[] = {
-    {Feature::d16, "16-bit depth buffers", "", "3il"},
-    {Feature::d24, "24-bit depth buffers", "", "381il"},
-    {Feature::d32f, "float depth buffers", "ARB_depth_buffer_float", "81il"},
-    {Feature::float_targets, "float render targets that blend", "ARB_color_buffer_float", "81il"},
-    {Feature::unclamped_depth_clear, "unclamped depth clears", "NV_depth_buffer_float", "81il"},
-    {Feature::fragment_programs, "fragment programs that discard after a compare", "ARB_fragment_program", "81il"},
-    {Feature::separate_alpha_blend, "separate blend functions for alpha", "EXT_blend_func_separate", "81il"},
-    {Feature::independent_blend, "independent blend equations", "ARB_draw_buffers_blend", "1il"},
-    {Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side", "81il"},
-    {Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", "381il"},
+    {Feature::d16, "16-bit depth buffers", "", "3ilsp"},
+    {Feature::d24, "24-bit depth buffers", "", "381ilsp"},
+    {Feature::d32f, "float depth buffers", "ARB_depth_buffer_float", "81ilsp"},
+    {Feature::float_targets, "float render targets that blend", "ARB_color_buffer_float", "81ilsp"},
+    {Feature::unclamped_depth_clear, "unclamped depth clears", "NV_depth_buffer_float", "81ilsp"},
+    {Feature::fragment_programs, "fragment programs that discard after a compare", "ARB_fragment_program", "81ilsp"},
+    {Feature::separate_alpha_blend, "separate blend functions for alpha", "EXT_blend_func_separate", "81ilsp"},
+    {Feature::independent_blend, "independent blend equations", "ARB_draw_buffers_blend", "1ilsp"},
+    {Feature::two_sided_stencil, "two-sided stencil", "EXT_stencil_two_side", "81ilsp"},
+    {Feature::depth_clamp, "depth clamping", "ARB_depth_clamp", "381ilsp"},
     {Feature::depth_replace, "depth replace by texture shaders", "NV_texture_shader", "3i"},
-    {Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units", "381il"},
+    {Feature::sequential_depth_units, "sequential depth units", "STRATA_depth_units", "381ilsp"},
     {Feature::ordered_rmw, "ordered read-modify-write of render targets", "STRATA_ordered_rmw", "i"},
     {Feature::signed_blend, "signed blend equations", "", "3"},
     {Feature::d16f, "16-bit float depth buffers", "", "3"},
     {Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "", "3"},
 };
 
-constexpr std::array<std::string_view, 5> device_names{"geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe"};
-constexpr std::string_view device_marks = "381il";
+constexpr std::array<std::string_view, 7> device_names{"geforce3", "geforce8",     "geforce8_dx101", "ideal",
+                                                       "llvmpipe", "llvmpipe_sse", "softpipe"};
+constexpr std::string_view device_marks = "381ilsp";
 
 // "use a, b or c": those of the devices whose mark is in `owners`.
 [[nodiscard]] std::string way_to(std::string_view owners) {
@@ -85,10 +86,10 @@ TEST_CASE("each format of a target asks for its own feature") {
             INFO(info(format).name << " on " << device_names[i]);
             CHECK(runs(device_names[i], format) == (owners.find(device_marks[i]) != std::string_view::npos));
         };
-        for (const Format format : {rgba8, s8, d24, d24s8}) takes(format, "381il");
-        for (const Format format : {rgba16f, rgba32f, r16f, r32f, rg32f, d32f}) takes(format, "81il");
+        for (const Format format : {rgba8, s8, d24, d24s8}) takes(format, "381ilsp");
+        for (const Format format : {rgba16f, rgba32f, r16f, r32f, rg32f, d32f}) takes(format, "81ilsp");
         for (const Format format : {x8r8g8b8, x1a7r8g8b8, r5g6b5, x1r5g5b5, d16f}) takes(format, "3");
-        takes(d16, "3il");
+        takes(d16, "3ilsp");
         CHECK(runs(device_names[i], DepthFormat::d16f) == (i == 0));
     }
 }
@@ -97,7 +98,7 @@ TEST_CASE("signed equations in colour or alpha, while blending is on, are GeForc
     for (const BlendEquation equation : {BlendEquation::signed_add, BlendEquation::signed_reverse_subtract}) {
         Blend blend = both_terms(equation);
         CHECK(runs("geforce3", blend));
-        for (const std::string_view other : {"geforce8", "geforce8_dx101", "ideal", "llvmpipe"})
+        for (const std::string_view other : {"geforce8", "geforce8_dx101", "ideal", "llvmpipe", "softpipe"})
             CHECK(check(device_named(other), blend)->feature == "signed blend equations");
         for (BlendTerm Blend::*term : {&Blend::color, &Blend::alpha}) {
             Blend one = blend_mode::sum;
@@ -122,7 +123,9 @@ TEST_CASE("limits refuse the first number beyond them, whichever side of a viewp
                               {"geforce8", 8, 16, 8192, 8},
                               {"geforce8_dx101", 8, 16, 8192, 8},
                               {"ideal", 8, 16, 16384, 8},
-                              {"llvmpipe", 8, 32, 16384, 4}}) {
+                              {"llvmpipe", 8, 32, 16384, 4},
+                              {"llvmpipe_sse", 8, 32, 16384, 4},
+                              {"softpipe", 8, 32, 16384, 1}}) {
         const DeviceProfile& p = device_named(row.device);
         INFO(row.device);
         const auto blends = [](int count) { return std::vector<Blend>(static_cast<std::size_t>(count)); };
@@ -139,7 +142,7 @@ TEST_CASE("limits refuse the first number beyond them, whichever side of a viewp
     }
     const DeviceProfile& geforce3 = device_named("geforce3");
     CHECK(check_texture_units(geforce3, 17)->sentence(geforce3) ==
-          "profile geforce3 has no 17 texture units (ARB_multitexture); use llvmpipe");
+          "profile geforce3 has no 17 texture units (ARB_multitexture); use llvmpipe, llvmpipe_sse or softpipe");
     CHECK(check_samples(geforce3, 8)->sentence(geforce3) ==
           "profile geforce3 has no 8 samples a pixel (ARB_multisample); use geforce8, geforce8_dx101 or ideal");
     CHECK(check_samples(geforce3, 16)->way_out.empty());

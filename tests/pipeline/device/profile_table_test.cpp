@@ -1,4 +1,5 @@
-// The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal, llvmpipe.
+// The model: the tables of devices, typed a second time, a row a field: geforce3, geforce8, geforce8_dx101, ideal, llvmpipe,
+// llvmpipe_sse, softpipe.
 #include <catch2/catch.hpp>
 #include <string>
 #include <string_view>
@@ -13,60 +14,83 @@ using namespace strata::pipeline;
 
 struct FieldOfDevices {
     std::string_view key;
-    std::array<std::string_view, 5> value;
+    std::array<std::string_view, 7> value;
 };
 
 constexpr FieldOfDevices device_table[] = {
-    {"raster.subpixel_bits", {"4", "8", "8", "8", "8"}},
-    {"raster.snap", {"toward_zero", "nearest_even", "nearest_even", "nearest_even", "nearest_even"}},
-    {"raster.tie_rule", {"top_left", "top_left", "top_left", "top_left", "bottom_left"}},
-    {"raster.guard_band_px", {"32768", "32768", "32768", "32768", "32768"}},
-    {"raster.z_clip", {"per_fragment", "per_primitive", "per_primitive", "per_primitive", "per_primitive"}},
-    {"raster.w_clip", {"clip", "clip", "clip", "clip", "clip"}},
-    {"raster.w_divide", {"reciprocal", "quotient", "quotient", "quotient", "reciprocal"}},
-    {"raster.viewport", {"separate", "separate", "separate", "separate", "separate"}},
-    {"raster.plane_origin", {"snapped", "snapped", "snapped", "snapped", "unsnapped"}},
-    {"raster.window_z", {"buffer_units", "unit_interval", "unit_interval", "unit_interval", "unit_interval"}},
-    {"raster.depth_path", {"window_z", "float32", "float32", "exact", "float32"}},
-    {"raster.depth_rounding", {"floor", "nearest", "nearest", "nearest", "nearest"}},
-    {"raster.offset_unit", {"format", "format", "format", "format", "format"}},
-    {"raster.color", {"weights_8bit", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
-    {"raster.interpolant_bits", {"24", "24", "24", "24", "24"}},
-    {"raster.divide", {"exact", "exact", "exact", "exact", "exact"}},
-    {"raster.window_z_rule", {"chip", "chip", "chip", "chip", "chip"}},
-    {"raster.reciprocal_bits", {"28", "28", "28", "28", "28"}},
-    {"raster.sum_bits", {"29", "29", "29", "29", "29"}},
-    {"raster.quantize_reference", {"true", "true", "true", "true", "true"}},
-    {"raster.plane_anchor", {"first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex"}},
-    {"raster.vertex_color_bits", {"14", "24", "24", "24", "24"}},
-    {"raster.perspective_color", {"edge_products", "edge_products", "edge_products", "edge_products", "edge_products"}},
-    {"raster.texture_coordinates", {"cut_weights", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
-    {"alpha_test", {"unorm8", "by_target", "by_target", "by_target", "by_target"}},
-    {"blend_rounding", {"nearest", "nearest", "nearest", "nearest", "nearest"}},
-    {"half_rounding", {"nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even"}},
-    {"min_max_nan", {"other_operand", "other_operand", "other_operand", "other_operand", "other_operand"}},
-    {"denormals", {"flush", "flush", "flush", "keep", "flush"}},
-    {"texture_filter", {"unorm8", "single", "single", "single", "single"}},
-    {"has_d16", {"true", "false", "false", "true", "true"}},
-    {"has_d24", {"true", "true", "true", "true", "true"}},
-    {"has_d32f", {"false", "true", "true", "true", "true"}},
-    {"has_d16f", {"true", "false", "false", "false", "false"}},
-    {"has_narrow_surfaces", {"true", "false", "false", "false", "false"}},
-    {"has_float_targets", {"false", "true", "true", "true", "true"}},
-    {"has_unclamped_depth_clear", {"false", "true", "true", "true", "true"}},
-    {"has_fragment_programs", {"false", "true", "true", "true", "true"}},
-    {"has_separate_alpha_blend", {"false", "true", "true", "true", "true"}},
-    {"has_independent_blend", {"false", "false", "true", "true", "true"}},
-    {"has_two_sided_stencil", {"false", "true", "true", "true", "true"}},
-    {"has_depth_clamp", {"true", "true", "true", "true", "true"}},
-    {"has_depth_replace", {"true", "false", "false", "true", "false"}},
-    {"has_sequential_depth_units", {"true", "true", "true", "true", "true"}},
-    {"has_ordered_rmw", {"false", "false", "false", "true", "false"}},
-    {"has_signed_blend", {"true", "false", "false", "false", "false"}},
-    {"max_render_targets", {"1", "8", "8", "8", "8"}},
-    {"max_texture_units", {"4", "16", "16", "16", "32"}},
-    {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384"}},
-    {"max_samples", {"4", "8", "8", "8", "4"}},
+    {"raster.subpixel_bits", {"4", "8", "8", "8", "8", "8", "8"}},
+    {"raster.snap",
+     {"toward_zero", "nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even", "nearest_even"}},
+    {"raster.coverage",
+     {"snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges",
+      "float_spans"}},
+    {"raster.tie_rule", {"top_left", "top_left", "top_left", "top_left", "bottom_left", "bottom_left", "top_left"}},
+    {"raster.guard_band_px", {"32768", "32768", "32768", "32768", "32768", "32768", "32768"}},
+    {"raster.clip",
+     {"guard_band", "guard_band", "guard_band", "guard_band", "view_volume", "view_volume", "view_volume"}},
+    {"raster.z_clip",
+     {"per_fragment", "per_primitive", "per_primitive", "per_primitive", "per_primitive", "per_primitive",
+      "per_primitive"}},
+    {"raster.w_clip", {"clip", "clip", "clip", "clip", "clip", "clip", "clip"}},
+    {"raster.w_divide", {"reciprocal", "quotient", "quotient", "quotient", "reciprocal", "reciprocal", "reciprocal"}},
+    {"raster.viewport", {"separate", "separate", "separate", "separate", "fused_given", "separate", "separate"}},
+    {"raster.plane_origin", {"snapped", "snapped", "snapped", "snapped", "unsnapped", "unsnapped", "unsnapped"}},
+    {"raster.plane_rule",
+     {"exact", "exact", "exact", "exact", "reciprocal_area_fused", "reciprocal_area", "least_corner"}},
+    {"raster.perspective", {"quotient", "quotient", "quotient", "quotient", "reciprocal", "reciprocal", "reciprocal"}},
+    {"raster.window_z",
+     {"buffer_units", "unit_interval", "unit_interval", "unit_interval", "unit_interval", "unit_interval",
+      "unit_interval"}},
+    {"raster.depth_path", {"window_z", "float32", "float32", "exact", "float32", "float32", "float32"}},
+    {"raster.depth_rounding",
+     {"floor", "nearest", "nearest", "nearest", "product_even", "product_even", "product_even"}},
+    {"raster.offset_unit", {"format", "format", "format", "format", "format", "format", "format"}},
+    {"raster.color",
+     {"weights_8bit", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
+    {"raster.interpolant_bits", {"24", "24", "24", "24", "24", "24", "24"}},
+    {"raster.divide", {"exact", "exact", "exact", "exact", "exact", "exact", "exact"}},
+    {"raster.window_z_rule", {"chip", "chip", "chip", "chip", "chip", "chip", "chip"}},
+    {"raster.reciprocal_bits", {"28", "28", "28", "28", "28", "28", "28"}},
+    {"raster.sum_bits", {"29", "29", "29", "29", "29", "29", "29"}},
+    {"raster.quantize_reference", {"true", "true", "true", "true", "true", "true", "true"}},
+    {"raster.plane_anchor",
+     {"first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex", "first_vertex"}},
+    {"raster.vertex_color_bits", {"14", "24", "24", "24", "24", "24", "24"}},
+    {"raster.perspective_color",
+     {"edge_products", "edge_products", "edge_products", "edge_products", "edge_products", "edge_products",
+      "edge_products"}},
+    {"raster.texture_coordinates",
+     {"cut_weights", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
+    {"alpha_test", {"unorm8", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target"}},
+    {"blend_rounding", {"nearest", "nearest", "nearest", "nearest", "each_product", "each_product", "each_product"}},
+    {"half_rounding",
+     {"nearest_even", "nearest_even", "nearest_even", "nearest_even", "toward_zero", "toward_zero", "toward_zero"}},
+    {"unorm_rounding", {"half_up", "half_up", "half_up", "half_up", "product_even", "product_even", "product_even"}},
+    {"min_max_nan",
+     {"other_operand", "other_operand", "other_operand", "other_operand", "other_operand", "other_operand",
+      "other_operand"}},
+    {"denormals", {"flush", "flush", "flush", "keep", "flush", "flush", "flush"}},
+    {"texture_filter", {"unorm8", "single", "single", "single", "single", "single", "single"}},
+    {"has_d16", {"true", "false", "false", "true", "true", "true", "true"}},
+    {"has_d24", {"true", "true", "true", "true", "true", "true", "true"}},
+    {"has_d32f", {"false", "true", "true", "true", "true", "true", "true"}},
+    {"has_d16f", {"true", "false", "false", "false", "false", "false", "false"}},
+    {"has_narrow_surfaces", {"true", "false", "false", "false", "false", "false", "false"}},
+    {"has_float_targets", {"false", "true", "true", "true", "true", "true", "true"}},
+    {"has_unclamped_depth_clear", {"false", "true", "true", "true", "true", "true", "true"}},
+    {"has_fragment_programs", {"false", "true", "true", "true", "true", "true", "true"}},
+    {"has_separate_alpha_blend", {"false", "true", "true", "true", "true", "true", "true"}},
+    {"has_independent_blend", {"false", "false", "true", "true", "true", "true", "true"}},
+    {"has_two_sided_stencil", {"false", "true", "true", "true", "true", "true", "true"}},
+    {"has_depth_clamp", {"true", "true", "true", "true", "true", "true", "true"}},
+    {"has_depth_replace", {"true", "false", "false", "true", "false", "false", "false"}},
+    {"has_sequential_depth_units", {"true", "true", "true", "true", "true", "true", "true"}},
+    {"has_ordered_rmw", {"false", "false", "false", "true", "false", "false", "false"}},
+    {"has_signed_blend", {"true", "false", "false", "false", "false", "false", "false"}},
+    {"max_render_targets", {"1", "8", "8", "8", "8", "8", "8"}},
+    {"max_texture_units", {"4", "16", "16", "16", "32", "32", "32"}},
+    {"max_viewport_px", {"4096", "8192", "8192", "16384", "16384", "16384", "16384"}},
+    {"max_samples", {"4", "8", "8", "8", "4", "4", "1"}},
 };
 
 struct NamesOfField {
@@ -77,15 +101,19 @@ struct NamesOfField {
 // In the order of the enums, as their headers write them.
 const std::vector<NamesOfField> choice_names{
     {"raster.snap", {"toward_zero", "nearest_even"}},
+    {"raster.coverage", {"snapped_edges", "float_spans"}},
     {"raster.tie_rule", {"top_left", "bottom_left", "top_right", "bottom_right"}},
+    {"raster.clip", {"guard_band", "view_volume"}},
     {"raster.z_clip", {"per_primitive", "per_fragment"}},
     {"raster.w_clip", {"clip", "drop"}},
     {"raster.w_divide", {"quotient", "reciprocal", "nv20"}},
-    {"raster.viewport", {"separate", "fused"}},
+    {"raster.viewport", {"separate", "fused", "fused_given"}},
     {"raster.plane_origin", {"snapped", "unsnapped"}},
+    {"raster.plane_rule", {"exact", "reciprocal_area", "reciprocal_area_fused", "least_corner"}},
+    {"raster.perspective", {"quotient", "reciprocal"}},
     {"raster.window_z", {"unit_interval", "buffer_units"}},
     {"raster.depth_path", {"window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact"}},
-    {"raster.depth_rounding", {"floor", "nearest"}},
+    {"raster.depth_rounding", {"floor", "nearest", "product_even"}},
     {"raster.offset_unit", {"format", "float_exponent"}},
     {"raster.color", {"exact_plane", "weights_8bit"}},
     {"raster.interpolant_bits", {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"}},
@@ -95,8 +123,9 @@ const std::vector<NamesOfField> choice_names{
     {"raster.perspective_color", {"edge_products", "weight_products"}},
     {"raster.texture_coordinates", {"exact_plane", "cut_weights"}},
     {"alpha_test", {"unorm8", "by_target"}},
-    {"blend_rounding", {"nearest", "truncate"}},
+    {"blend_rounding", {"nearest", "truncate", "each_product"}},
     {"half_rounding", {"nearest_even", "toward_zero"}},
+    {"unorm_rounding", {"half_up", "product_even"}},
     {"min_max_nan", {"other_operand", "propagate"}},
     {"denormals", {"flush", "keep"}},
     {"texture_filter", {"unorm8", "single"}},
@@ -111,13 +140,13 @@ const std::vector<NamesOfField> choice_names{
 }  // namespace
 
 TEST_CASE("every field of every built-in device has the value of the devices' tables") {
-    REQUIRE(builtin_profiles().size() == 5);
+    REQUIRE(builtin_profiles().size() == 7);
     REQUIRE(std::size(device_table) == profile_fields().size());
     std::size_t at = 0;
     for (const FieldOfDevices& expected : device_table) {
         const ProfileField& field = profile_fields()[at++];
         CHECK(field.key == expected.key);
-        for (std::size_t device = 0; device < 5; ++device) {
+        for (std::size_t device = 0; device < 7; ++device) {
             INFO(expected.key << " of " << builtin_profiles()[device].name);
             CHECK(text_of(field, builtin_profiles()[device]) == expected.value[device]);
         }
@@ -155,6 +184,11 @@ TEST_CASE("setting a choice sets the member that its key names, to the enumerato
     };
     CHECK((set("raster.snap", "toward_zero") && p.raster.snap == Snap::toward_zero));
     CHECK((set("raster.tie_rule", "top_right") && p.raster.tie_rule == TieRule::top_right));
+    CHECK((set("raster.coverage", "float_spans") && p.raster.coverage == CoverageRule::float_spans));
+    CHECK((set("raster.clip", "view_volume") && p.raster.clip == ClipVolume::view_volume));
+    CHECK((set("raster.plane_rule", "least_corner") && p.raster.plane_rule == PlaneRule::least_corner));
+    CHECK((set("raster.perspective", "reciprocal") && p.raster.perspective == PerspectiveDivide::reciprocal));
+    CHECK((set("unorm_rounding", "product_even") && p.unorm_rounding == UnormRounding::product_even));
     CHECK((set("raster.z_clip", "per_fragment") && p.raster.z_clip == ZClip::per_fragment));
     CHECK((set("raster.w_clip", "drop") && p.raster.w_clip == WClip::drop));
     CHECK((set("raster.w_divide", "nv20") && p.raster.w_divide == WDivide::nv20));

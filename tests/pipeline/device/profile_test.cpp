@@ -8,10 +8,11 @@
 using namespace strata::pipeline;
 using namespace strata::rasterizer;
 
-TEST_CASE("the built-in profiles are geforce3, geforce8, geforce8_dx101, ideal and llvmpipe") {
+TEST_CASE("the built-in profiles are three GeForces, ideal and three rasterizers of Mesa") {
     std::vector<std::string> names;
     for (const DeviceProfile& profile : builtin_profiles()) names.push_back(profile.name);
-    CHECK(names == std::vector<std::string>{"geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe"});
+    CHECK(names == std::vector<std::string>{"geforce3", "geforce8", "geforce8_dx101", "ideal", "llvmpipe",
+                                            "llvmpipe_sse", "softpipe"});
     CHECK(find_profile("geforce4") == nullptr);
 }
 
@@ -65,7 +66,7 @@ TEST_CASE("llvmpipe snaps 8 subpixel bits of x * (1 / w), and a bottom or left e
     CHECK(p.raster.subpixel_bits == 8);
     CHECK(p.raster.snap == Snap::nearest_even);
     CHECK(p.raster.w_divide == WDivide::reciprocal);
-    CHECK(p.raster.viewport == ViewportArithmetic::separate);
+    CHECK(p.raster.viewport == ViewportArithmetic::fused_given);
     CHECK(p.raster.tie_rule == TieRule::bottom_left);
     CHECK(p.raster.plane_origin == PlaneOrigin::unsnapped);
     CHECK(p.raster.depth_path == DepthPath::float32);
@@ -106,7 +107,7 @@ TEST_CASE("the rows of the table make the whole profile") {
         CHECK(copy == original);
     }
     CHECK(profile_fields().size() ==
-          50);  // 14 rules of rasterization, 10 of its hypotheses, 26 fields of DeviceProfile
+          55);  // 18 rules of rasterization, 10 of its hypotheses, 27 fields of DeviceProfile
 }
 
 TEST_CASE("a description names each value's source, and a number that a user changed is the user's") {

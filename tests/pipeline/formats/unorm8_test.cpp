@@ -41,6 +41,32 @@ TEST_CASE("a float becomes the UNORM8 code nearest to it: a half goes up, NaN is
     CHECK(to_unorm8(0.5f) == 128);  // 127.5
 }
 
+TEST_CASE("product_even rounds 255 x in binary32 first, and its halves to the even code") {
+    Tally tally;
+    std::uint64_t unlike_half_up = 0;
+    const auto check = [&](float x) {
+        // 255 x has at most 32 bits: exact in binary64; the cast rounds it to binary32, and codes are found by comparison.
+        const double product = double{static_cast<float>(double{x} * 255.0)};
+        int code = 0;
+        while (code < 255 && (product > code + 0.5 || (product == code + 0.5 && code % 2 == 1))) ++code;
+        tally.expect(
+            to_unorm8<UnormRounding::product_even>(x) == code && to_unorm8(x, UnormRounding::product_even) == code,
+            [&] { return fmt::format("{:08x} -> {}", bits_of(x), code); });
+        unlike_half_up += to_unorm8(x) == code ? 0 : 1;
+    };
+    for (int k = 0; k < 255; ++k)
+        for (std::uint32_t i = 0; i < 9; ++i) check(float_of(bits_of(static_cast<float>(2 * k + 1) / 510.0f) + i - 4));
+    for (std::uint32_t bits = 0; bits < 0x3f800000u; bits += 100003) check(float_of(bits));
+    INFO("first wrong: " << tally.first());
+    CHECK(tally.wrong() == 0);
+    CHECK(unlike_half_up > 100);
+    CHECK(to_unorm8<UnormRounding::product_even>(0.3f) == 76);  // measured on the driver
+    CHECK(to_unorm8(0.3f) == 77);
+    CHECK(to_unorm8<UnormRounding::product_even>(-1.0f) == 0);
+    CHECK(to_unorm8<UnormRounding::product_even>(float_of(0x7fc00000u)) == 0);
+    CHECK(to_unorm8<UnormRounding::product_even>(float_of(0x7f800000u)) == 255);
+}
+
 TEST_CASE("every one of the 2^32 floats becomes the right UNORM8 code", "[exhaustive]") {
     const Exhausted result =
         over_all_floats([](std::uint32_t bits) { return model::is_unorm8(bits, to_unorm8(float_of(bits))); });

@@ -33,6 +33,54 @@ TEST_CASE("the shifted form divides every sum by 255, to nearest and cut") {
     CHECK(wrong == 0);
 }
 
+TEST_CASE("each_product rounds s F and d G by themselves, for all pairs of codes, before they are added and clamped") {
+    // By the shift formula in plain integers; a product of 255 leaves the other factor as it is.
+    const auto product = [](int a, int b) { return (a * b + a * b / 256 + 128) / 256; };
+    DeviceProfile profile;
+    profile.blend_rounding = BlendRounding::each_product;
+    static Colors src;
+    static Codes codes;
+    int wrong = 0, unlike_once = 0, unlike_exact = 0;
+    for (const Blend& state : {blend_mode::over, blend_mode::sum}) {
+        const bool is_over = state == blend_mode::over;
+        for (int alpha = 0; alpha < 256; ++alpha)
+            for (int c = 0; c < 256; c += is_over ? 1 : 5) {
+                const int stored = (c * 7 + alpha * 3) % 256;
+                const std::array values{c, 255 - c, c / 2, alpha};
+                for (std::size_t k = 0; k < 4; ++k) {
+                    src[k][0] = static_cast<float>(values[k]) / 255.0f;
+                    codes[k][0] = static_cast<std::uint32_t>(stored);
+                }
+                blend(state, ChannelType::unorm8, profile, 4, src, codes, 1);
+                for (std::size_t k = 0; k < 4; ++k) {
+                    const int F = is_over ? alpha : 255, G = is_over ? 255 - alpha : 255;
+                    const int sum = product(values[k], F) + product(stored, G);
+                    wrong += static_cast<int>(codes[k][0]) == std::min(sum, 255) ? 0 : 1;
+                    unlike_once += sum == (2 * (values[k] * F + stored * G) + 255) / 510 ? 0 : 1;
+                }
+            }
+    }
+    for (int a = 0; a < 256; ++a)
+        for (int b = 0; b < 256; ++b) unlike_exact += product(a, b) == (2 * a * b + 255) / 510 ? 0 : 1;
+    CHECK(wrong == 0);
+    CHECK(unlike_once > 1000);
+    CHECK(unlike_exact == 24);
+}
+
+TEST_CASE("differences of products by themselves end at 0") {
+    DeviceProfile profile;
+    profile.blend_rounding = BlendRounding::each_product;
+    Blend state = blend_mode::sum;
+    static Colors src;
+    static Codes codes;
+    for (const BlendEquation equation : {BlendEquation::subtract, BlendEquation::reverse_subtract}) {
+        state.color.equation = state.alpha.equation = equation;
+        for (std::size_t k = 0; k < 4; ++k) src[k][0] = 0.2f, codes[k][0] = 100;  // 51
+        blend(state, ChannelType::unorm8, profile, 4, src, codes, 1);
+        CHECK(codes[0][0] == (equation == BlendEquation::subtract ? 0u : 49u));
+    }
+}
+
 TEST_CASE("every 8-bit channel becomes the exact sum rounded once, for random states and fragments", "[slow]") {
     Random random{8};
     Tally tally;

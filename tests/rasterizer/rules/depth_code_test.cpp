@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/parallel.h"
+#include "tests/rasterizer/rational.h"
 
 namespace {
 
@@ -42,6 +43,37 @@ __extension__ using Wide = __int128;
 }
 
 }  // namespace
+
+namespace {
+
+// nearest_float of rational.h, and ties to the even integer by definition.
+[[nodiscard]] std::uint32_t product_code(float z, std::uint32_t max) {
+    const Rational product{nearest_float(Rational{z} * Rational{max})};
+    const Integer below = floor(product);
+    const Rational rest = product - Rational{below};
+    const bool rises = rest > Rational{1, 2} || (rest == Rational{1, 2} && (below & 1) != 0);
+    return (below + (rises ? 1 : 0)).convert_to<std::uint32_t>();
+}
+
+}  // namespace
+
+TEST_CASE("product_even rounds the product in binary32 first, and its halves to the even code") {
+    std::uint64_t wrong = 0, unlike_nearest = 0;
+    const auto check = [&](float z) {
+        for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {
+            const std::uint32_t code = to_depth_code(z, format, DepthRounding::product_even);
+            wrong += code == product_code(z, max_code(format)) ? 0 : 1;
+            unlike_nearest += code == to_depth_code(z, format, DepthRounding::nearest) ? 0 : 1;
+        }
+        CHECK(to_depth_code(z, DepthFormat::d32f, DepthRounding::product_even) == std::bit_cast<std::uint32_t>(z));
+    };
+    for (std::uint32_t k = 0; k < 4000; ++k) check(static_cast<float>(2 * k + 1) / 131070.0f);
+    for (std::uint32_t k = 0; k < 4000; ++k) check(std::bit_cast<float>(0x3e000000u + k * 4093u));
+    CHECK(wrong == 0);
+    CHECK(unlike_nearest > 100);
+    CHECK(to_depth_code(2.0f, DepthFormat::d24, DepthRounding::product_even) == 0xffffffu);
+    CHECK(to_depth_code(std::bit_cast<float>(0x7fc00000u), DepthFormat::d24, DepthRounding::product_even) == 0);
+}
 
 TEST_CASE("sampled floats of all kinds become the D16 and D24 codes of the rule, and a half goes up") {
     CHECK(wrong_among(0, 9973, 0x100000000ull / 9973) == 0);

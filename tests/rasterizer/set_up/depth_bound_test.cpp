@@ -49,6 +49,32 @@ TEST_CASE("no fragment lies behind the depth bound of its triangle, and the boun
     CHECK(close > drawn / 2);
 }
 
+TEST_CASE("no fragment lies behind the bound of a plane that is stepped in binary32, and few bounds are far behind") {
+    int beyond = 0, close = 0, drawn = 0;
+    for (const SoupKind kind : {SoupKind::flat, SoupKind::perspective, SoupKind::needs_clipping})
+        for (const PlaneRule plane :
+             {PlaneRule::reciprocal_area, PlaneRule::reciprocal_area_fused, PlaneRule::least_corner})
+            for (const CoverageRule coverage : {CoverageRule::snapped_edges, CoverageRule::float_spans})
+                for (const int width : {61, 1900}) {
+                    const RasterRules rules{.coverage = coverage,
+                                            .clip = ClipVolume::view_volume,
+                                            .plane_origin = PlaneOrigin::unsnapped,
+                                            .plane_rule = plane};
+                    const Geometry geometry = set_up(random_soup(903, 48, kind), scene_state(width, 47), rules, 1);
+                    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
+                        const float greatest = greatest_z(geometry, {&i, 1});
+                        const double bound = depth_bound(geometry, {&i, 1});
+                        if (greatest == -std::numeric_limits<float>::infinity()) continue;
+                        ++drawn;
+                        beyond += double{greatest} > bound ? 1 : 0;
+                        close += bound - double{greatest} < 0.1 ? 1 : 0;
+                    }
+                }
+    CHECK(beyond == 0);
+    CHECK(drawn > 1000);
+    CHECK(close > drawn / 3);
+}
+
 TEST_CASE("the bound of several triangles is the greatest of theirs, and of none it is below every depth") {
     const Geometry geometry = set_up(random_soup(901, 20, SoupKind::perspective), scene_state(40, 40), {}, 1);
     double greatest = -std::numeric_limits<double>::infinity();

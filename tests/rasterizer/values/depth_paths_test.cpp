@@ -232,11 +232,12 @@ namespace {
 
 // depth_paths.h, float32_plane; false where the slopes do not exist.
 [[nodiscard]] std::optional<float> model_float32_plane(const SetupTriangle& t, const Fragment& f, int bits,
-                                                       PlaneAnchor anchor) {
+                                                       PlaneAnchor anchor, PlaneOrigin origin) {
     std::array<float, 3> x, y, z;
     for (std::size_t i = 0; i < 3; ++i) {
-        x[i] = rounded(Rational{t.p[i].x} / (1 << bits));
-        y[i] = rounded(Rational{t.p[i].y} / (1 << bits));
+        const bool snaps = origin == PlaneOrigin::snapped;
+        x[i] = snaps ? rounded(Rational{t.p[i].x} / (1 << bits)) : t.unsnapped[i][0];
+        y[i] = snaps ? rounded(Rational{t.p[i].y} / (1 << bits)) : t.unsnapped[i][1];
         z[i] = static_cast<float>(t.z[i]);
     }
     const float x1 = minus(x[1], x[0]), y1 = minus(y[1], y[0]), z1 = minus(z[1], z[0]);
@@ -258,19 +259,22 @@ namespace {
 
 TEST_CASE("float32_plane rounds its slopes and every step from its anchor to binary32", "[slow]") {
     for (const PlaneAnchor anchor : {PlaneAnchor::first_vertex, PlaneAnchor::window_corner})
-        for (const int bits : {4, 8}) {
-            RasterRules rules{.subpixel_bits = bits};
+        for (const auto& [bits, origin] : {std::pair{4, PlaneOrigin::snapped}, std::pair{8, PlaneOrigin::snapped},
+                                           std::pair{8, PlaneOrigin::unsnapped}}) {
+            RasterRules rules{.subpixel_bits = bits, .plane_origin = origin};
             rules.hypothesis.plane_anchor = anchor;
             std::uint64_t fragments = 0, wrong = 0;
-            for (const Triangle& t : random_triangles(908, 10, bits, 1.0))
+            for (Triangle t : random_triangles(908, 10, bits, 1.0)) {
+                for (auto& position : t.setup.unsnapped) position[0] += 0.0007f, position[1] -= 0.0011f;
                 for (const Fragment& f : draw(geometry_of({t}, rules, DepthFormat::d32f),
                                               {DepthPath::float32_plane, DepthFormat::d32f}, depths)
                                              .fragments) {
-                    const auto z = model_float32_plane(t.setup, f, bits, anchor);
+                    const auto z = model_float32_plane(t.setup, f, bits, anchor, origin);
                     if (!z) continue;
                     wrong += f.reference_z != double{*z} || f.code != to_depth_code(*z, DepthFormat::d32f, {}) ? 1 : 0;
                     ++fragments;
                 }
+            }
             CHECK(fragments > 150);
             CHECK(wrong == 0);
         }

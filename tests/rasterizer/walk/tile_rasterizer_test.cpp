@@ -23,7 +23,17 @@ using namespace strata::rasterizer;
                                     .depth_rounding = DepthRounding::floor,
                                     .color = ColorInterpolation::weights_8bit};
     const RasterRules unsnapped{.plane_origin = PlaneOrigin::unsnapped};
-    return {{{}, {DepthPath::float32, DepthFormat::d32f}},
+    const RasterRules mesa_like{.clip = ClipVolume::view_volume,
+                                .viewport = ViewportArithmetic::fused_given,
+                                .plane_origin = PlaneOrigin::unsnapped,
+                                .plane_rule = PlaneRule::reciprocal_area_fused};
+    const RasterRules spans{.coverage = CoverageRule::float_spans,
+                            .clip = ClipVolume::view_volume,
+                            .plane_origin = PlaneOrigin::unsnapped,
+                            .plane_rule = PlaneRule::least_corner};
+    return {{mesa_like, {DepthPath::float32, DepthFormat::d32f}},
+            {spans, {DepthPath::float32, DepthFormat::d32f}},
+            {{}, {DepthPath::float32, DepthFormat::d32f}},
             {{.subpixel_bits = 12}, {DepthPath::exact, DepthFormat::d24}},
             {unsnapped, {DepthPath::float32, DepthFormat::d24}},
             {geforce3_like, {DepthPath::window_z, DepthFormat::d24}}};
@@ -80,6 +90,14 @@ TEST_CASE("every instruction set hands out the batches of the scalar twins, to t
     all.push_back({unsnapped, {DepthPath::float32, DepthFormat::d32f}});
     all.push_back({{.subpixel_bits = 12, .tie_rule = TieRule::bottom_right}, {DepthPath::float32, DepthFormat::d24}});
     all.push_back({{.subpixel_bits = 4}, {DepthPath::float32, DepthFormat::d16}});
+    for (const PlaneRule plane :
+         {PlaneRule::reciprocal_area, PlaneRule::reciprocal_area_fused, PlaneRule::least_corner}) {
+        const RasterRules steps{.plane_origin = PlaneOrigin::unsnapped,
+                                .plane_rule = plane,
+                                .perspective = PerspectiveDivide::reciprocal,
+                                .depth_rounding = DepthRounding::product_even};
+        all.push_back({steps, {DepthPath::float32, DepthFormat::d24}});
+    }
     constexpr std::array<std::array<int, 2>, 6> sizes{
         {{2, 200}, {4, 100}, {8, 100}, {30, 24}, {300, 16}, {32767, 16}}};  // pixels, triangles
     constexpr FragmentNeeds depth_only{false, true, false, false, false, false};

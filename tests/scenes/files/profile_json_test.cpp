@@ -63,7 +63,8 @@ TEST_CASE("an unknown key or name suggests the nearest") {
     CHECK(error_of(changed(R"("denormals": "flsh")")) ==
           "my.json: /denormals: expected one of flush, keep, found 'flsh' (did you mean 'flush'?)");
     CHECK(error_of(R"({"name": "mine", "base": "geforce9"})") ==
-          "my.json: /base: expected one of geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, found 'geforce9' (did "
+          "my.json: /base: expected one of geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
+          "softpipe, found 'geforce9' (did "
           "you mean "
           "'geforce3'?)");
 }
@@ -108,7 +109,8 @@ TEST_CASE("a profile is loaded by name or from a file, and a name that is neithe
     CHECK(load_profile(path.string()).max_samples == 2);
     std::filesystem::remove(path);
     CHECK_THROWS_WITH(load_profile("gefroce8"),
-                      "--profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, or a JSON file, "
+                      "--profile: name: expected geforce3, geforce8, geforce8_dx101, ideal, llvmpipe, llvmpipe_sse, "
+                      "softpipe, or a JSON file, "
                       "found 'gefroce8' (did you mean 'geforce8'?)");
     CHECK_THROWS_WITH(load_profile("missing.json"), Catch::Contains("missing.json"));
 }

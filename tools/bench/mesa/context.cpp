@@ -13,20 +13,25 @@ namespace strata::mesa {
 namespace {
 
 void require(bool ok, const std::string& what) {
-    if (!ok) throw std::runtime_error("no OpenGL context on llvmpipe: " + what + " failed");
+    if (!ok) throw std::runtime_error("no OpenGL context on Mesa's software driver: " + what + " failed");
 }
 
 // Mesa reads these when the driver starts; what the caller's shell says must not win over --threads.
-void choose_llvmpipe(int threads) {
+void choose(const std::string& driver, int threads) {
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-    setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+    setenv("GALLIUM_DRIVER", driver == "softpipe" ? "softpipe" : "llvmpipe", 1);
+    // SSE 4.1 is the last set before fused multiply-add that llvmpipe still runs on.
+    // softpipe reports OpenGL 3.3, but has every call that this program makes.
+    if (driver == "softpipe") setenv("MESA_GL_VERSION_OVERRIDE", "4.5", 1);
+    if (driver == "softpipe") setenv("MESA_GLSL_VERSION_OVERRIDE", "450", 1);
+    if (driver == "llvmpipe_sse") setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 1);
     setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);
 }
 
 }  // namespace
 
-HeadlessContext::HeadlessContext(int threads) {
-    choose_llvmpipe(threads);
+HeadlessContext::HeadlessContext(const std::string& driver, int threads) {
+    choose(driver, threads);
     display_ = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     require(display_ != EGL_NO_DISPLAY, "eglGetPlatformDisplay (surfaceless)");
     require(eglInitialize(display_, nullptr, nullptr) == EGL_TRUE, "eglInitialize");
@@ -40,7 +45,8 @@ HeadlessContext::HeadlessContext(int threads) {
     require(context_ != EGL_NO_CONTEXT, "eglCreateContext (4.5 core)");
     require(eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE, "eglMakeCurrent");
     // Without this check a machine with a GPU driver would be timed as llvmpipe.
-    require(renderer().starts_with("llvmpipe"), "the choice of the driver (found " + renderer() + ")");
+    require(renderer().starts_with(driver == "softpipe" ? "softpipe" : "llvmpipe"),
+            "the choice of the driver (found " + renderer() + ")");
 }
 
 HeadlessContext::~HeadlessContext() {

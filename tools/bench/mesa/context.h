@@ -10,7 +10,7 @@ class HeadlessContext {
   public:
     // llvmpipe rasterizes on `threads` threads (LP_NUM_THREADS). Throws std::runtime_error where
     // EGL gives no such context or another driver than llvmpipe.
-    explicit HeadlessContext(int threads);
+    explicit HeadlessContext(const std::string& driver, int threads);
     ~HeadlessContext();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;

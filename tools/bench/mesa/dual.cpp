@@ -92,12 +92,12 @@ struct DualTargets {
     Handle back_dump, back, result, blend, finish, query;
     Handle min_max_program, peel_program, blend_program, left_program, finish_program;
 
-    DualTargets(const GpuScene& scene, Size size)
+    DualTargets(const GpuScene& scene, Size size, GLenum color)
         : min_max{make_texture(GL_RG32F, size), make_texture(GL_RG32F, size)},
-          front{make_texture(GL_RGBA8, size), make_texture(GL_RGBA8, size)},
-          back_dump{make_texture(GL_RGBA8, size)},
-          back{make_texture(GL_RGBA8, size)},
-          result{make_texture(GL_RGBA8, size)},
+          front{make_texture(color, size), make_texture(color, size)},
+          back_dump{make_texture(color, size)},
+          back{make_texture(color, size)},
+          result{make_texture(color, size)},
           blend{make_framebuffer({back.name()})},
           finish{make_framebuffer({result.name()})},
           query{make_query()},
@@ -188,11 +188,12 @@ int dual(const GpuScene& scene, const DualTargets& t, int max_passes) {
 
 }  // namespace
 
-Job dual_job(const GpuScene& scene, Size size) {
-    const auto t = std::make_shared<DualTargets>(scene, size);
-    return {"dual", pipeline::Format::rgba8, [&scene, size, t](std::vector<std::uint32_t>& pixels, int max_passes) {
+Job dual_job(const GpuScene& scene, Size size, const TargetFormats& formats) {
+    const pipeline::Format color = formats.color;
+    const auto t = std::make_shared<DualTargets>(scene, size, gl_format(color));
+    return {"dual", color, [&scene, size, t, color](std::vector<std::uint32_t>& pixels, int max_passes) {
                 const int passes = dual(scene, *t, max_passes);
-                read_rgba8(t->finish, size, pixels);
+                read_color(t->finish, size, color, pixels);
                 return passes;
             }};
 }

@@ -22,13 +22,23 @@ void main() {
 }
 )";
 
+// Fixed-point depths are compared as codes, by the driver's own rule of a depth write: raw, a fragment would lie behind
+// itself and the peel would never end.
+constexpr auto float_depth_text = "float code(float z) { return z; }\n";
+constexpr auto d16_text = "float code(float z) { return roundEven(z * 65535.0); }\n";
+constexpr auto d24_text = "float code(float z) { return roundEven(z * 16777215.0); }\n";
+
+std::string code_text(pipeline::Format depth) {
+    return depth == pipeline::Format::d16 ? d16_text : depth == pipeline::Format::d24 ? d24_text : float_depth_text;
+}
+
 // As the first pass, but without what is not behind the depth peeled before. Equal depths are one
 // layer.
 constexpr auto peel_next_text = R"(
 layout(binding = 0) uniform sampler2D peeled;
 layout(location = 0) out vec4 layer;
 void main() {
-    if (gl_FragCoord.z <= texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).r) discard;
+    if (code(gl_FragCoord.z) <= code(texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).r)) discard;
     vec4 color = shade();
     layer = vec4(color.rgb * color.a, color.a);
 }
@@ -53,16 +63,16 @@ struct PeelTargets {
     Handle layer, accumulated, result, under, finish, query;
     Handle first_program, next_program, under_program, finish_program;
 
-    PeelTargets(const GpuScene& scene, Size size)
-        : depth{make_texture(GL_DEPTH_COMPONENT32F, size), make_texture(GL_DEPTH_COMPONENT32F, size)},
-          layer{make_texture(GL_RGBA8, size)},
-          accumulated{make_texture(GL_RGBA8, size)},
-          result{make_texture(GL_RGBA8, size)},
+    PeelTargets(const GpuScene& scene, Size size, const TargetFormats& formats)
+        : depth{make_texture(gl_format(formats.depth), size), make_texture(gl_format(formats.depth), size)},
+          layer{make_texture(gl_format(formats.color), size)},
+          accumulated{make_texture(gl_format(formats.color), size)},
+          result{make_texture(gl_format(formats.color), size)},
           under{make_framebuffer({accumulated.name()})},
           finish{make_framebuffer({result.name()})},
           query{make_query()},
           first_program{scene.make_program(peel_first_text)},
-          next_program{scene.make_program(peel_next_text)},
+          next_program{scene.make_program(code_text(formats.depth) + peel_next_text)},
           under_program{make_full_screen_program(copy_text)},
           finish_program{make_full_screen_program(opaque_copy_text)} {
         for (std::size_t i = 0; i < 2; ++i) peel[i] = make_framebuffer({layer.name()}, depth[i].name());
@@ -113,12 +123,12 @@ int front_to_back(const GpuScene& scene, const PeelTargets& t, int max_passes) {
 
 }  // namespace
 
-Job front_to_back_job(const GpuScene& scene, Size size) {
-    const auto t = std::make_shared<PeelTargets>(scene, size);
-    return {"front_to_back", pipeline::Format::rgba8,
-            [&scene, size, t](std::vector<std::uint32_t>& pixels, int max_passes) {
+Job front_to_back_job(const GpuScene& scene, Size size, const TargetFormats& formats) {
+    const auto t = std::make_shared<PeelTargets>(scene, size, formats);
+    return {"front_to_back", formats.color,
+            [&scene, size, t, color = formats.color](std::vector<std::uint32_t>& pixels, int max_passes) {
                 const int passes = front_to_back(scene, *t, max_passes);
-                read_rgba8(t->finish, size, pixels);
+                read_color(t->finish, size, color, pixels);
                 return passes;
             }};
 }

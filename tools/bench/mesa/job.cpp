@@ -10,7 +10,7 @@ namespace {
 // A name and the function that makes its job.
 struct Maker {
     std::string name;
-    Job (*make)(const GpuScene&, Size);
+    Job (*make)(const GpuScene&, Size, const TargetFormats&);
 };
 
 const std::vector<Maker>& makers() {
@@ -32,10 +32,10 @@ const std::vector<std::string>& job_names() {
     return names;
 }
 
-Job make_job(const std::string& name, const GpuScene& scene, Size size) {
+Job make_job(const std::string& name, const GpuScene& scene, Size size, const TargetFormats& formats) {
     const auto found = std::ranges::find(makers(), name, &Maker::name);
     if (found == makers().end()) throw std::invalid_argument("no algorithm " + name);
-    return found->make(scene, size);
+    return found->make(scene, size, formats);
 }
 
 }  // namespace strata::mesa

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "rasterizer/base/input_error.h"
@@ -24,12 +25,14 @@ using nlohmann::ordered_json;
 
 // The command line. Empty texts: not given. `budget` and `warm_up` are seconds.
 struct Options {
-    std::string scene, camera, size = "1024x1024", profile = "llvmpipe", coverage, image;
+    std::string scene, camera, size = "1024x1024", driver = "llvmpipe", profile, coverage, image;
     std::optional<float> alpha;
     std::vector<std::string> algorithms;
     int threads = 2, repeat = 3;
     double budget = 10, warm_up = 0.3;
     bool check = false, compare = false;
+    int each_pass = 0;
+    TargetFormats formats;
 };
 
 // Throws InputError unless the text is WIDTHxHEIGHT and nothing else, both from 1.
@@ -56,14 +59,14 @@ Subject load(const Options& options) {
     return subject;
 }
 
-// The words that a job left as an image of its format: codes as they are for depth, four bytes a
-// word for colours.
+// The words that a job left as an image of its format: channels lie in them from the lowest bits on.
 pipeline::Image as_image(const Job& job, Size size, const std::vector<std::uint32_t>& words) {
     pipeline::Image image(job.format, size.width, size.height);
     const auto channels = static_cast<std::size_t>(image.channels());
-    if (channels == 1) image.codes.assign(words.begin(), words.end());
-    for (std::size_t i = 0; channels == 4 && i < image.codes.size(); ++i)
-        image.codes[i] = words[i / 4] >> (8 * (i % 4)) & 0xff;
+    const std::size_t in_a_word = channels * size.area() / words.size(), bits = 32 / in_a_word;
+    const std::uint32_t mask = in_a_word == 1 ? ~0u : (1u << bits) - 1;
+    for (std::size_t i = 0; i < image.codes.size(); ++i)
+        image.codes[i] = words[i / in_a_word] >> (bits * (i % in_a_word)) & mask;
     return image;
 }
 
@@ -74,6 +77,15 @@ std::uint32_t largest_difference(const pipeline::Image& a, const pipeline::Image
     for (std::size_t i = 0; i < a.codes.size(); ++i)
         largest = std::max(largest, a.codes[i] > b.codes[i] ? a.codes[i] - b.codes[i] : b.codes[i] - a.codes[i]);
     return largest;
+}
+
+// The number of pixels with a code that differs.
+std::size_t pixels_that_differ(const pipeline::Image& a, const pipeline::Image& b) {
+    const auto channels = static_cast<std::size_t>(a.channels());
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < a.codes.size(); i += channels)
+        differ += std::equal(&a.codes[i], &a.codes[i] + channels, &b.codes[i]) ? 0 : 1;
+    return differ;
 }
 
 // Wall-clock seconds of one run. Reading the pixels back ends it, so nothing is left in llvmpipe's
@@ -101,6 +113,19 @@ ordered_json measure(const Job& job, const Options& options, std::vector<std::ui
     return {{"algorithm", job.name}, {"geometry_passes", passes}, {"seconds", seconds}};
 }
 
+// Peels that end after 1, 2, 3 ... geometry passes on both sides: their pictures hold every layer as soon as it is there.
+ordered_json compare_each_pass(const Job& job, const Options& options, const Subject& subject,
+                               const pipeline::DeviceProfile& profile, int passes) {
+    std::vector<std::uint32_t> pixels;
+    std::size_t differ = 0, pictures = 0;
+    for (int most = 1; most < std::min(passes, options.each_pass + 1); ++most, ++pictures) {
+        static_cast<void>(job.draw(pixels, most));
+        const Rendered ours = render(subject, profile, job.name, options.formats, most);
+        differ += pixels_that_differ(as_image(job, subject.size, pixels), ours.image);
+    }
+    return {{"pictures", pictures}, {"differ", differ}};
+}
+
 // Measures a job and prints its line of JSON, at once: the caller pairs runs of two programs.
 void run(const Job& job, const Options& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
     std::vector<std::uint32_t> pixels;
@@ -108,26 +133,31 @@ void run(const Job& job, const Options& options, const Subject& subject, const p
     const pipeline::Image image = as_image(job, subject.size, pixels);
     line["digest"] = pipeline::digest(image);
     if (options.compare) {
-        const Rendered ours = render(subject, profile, job.name);
+        const Rendered ours = render(subject, profile, job.name, options.formats);
         line["strata"] = {{"geometry_passes", ours.geometry_passes},
+                          {"differ", pixels_that_differ(image, ours.image)},
                           {"largest_difference", largest_difference(image, ours.image)}};
     }
+    if (options.each_pass > 0)
+        line["each_pass"] = compare_each_pass(job, options, subject, profile, line["geometry_passes"].get<int>());
     fmt::print("{}\n", line.dump());
     std::fflush(stdout);
-    if (!options.image.empty() && image.channels() == 4) scenes::write_image(options.image, {.color = image});
+    if (!options.image.empty() && image.channels() == 4 && job.format == pipeline::Format::rgba8)
+        scenes::write_image(options.image, {.color = image});
 }
 
 // The number of pixels in which the two programs draw another number of fragments.
 std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, const Options& options, Size size,
                   const pipeline::DeviceProfile& profile) {
-    const auto theirs = count_fragments(scene, size), ours = count_fragments(soup, profile, size);
+    const std::vector<std::uint32_t> theirs = count_fragments(scene, size);
+    const auto [ours, clipped] = count_fragments(soup, profile, size);
     std::size_t differ = 0, first = 0;
     std::uint64_t fragments = 0;
     for (std::size_t i = 0; i < ours.size(); ++i) {
         fragments += theirs[i];
         if (ours[i] != theirs[i] && differ++ == 0) first = i;
     }
-    ordered_json line{{"pixels", ours.size()}, {"differ", differ}, {"fragments", fragments}};
+    ordered_json line{{"pixels", ours.size()}, {"differ", differ}, {"fragments", fragments}, {"clipped", clipped}};
     const auto width = static_cast<std::size_t>(size.width);
     if (differ > 0)
         line["first"] = {
@@ -143,16 +173,17 @@ std::size_t check(const GpuScene& scene, const rasterizer::TriangleSoup& soup, c
 
 int run_all(const Options& options) {
     const Subject subject = load(options);
-    const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
+    const pipeline::DeviceProfile profile =
+        scenes::load_profile(options.profile.empty() ? options.driver : options.profile);
     const rasterizer::TriangleSoup soup = clip_vertices(subject);
-    const HeadlessContext context(options.threads);
+    const HeadlessContext context(options.driver, options.threads);
     std::fprintf(stderr, "%s\n", context.renderer().c_str());
     glViewport(0, 0, subject.size.width, subject.size.height);
     glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);  // row 0 of memory is the top, as in Strata
     glDepthFunc(GL_LESS);
     const GpuScene scene(soup);
     for (const std::string& name : options.algorithms)
-        run(make_job(name, scene, subject.size), options, subject, profile);
+        run(make_job(name, scene, subject.size, options.formats), options, subject, profile);
     // --coverage alone writes the counts; a difference fails the run only where --check asks for
     // it.
     const bool counts = options.check || !options.coverage.empty();
@@ -172,8 +203,21 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--warm-up", o.warm_up, "seconds that each runs before it is timed (default 0.3)")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--budget", o.budget, "seconds of an algorithm after which it is not repeated (default 10)");
-    app.add_option("--profile", o.profile, "Strata's device for --check and --compare (default llvmpipe)");
+    app.add_option("--profile", o.profile, "Strata's device for --check and --compare (default: the driver's)");
+    app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add) or softpipe")
+        ->check(CLI::IsMember({"llvmpipe", "llvmpipe_sse", "softpipe"}));
     app.add_flag("--check", o.check, "compare the number of fragments of every pixel; exit status 1 if one differs");
+    const std::map<std::string, pipeline::Format> colors{{"rgba8", pipeline::Format::rgba8},
+                                                         {"rgba16f", pipeline::Format::rgba16f},
+                                                         {"rgba32f", pipeline::Format::rgba32f}};
+    const std::map<std::string, pipeline::Format> depths{
+        {"d16", pipeline::Format::d16}, {"d24", pipeline::Format::d24}, {"d32f", pipeline::Format::d32f}};
+    app.add_option("--color", o.formats.color, "the format of colours: rgba8 (default), rgba16f or rgba32f")
+        ->transform(CLI::CheckedTransformer(colors));
+    app.add_option("--depth", o.formats.depth, "the format of depths: d32f (default), d24 or d16")
+        ->transform(CLI::CheckedTransformer(depths));
+    app.add_option("--each-pass", o.each_pass, "compare the pictures after 1, 2 ... so many passes, too")
+        ->check(CLI::NonNegativeNumber);
     app.add_flag("--compare", o.compare, "compare passes and pictures with Strata's");
     app.add_option("--coverage", o.coverage, "write the number of fragments of every pixel: u32, rows from the top");
     app.add_option("--image", o.image, "write the last colour picture, .png or .exr");

@@ -86,10 +86,25 @@ std::uint64_t samples_passed(const Handle& query) {
     return samples;
 }
 
-void read_rgba8(const Handle& framebuffer, Size size, std::vector<std::uint32_t>& pixels) {
-    pixels.resize(size.area());
+GLenum gl_format(pipeline::Format format) {
+    using enum pipeline::Format;
+    switch (format) {
+        case rgba8: return GL_RGBA8;
+        case rgba16f: return GL_RGBA16F;
+        case rgba32f: return GL_RGBA32F;
+        case d16: return GL_DEPTH_COMPONENT16;
+        case d24: return GL_DEPTH_COMPONENT24;
+        case d32f: return GL_DEPTH_COMPONENT32F;
+        default: throw std::invalid_argument("a format that no job stores");
+    }
+}
+
+void read_color(const Handle& framebuffer, Size size, pipeline::Format format, std::vector<std::uint32_t>& pixels) {
+    const bool is_half = format == pipeline::Format::rgba16f, is_single = format == pipeline::Format::rgba32f;
+    pixels.resize(size.area() * (is_single ? 4 : is_half ? 2 : 1));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.name());
-    glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    const GLenum type = is_single ? GL_FLOAT : is_half ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE;
+    glReadPixels(0, 0, size.width, size.height, GL_RGBA, type, pixels.data());
 }
 
 }  // namespace strata::mesa

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/formats/format.h"
+
 namespace strata::mesa {
 
 struct Size {
@@ -63,7 +65,10 @@ void draw_full_screen(const Handle& program);
 // The query's answer. The call waits until every draw inside the query is finished.
 [[nodiscard]] std::uint64_t samples_passed(const Handle& query);
 
-// Colour attachment 0, rows as they lie in memory: RGBA8 words, r in the lowest byte.
-void read_rgba8(const Handle& framebuffer, Size size, std::vector<std::uint32_t>& pixels);
+// The sized format that stores `format` with the same bits: rgba8, rgba16f, rgba32f, d16, d24 or d32f.
+[[nodiscard]] GLenum gl_format(pipeline::Format format);
+
+// Colour attachment 0, rows as they lie in memory, r in the lowest bits; one, two or four words a pixel.
+void read_color(const Handle& framebuffer, Size size, pipeline::Format format, std::vector<std::uint32_t>& pixels);
 
 }  // namespace strata::mesa

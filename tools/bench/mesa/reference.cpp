@@ -32,8 +32,8 @@ rasterizer::TriangleSoup clip_vertices(const Subject& subject) {
                                {.alpha_scale = subject.alpha.value_or(1.0f), .threads = subject.threads});
 }
 
-std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
-                                           Size size) {
+FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
+                               Size size) {
     rasterizer::RasterState state;
     // Row 0 is the top on both sides: strata_mesa sets GL_UPPER_LEFT.
     state.viewport = {0, 0, size.width, size.height};
@@ -47,22 +47,27 @@ std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup,
     rasterizer::TileRasterizer(state.viewport)
         .draw(geometry, triangles, {}, {.shader_z = false, .code = false, .color = false},
               rasterizer::BatchSink{count});
-    return counts;
+    return {std::move(counts), geometry.counters.clipped};
 }
 
-Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job) {
+Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
+                const TargetFormats& formats, int max_passes) {
     const bool depth = job == "depth";
     peeling::RenderOptions options;
     options.width = subject.size.width;
     options.height = subject.size.height;
     options.alpha = subject.alpha;
+    options.color_format = formats.color;
+    options.depth = pipeline::depth_format(formats.depth);
+    options.max_passes = max_passes;
     options.threads = subject.threads;
     // The audit compares nothing here, and the nearest depth is wanted for `depth` alone.
     options.audit = false;
     options.nearest_depth = depth;
     peeling::Renderer renderer(subject.scene.list, subject.view, profile, options);
-    // Any algorithm finds the nearest depths; weighted_average takes one pass.
-    auto result = renderer.render(*peeling::find_algorithm(depth ? "weighted_average" : job));
+    // weighted_average finds the nearest binary32 depths in one pass; codes of fixed point are those that a peel stores.
+    const char* const finder = formats.depth == pipeline::Format::d32f ? "weighted_average" : "front_to_back";
+    auto result = renderer.render(*peeling::find_algorithm(depth ? finder : job));
     return {depth ? std::move(result.frame.depth) : std::move(result.frame.color), result.frame.passes.geometry};
 }
 

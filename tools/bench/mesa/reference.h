@@ -9,7 +9,7 @@
 #include "pipeline/formats/image.h"
 #include "rasterizer/set_up/geometry.h"
 #include "scenes/scene.h"
-#include "tools/bench/mesa/objects.h"
+#include "tools/bench/mesa/job.h"
 
 namespace strata::mesa {
 
@@ -29,16 +29,21 @@ struct Subject {
 [[nodiscard]] rasterizer::TriangleSoup clip_vertices(const Subject& subject);
 
 // How many fragments of `soup` each pixel has under the profile's coverage rules, rows from the
-// top. No test drops any.
-[[nodiscard]] std::vector<std::uint32_t> count_fragments(const rasterizer::TriangleSoup& soup,
-                                                         const pipeline::DeviceProfile& profile, Size size);
+// top, and how many triangles were cut. No test drops any fragment.
+struct FragmentCounts {
+    std::vector<std::uint32_t> pixels;
+    std::uint64_t clipped = 0;
+};
+[[nodiscard]] FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup,
+                                             const pipeline::DeviceProfile& profile, Size size);
 
 // Strata's picture of a job.
 struct Rendered {
     pipeline::Image image;  // depth: the nearest depth of every pixel; else the colours
     int geometry_passes = 0;
 };
-// `job` is a name of job_names(). No audit runs.
-[[nodiscard]] Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job);
+// `job` is a name of job_names(). No audit runs. max_passes 0: to the end.
+[[nodiscard]] Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
+                              const TargetFormats& formats = {}, int max_passes = 0);
 
 }  // namespace strata::mesa

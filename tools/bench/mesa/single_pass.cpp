@@ -16,8 +16,8 @@ constexpr std::array<float, 4> zero{};
 struct DepthTargets {
     Handle depth, framebuffer, program;
 
-    DepthTargets(const GpuScene& scene, Size size)
-        : depth{make_texture(GL_DEPTH_COMPONENT32F, size)},
+    DepthTargets(const GpuScene& scene, Size size, GLenum format)
+        : depth{make_texture(format, size)},
           framebuffer{make_framebuffer({}, depth.name())},
           program{scene.make_program("void main() {}")} {}
 };
@@ -27,10 +27,10 @@ struct DepthTargets {
 struct AverageTargets {
     Handle sums, count, result, accumulate, finish, accumulate_program, finish_program;
 
-    AverageTargets(const GpuScene& scene, Size size)
-        : sums{make_texture(GL_RGBA16F, size)},
-          count{make_texture(GL_R16F, size)},
-          result{make_texture(GL_RGBA8, size)},
+    AverageTargets(const GpuScene& scene, Size size, pipeline::Format color)
+        : sums{make_texture(color == pipeline::Format::rgba32f ? GL_RGBA32F : GL_RGBA16F, size)},
+          count{make_texture(color == pipeline::Format::rgba32f ? GL_R32F : GL_R16F, size)},
+          result{make_texture(gl_format(color), size)},
           accumulate{make_framebuffer({sums.name(), count.name()})},
           finish{make_framebuffer({result.name()})},
           accumulate_program{scene.make_program(R"(
@@ -72,10 +72,11 @@ void accumulate(const GpuScene& scene, const AverageTargets& t) {
 
 }  // namespace
 
-// The binary32 depths are read back as they are; a word is their bits.
-Job depth_job(const GpuScene& scene, Size size) {
-    const auto t = std::make_shared<DepthTargets>(scene, size);
-    return {"depth", pipeline::Format::d32f, [&scene, size, t](std::vector<std::uint32_t>& pixels, int) {
+// The binary32 depths are read back as they are: a word is their bits. Codes of fixed point are the upper bits of a word.
+Job depth_job(const GpuScene& scene, Size size, const TargetFormats& formats) {
+    const pipeline::Format format = formats.depth;
+    const auto t = std::make_shared<DepthTargets>(scene, size, gl_format(format));
+    return {"depth", format, [&scene, size, t, format](std::vector<std::uint32_t>& pixels, int) {
                 constexpr float far = 1.0f;
                 glBindFramebuffer(GL_FRAMEBUFFER, t->framebuffer.name());
                 glDisable(GL_BLEND);
@@ -84,21 +85,25 @@ Job depth_job(const GpuScene& scene, Size size) {
                 glUseProgram(t->program.name());
                 scene.draw();
                 pixels.resize(size.area());
-                glReadPixels(0, 0, size.width, size.height, GL_DEPTH_COMPONENT, GL_FLOAT, pixels.data());
+                glReadPixels(0, 0, size.width, size.height, GL_DEPTH_COMPONENT,
+                             format == pipeline::Format::d32f ? GL_FLOAT : GL_UNSIGNED_INT, pixels.data());
+                const unsigned unused = format == pipeline::Format::d16 ? 16 : format == pipeline::Format::d24 ? 8 : 0;
+                for (std::uint32_t& word : pixels) word >>= unused;
                 return 1;
             }};
 }
 
-Job weighted_average_job(const GpuScene& scene, Size size) {
-    const auto t = std::make_shared<AverageTargets>(scene, size);
-    return {"weighted_average", pipeline::Format::rgba8, [&scene, size, t](std::vector<std::uint32_t>& pixels, int) {
+Job weighted_average_job(const GpuScene& scene, Size size, const TargetFormats& formats) {
+    const pipeline::Format color = formats.color;
+    const auto t = std::make_shared<AverageTargets>(scene, size, color);
+    return {"weighted_average", color, [&scene, size, t, color](std::vector<std::uint32_t>& pixels, int) {
                 accumulate(scene, *t);
                 glBindFramebuffer(GL_FRAMEBUFFER, t->finish.name());
                 glDisable(GL_BLEND);
                 glBindTextureUnit(0, t->sums.name());
                 glBindTextureUnit(1, t->count.name());
                 draw_full_screen(t->finish_program);
-                read_rgba8(t->finish, size, pixels);
+                read_color(t->finish, size, color, pixels);
                 return 1;
             }};
 }

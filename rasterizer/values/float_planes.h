@@ -1,0 +1,131 @@
+// rasterizer/values/float_planes.h - planes of depth, 1 / w and attributes by rasterizers that round every step to binary32.
+//
+// Rule     reciprocal_area: corners 0 and 1 change places if the snapped triangle is clockwise in memory order; each
+//          difference of positions is multiplied by 1 / area before the slopes are made of it; the value at pixel (i, j)
+//          is (dx i + a) + dy j. reciprocal_area_fused: fma(dy, j, fma(dx, i, a)). least_corner: corners in the order of
+//          their y, slopes times 1 / area; (a + dx i) + dy j at the even pixel of each 2 x 2 quad, and from there + dx,
+//          then + dy. Positions are those of rules.plane_origin.
+// Source   mesa-rasterizers.md 2.4 and 3.3.
+// Numbers  Pixels are below 2^16, so they are exact. An area that rounds to 0 leaves no finite slope: NaN and infinities.
+// Tests    tests/rasterizer/values/float_planes_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "rasterizer/coverage/float_spans.h"
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/set_up/window.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+// The value at the corner of pixel (0, 0) plus half a pixel, and its change to the next pixel right and down.
+struct FloatPlane {
+    float origin = 0.0f, dx = 0.0f, dy = 0.0f;
+
+    [[nodiscard]] constexpr float at(PlaneRule rule, int x, int y) const noexcept {
+        if (rule == PlaneRule::least_corner) return stepped(x, y);
+        const auto i = static_cast<float>(x), j = static_cast<float>(y);
+        if (rule == PlaneRule::reciprocal_area_fused)
+            return fused_multiply_add(dy, j, fused_multiply_add(dx, i, origin));
+        const float across = dx * i, down = dy * j;
+        const float row = across + origin;
+        return row + down;
+    }
+
+  private:
+    [[nodiscard]] constexpr float stepped(int x, int y) const noexcept {
+        const float across = dx * static_cast<float>(x & ~1), down = dy * static_cast<float>(y & ~1);
+        float value = origin + across;
+        value = value + down;
+        if ((x & 1) != 0) value = value + dx;
+        if ((y & 1) != 0) value = value + dy;
+        return value;
+    }
+};
+
+// What the planes of one triangle have in common: the order of its corners, and differences of their positions.
+class FloatPlanes {
+  public:
+    constexpr FloatPlanes(PlaneRule rule, const std::array<WindowPosition, 3>& p, bool is_clockwise) noexcept
+        : rule_{rule} {
+        if (rule == PlaneRule::least_corner)
+            from_least(p);
+        else
+            from_first(p, is_clockwise);
+        x_ = p[order_[0]][0] - 0.5f;
+        y_ = p[order_[0]][1] - 0.5f;
+    }
+
+    // The plane through the values of corners 0, 1 and 2 as they were submitted.
+    [[nodiscard]] constexpr FloatPlane plane(const std::array<float, 3>& value) const noexcept {
+        const float a0 = value[order_[0]], a1 = value[order_[1]], a2 = value[order_[2]];
+        FloatPlane plane;
+        if (rule_ == PlaneRule::least_corner) {
+            const float middle = a1 - a0, greatest = a2 - a0;
+            plane.dx = less(first_.y, greatest, middle, second_.y) * reciprocal_;
+            plane.dy = less(second_.x, middle, greatest, first_.x) * reciprocal_;
+        } else {
+            const float da01 = a0 - a1, da20 = a2 - a0;
+            plane.dx = less(da01, second_.y, da20, first_.y);
+            plane.dy = less(da20, first_.x, da01, second_.x);
+        }
+        const float across = plane.dx * x_, down = plane.dy * y_;
+        const float moved = across + down;
+        plane.origin = a0 - moved;
+        return plane;
+    }
+
+  private:
+    struct Difference {
+        float x, y;
+    };
+    [[nodiscard]] static constexpr Difference difference(const WindowPosition& a, const WindowPosition& b) noexcept {
+        return {a[0] - b[0], a[1] - b[1]};
+    }
+    // a b - c d: three roundings.
+    [[nodiscard]] static constexpr float less(float a, float b, float c, float d) noexcept {
+        const float ab = a * b, cd = c * d;
+        return ab - cd;
+    }
+
+    constexpr void from_first(const std::array<WindowPosition, 3>& p, bool is_clockwise) noexcept {
+        if (is_clockwise) order_ = {1, 0, 2};
+        first_ = difference(p[order_[0]], p[order_[1]]);
+        second_ = difference(p[2], p[order_[0]]);
+        reciprocal_ = 1.0f / less(first_.x, second_.y, first_.y, second_.x);
+        first_ = {first_.x * reciprocal_, first_.y * reciprocal_};
+        second_ = {second_.x * reciprocal_, second_.y * reciprocal_};
+    }
+
+    constexpr void from_least(const std::array<WindowPosition, 3>& p) noexcept {
+        order_ = by_height(p);
+        first_ = difference(p[order_[1]], p[order_[0]]);
+        second_ = difference(p[order_[2]], p[order_[0]]);
+        reciprocal_ = 1.0f / less(second_.x, first_.y, first_.x, second_.y);
+    }
+
+    PlaneRule rule_;
+    std::array<std::size_t, 3> order_{0, 1, 2};
+    // The first corner, less half a pixel.
+    float x_ = 0.0f, y_ = 0.0f;
+    // From corner 1 to corner 0 and from corner 0 to corner 2, times the reciprocal; least_corner: from corner 0 to corners
+    // 1 and 2.
+    Difference first_{}, second_{};
+    float reciprocal_ = 0.0f;
+};
+
+// The planes of a set-up triangle, by the rules of its geometry.
+[[nodiscard]] inline FloatPlanes float_planes(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
+    const RasterRules& rules = geometry.rules;
+    const std::array<SubpixelPoint, 3> p = geometry.points(triangle);
+    std::array<WindowPosition, 3> position = geometry.positions(triangle);
+    const float pixel = 1.0f / static_cast<float>(1 << rules.subpixel_bits);
+    if (rules.plane_origin == PlaneOrigin::snapped)
+        for (std::size_t i = 0; i < 3; ++i)
+            position[i] = {static_cast<float>(p[i].x) * pixel, static_cast<float>(p[i].y) * pixel};
+    return {rules.plane_rule, position, Edge{p[0], p[1]}.at(p[2]) > 0};
+}
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,171 @@
+// The model: the walk of mesa-rasterizers.md 1.2 over rationals, each operation rounded to binary32 by definition.
+#include <catch2/catch.hpp>
+
+#include "rasterizer/set_up/clip.h"
+#include "rasterizer/set_up/window.h"
+#include "tests/rasterizer/rational.h"
+#include "tests/rasterizer/scene.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+
+using VertexValues = std::array<float, 14>;
+
+[[nodiscard]] float nearest(const Rational& v) { return nearest_float(v); }
+
+[[nodiscard]] float distance_of(int plane, const VertexValues& v) {
+    const Rational w{v[3]}, axis{v[static_cast<std::size_t>(plane / 2)]};
+    // x <= w, -x <= w, y <= w, -y <= w, then -z <= w before z <= w.
+    const bool is_upper = plane < 4 ? plane % 2 == 0 : plane == 5;
+    return nearest(is_upper ? Rational{w - axis} : Rational{w + axis});
+}
+
+[[nodiscard]] VertexValues moved(const VertexValues& from, const VertexValues& other, float t) {
+    VertexValues result;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        const float difference = nearest(Rational{other[i]} - Rational{from[i]});
+        const float product = nearest(Rational{t} * Rational{difference});
+        result[i] = nearest(Rational{from[i]} + Rational{product});
+    }
+    return result;
+}
+
+[[nodiscard]] std::vector<VertexValues> cut_by(int plane, const std::vector<VertexValues>& from) {
+    std::vector<VertexValues> to;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const VertexValues& previous = from[i];
+        const VertexValues& current = from[(i + 1) % from.size()];
+        const float d_previous = distance_of(plane, previous), d = distance_of(plane, current);
+        if (d_previous >= 0) to.push_back(previous);
+        if ((d_previous >= 0) == (d >= 0)) continue;
+        const float whole = nearest(Rational{d} - Rational{d_previous});
+        const float from_current = nearest(Rational{d} / Rational{whole});
+        const float from_previous = nearest(Rational{-d_previous} / Rational{whole});
+        const bool goes_out = d < 0;
+        if (goes_out ? -d < d_previous : !(-d_previous < d))
+            to.push_back(moved(current, previous, from_current));
+        else
+            to.push_back(moved(previous, current, from_previous));
+    }
+    return to;
+}
+
+[[nodiscard]] std::vector<VertexValues> model_of(std::vector<VertexValues> polygon) {
+    const std::vector<VertexValues> given = polygon;
+    for (int plane = 0; plane < 6 && polygon.size() >= 3; ++plane) {
+        bool crosses = false;
+        for (const VertexValues& v : given) crosses |= distance_of(plane, v) < 0;
+        if (crosses) polygon = cut_by(plane, polygon);
+    }
+    return polygon.size() < 3 ? std::vector<VertexValues>{} : polygon;
+}
+
+[[nodiscard]] RasterRules view_volume() { return {.clip = ClipVolume::view_volume}; }
+
+}  // namespace
+
+TEST_CASE("the view volume cuts a triangle into the corners of the rule, in its order, each step rounded", "[slow]") {
+    const RasterState state = scene_state(64, 48);
+    const Clipper clipper{state, view_volume()};
+    Random random{511};
+    std::uint64_t wrong = 0, cut = 0, gone = 0, on_plane = 0;
+    for (int n = 0; n < 3000; ++n) {
+        ClipPolygon polygon{};
+        polygon.count = 3;
+        std::vector<VertexValues> given;
+        std::uint32_t any = 0, all = ~0u;
+        for (std::size_t i = 0; i < 3; ++i) {
+            polygon.corner[i] = random_vertex(random, SoupKind::needs_clipping);
+            // Some corners lie exactly on a plane: those make a corner of their own beside them.
+            if (n % 5 == 0 && i == 0) polygon.corner[i].x = polygon.corner[i].w, ++on_plane;
+            given.push_back(std::bit_cast<VertexValues>(polygon.corner[i]));
+            any |= clipper.outside(polygon.corner[i]);
+            all &= clipper.outside(polygon.corner[i]);
+        }
+        if (all != 0) continue;
+        clipper.clip(polygon, any);
+        const std::vector<VertexValues> expected = model_of(given);
+        const auto count = static_cast<std::size_t>(polygon.count);
+        gone += expected.empty() ? 1 : 0;
+        cut += expected.size() > 3 ? 1 : 0;
+        if (expected.empty() || count < 3) {
+            wrong += expected.empty() == (count < 3) ? 0 : 1;
+            continue;
+        }
+        bool same = count == expected.size();
+        for (std::size_t i = 0; same && i < count; ++i) {
+            same = std::bit_cast<VertexValues>(polygon.corner[i]) == expected[i];
+            // One that clipping made beside a corner on the plane may equal it.
+            same &= polygon.is_new[i] || std::ranges::find(given, expected[i]) != given.end();
+        }
+        wrong += same ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+    CHECK(cut > 300);
+    CHECK(gone > 10);
+    CHECK(on_plane > 100);
+}
+
+TEST_CASE("the fan of a triangle cut by the view volume names its common corner last") {
+    TriangleSoup soup;
+    for (const auto& [x, y] : {std::array{-0.5f, -0.5f}, {2.0f, -0.5f}, {-0.5f, 0.5f}}) {
+        soup.indices.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
+        soup.vertices.push_back({x, y, 0, 1, {}, {}, {}});
+    }
+    soup.runs = {{0, 3, 0, 0, true, false}};
+    const Geometry ours = set_up(soup, scene_state(64, 48), view_volume(), 1);
+    REQUIRE(ours.triangles.size() == 2);
+    CHECK(ours.triangles[0].vertex[2] == ours.triangles[1].vertex[2]);
+    CHECK(ours.triangles[0].vertex[1] == ours.triangles[1].vertex[0]);
+    // The guard band holds this triangle whole.
+    CHECK(set_up(soup, scene_state(64, 48), {}, 1).triangles.size() == 1);
+}
+
+TEST_CASE("vertices are projected with one rounding or two, and those that clipping made by their own rule") {
+    Random random{512};
+    const RasterState state = scene_state(333, 77);
+    std::uint64_t wrong = 0, fused_once = 0;
+    for (int n = 0; n < 4000; ++n) {
+        ClipVertex v;
+        v.w = random_float(random, 0.5f, 7);
+        v.x = random_float(random, -1, 1) * v.w;
+        const float q = nearest(Rational{1} / Rational{v.w}), divided = nearest(Rational{v.x} * Rational{q});
+        const Rational scale{333, 2};
+        const float once = nearest(Rational{divided} * scale + scale);
+        const float twice = nearest(Rational{nearest(Rational{divided} * scale)} + scale);
+        fused_once += once == twice ? 0 : 1;
+        for (const ViewportArithmetic rule :
+             {ViewportArithmetic::separate, ViewportArithmetic::fused, ViewportArithmetic::fused_given}) {
+            const WindowTransform window{state, {.w_divide = WDivide::reciprocal, .viewport = rule}};
+            const float given = window.project(v).x, made = window.project(v, VertexOrigin::made_by_clip).x;
+            wrong += given == (rule == ViewportArithmetic::separate ? twice : once) ? 0 : 1;
+            wrong += made == (rule == ViewportArithmetic::fused ? once : twice) ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(fused_once > 100);
+}
+
+TEST_CASE("a corner that clipping made is projected as such, the others of its polygon as given") {
+    std::uint64_t unlike = 0, wrong = 0, given = 0;
+    RasterRules rules{
+        .clip = ClipVolume::view_volume, .w_divide = WDivide::reciprocal, .viewport = ViewportArithmetic::fused_given};
+    const RasterState state = scene_state(333, 77);
+    const TriangleSoup soup = random_soup(513, 200, SoupKind::needs_clipping);
+    const Geometry geometry = set_up(soup, state, rules, 1);
+    const WindowTransform window{state, rules};
+    for (std::size_t v = soup.vertices.size(); v < geometry.vertices.size(); ++v) {
+        const ClipVertex& corner = geometry.vertices[v];
+        const bool is_given = std::ranges::any_of(soup.vertices, [&](const ClipVertex& other) {
+            return std::bit_cast<VertexValues>(other) == std::bit_cast<VertexValues>(corner);
+        });
+        const float once = window.project(corner).x, twice = window.project(corner, VertexOrigin::made_by_clip).x;
+        wrong += geometry.corners[v].unsnapped[0] == (is_given ? once : twice) ? 0 : 1;
+        unlike += once == twice ? 0 : 1;
+        given += is_given ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(unlike > 10);
+    CHECK(given > 10);
+}

@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Writes tools/bench/DIFFERENCES.md: how many pixels Strata draws unlike Mesa's own drivers, scene by scene.
+
+    tools/bench/driver_differences.py [--models ../shared/models] [--drivers llvmpipe,llvmpipe_sse,softpipe] [--quick]
+
+Runs strata_mesa (README.md says how it is built). Exit status 0: llvmpipe and llvmpipe_sse differ nowhere but where the page says why, and
+softpipe not in coverage or depth; 1: they do. Standard library alone.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+DRIVERS = ["llvmpipe", "llvmpipe_sse", "softpipe"]
+# No side is a power of two, half of which would scale exactly.
+SIZES = ["333x277", "500x375", "641x479", "999x333", "257x600"]
+FORMATS = [("rgba8", "d32f"), ("rgba16f", "d24"), ("rgba32f", "d16"), ("rgba8", "d24"), ("rgba16f", "d16"), ("rgba32f", "d32f")]
+MOST_PASSES = 12  # pictures of each peel beside its last one
+JOBS = ["depth", "front_to_back", "dual", "weighted_average"]
+
+
+def camera(eye, center, near, far, fovy=42):
+    return {"eye": eye, "center": center, "up": [0, 1, 0], "fovy_degrees": fovy, "near": near, "far": far}
+
+
+def model_views(file, center, eye, near, far, alpha):
+    """Whole; cut at near and far; so close that it leaves the frame on all sides; so far that triangles are smaller than pixels."""
+    span = [e - c for e, c in zip(eye, center)]
+    at = lambda share: [c + share * s for c, s in zip(center, span)]
+    middle = (near + far) / 2
+    return [(file, "whole", alpha, camera(eye, center, near, far)),
+            (file, "cut at near and far", alpha, camera(eye, center, 0.9 * middle, 1.03 * middle)),
+            (file, "beyond every side", alpha, camera(at(0.35), center, near * 0.02, far)),
+            (file, "sub-pixel triangles", alpha, camera(at(9), center, 9 * near - far, 10 * far))]
+
+
+def scenes(models):
+    found = []
+    for name, center, eye, near, far in (("bunny.glb", [0, 0, 0], [0.6, 0.4, 3], 1.9, 4.2),
+                                         ("dragon.glb", [-0.005, 0.122, -0.005], [0.03, 0.16, 0.275], 0.2, 0.4)):
+        if (models / name).exists():
+            found += model_views(str(models / name), center, eye, near, far, "0.37" if name == "bunny.glb" else "0.3")
+    inside = [camera([0.1, 0.2, 0.3], [-1, 0.3, -0.5], 0.05, 1.0, 90), camera([0, 0, 1.1], [0, 0, 0], 0.3, 1.6, 70),
+              camera([-0.6, 0.4, 0.5], [0.4, -0.2, 0], 0.4, 0.9, 100), camera([0.9, -0.9, 0.9], [0, 0, 0], 0.1, 3.0, 60)]
+    for seed in range(1, 9):
+        triangles = 400 if seed % 2 else 5000
+        found.append((f"random:seed={seed},triangles={triangles}", "cut on every side", None, inside[seed % len(inside)]))
+    found += [("random:seed=21,triangles=40000", "far off", None, camera([3, 2, 9], [0, 0, 0], 6, 13)),
+              ("volume-beam:slices=24", "whole", None, camera([0.8, 0.6, 3.9], [0, 0, 0], 2.5, 5.5, 45)),
+              ("volume-beam:slices=24", "from within", None, camera([0.2, 0.1, 0.9], [0, 0, 0], 0.05, 1.4, 80)),
+              ("planes:count=12", "whole", None, None),
+              ("teapot", "whole", "0.5", None)]
+    return found
+
+
+def run(program, scene, size, formats, driver, jobs, folder):
+    spec, _, alpha, view = scene
+    words = [program, spec, "--driver", driver, "--size", size, "--color", formats[0], "--depth", formats[1], "--check", "--compare",
+             "--repeat", "1", "--warm-up", "0", "--each-pass", str(MOST_PASSES), "--algorithm", ",".join(jobs)]
+    if alpha:
+        words += ["--alpha", alpha]
+    if view:
+        path = pathlib.Path(folder) / "camera.json"
+        path.write_text(json.dumps(view))
+        words += ["--camera", str(path)]
+    ended = subprocess.run(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if ended.returncode not in (0, 1):
+        sys.exit(f"driver_differences.py: {' '.join(words)}: {ended.stderr.strip()}")
+    lines = [json.loads(line) for line in ended.stdout.splitlines()]
+    return ended.stderr.strip().splitlines()[0], lines[:-1], lines[-1]["coverage"]
+
+
+def cell(job):
+    """Pixels that differ in the last picture, and in those of earlier passes; passes where their numbers differ."""
+    text = str(job["strata"]["differ"] + job["each_pass"]["differ"])
+    if job["algorithm"] != "depth" and job["geometry_passes"] != job["strata"]["geometry_passes"]:
+        text += f" ({job['geometry_passes']} and {job['strata']['geometry_passes']} passes)"
+    return text
+
+
+class Table:
+    """The rows of one driver, and what they add up to."""
+    def __init__(self, driver):
+        self.driver, self.rows, self.renderer = driver, [], ""
+        self.pixels = self.fragments = self.clipped = 0
+        self.differ = {job: 0 for job in ["coverage", *JOBS]}
+
+    def add(self, scene, size, formats, jobs, coverage):
+        found = {job["algorithm"]: job for job in jobs}
+        self.fragments += coverage["fragments"]
+        self.clipped += coverage["clipped"]
+        self.differ["coverage"] += coverage["differ"]
+        for name, job in found.items():
+            pictures = 1 + job["each_pass"]["pictures"]
+            self.pixels += coverage["pixels"] * pictures
+            self.differ[name] += job["strata"]["differ"] + job["each_pass"]["differ"]
+        name = f"{pathlib.Path(scene[0]).name}, {scene[1]}"
+        self.rows.append([name, size, " ".join(formats), str(coverage["fragments"]), str(coverage["clipped"]), str(coverage["differ"]),
+                          *(cell(found[job]) if job in found else "-" for job in JOBS)])
+
+    def text(self):
+        head = ["scene", "size", "formats", "fragments", "cut triangles", "coverage", *JOBS]
+        total = ["all", "", "", str(self.fragments), str(self.clipped), *(str(self.differ[k]) for k in ["coverage", *JOBS])]
+        lines = [f"## {self.driver}", f"{self.renderer}. {self.pixels:,} pixels of pictures compared.", ""]
+        lines += ["| " + " | ".join(row) + " |" for row in [head, ["---"] * 3 + ["---:"] * (len(head) - 3), *self.rows, total]]
+        return "\n".join(lines) + "\n"
+
+
+def jobs_of(driver, formats, index):
+    """Averages in binary32 end in a power, softpipe's colours are not emulated and slow: those are counted on a few scenes."""
+    if driver == "softpipe":
+        return ["depth", "weighted_average"] if index % 8 == 0 else ["depth"]
+    return JOBS
+
+
+def page(tables):
+    return "\n".join([
+        "# Pixels that Strata draws unlike Mesa's drivers", "",
+        "Made by `tools/bench/driver_differences.py`. A column holds the number of pixels of which any bit differs: the count of fragments of a",
+        f"pixel (coverage), the nearest depth, and the last picture of a peel with those after 1 to {MOST_PASSES} geometry passes, so that every layer is",
+        "seen by itself. Formats are those of the colours and depths of all targets (dual's depths and the counts are binary32, the average's",
+        "sums half floats in all but rgba32f). A weighted average in rgba32f ends in GLSL's pow, which the driver approximates: its sums are not",
+        "compared there, and what differs is the last units of the power. softpipe's colours are not emulated; they are counted on some scenes.",
+        "", *(table.text() for table in tables)])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--models", default=str(ROOT / "../shared/models"), help="folder with bunny.glb and dragon.glb")
+    parser.add_argument("--program", default=str(ROOT / "build/release/strata_mesa"), help="the built strata_mesa")
+    parser.add_argument("--drivers", default=",".join(DRIVERS), help="of %(default)s")
+    parser.add_argument("--quick", action="store_true", help="every fifth scene: to try the script")
+    parser.add_argument("--out", default=str(HERE / "DIFFERENCES.md"))
+    options = parser.parse_args()
+    if not pathlib.Path(options.program).exists():
+        sys.exit(f"driver_differences.py: --program: expected the built strata_mesa, found nothing at {options.program}")
+    tables = []
+    with tempfile.TemporaryDirectory() as folder:
+        for driver in options.drivers.split(","):
+            table = Table(driver)
+            for index, scene in enumerate(scenes(pathlib.Path(options.models))):
+                if options.quick and index % 5 != 0:
+                    continue
+                size, formats = SIZES[index % len(SIZES)], FORMATS[index % len(FORMATS)]
+                table.renderer, jobs, coverage = run(options.program, scene, size, formats, driver, jobs_of(driver, formats, index), folder)
+                table.add(scene, size, formats, jobs, coverage)
+                print(driver, *table.rows[-1], sep="  ", file=sys.stderr, flush=True)
+            tables.append(table)
+    pathlib.Path(options.out).write_text(page(tables))
+    exact = ["coverage", "depth"]
+    wrong = sum(t.differ[k] for t in tables for k in (exact if t.driver == "softpipe" else [*exact, "front_to_back", "dual"]))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
