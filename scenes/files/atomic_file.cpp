@@ -1,5 +1,3 @@
-// scenes/files/atomic_file.cpp - the temporary file, and the table of those being written that a signal handler
-// may read.
 #include "scenes/files/atomic_file.h"
 
 #include <fcntl.h>
@@ -7,118 +5,166 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
 
 #include "scenes/files/system_error.h"
+#include "scenes/files/unfinished_files.h"
 
 namespace strata::scenes {
 namespace {
 
-// A temporary file's path where a signal handler may read it: fixed storage and lock-free flags.
-// A path is written while its slot is `claimed`, when the handler passes it over, and read only while `active`.
-// 16 slots: a run writes a few files at a time.
-struct Slot {
-    std::atomic<int> state{empty};
-    char path[4096];
-    enum State : int { empty, claimed, active };
-};
-Slot slots[16];
-static_assert(std::atomic<int>::is_always_lock_free);
-
-// The path is entered before the file exists: an interrupt between the two finds nothing to unlink, which does
-// no harm; the other order would leave a file behind.
-int claim_slot(const std::string& path) {
-    if (path.size() >= sizeof(Slot::path)) throw SystemError(path, "write", "the name is too long");
-    for (int i = 0; i < static_cast<int>(std::size(slots)); ++i) {
-        int expected = Slot::empty;
-        if (!slots[i].state.compare_exchange_strong(expected, Slot::claimed)) continue;
-        std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
-        slots[i].state = Slot::active;
-        return i;
-    }
-    throw SystemError(path, "write", "too many files are being written at once");
-}
+constexpr std::size_t buffer_bytes = 65536;
+constexpr std::string_view temporary_ending = ".tmp";
 
 // The process and a counter make the name its own; the same folder makes the later rename one step of one file
-// system. The dot in front hides it from a glob.
-std::string temporary_name(const std::string& path) {
+// system. The dot in front hides it from a glob. 255 bytes are the longest name that Linux's file systems hold.
+std::string temporary_name(const std::string& path, bool is_stream) {
     static std::atomic<unsigned> number{0};
     const std::filesystem::path target{path};
-    const std::string name = fmt::format(".{}.{}-{}.tmp", target.filename().string(), ::getpid(), number++);
-    return (target.parent_path() / name).string();
+    const std::string own = fmt::format(".{}-{}{}", ::getpid(), number++, temporary_ending);
+    const std::string name = "." + target.filename().string().substr(0, 255 - 1 - own.size()) + own;
+    // The folder of a pipe or a device need not take files.
+    return ((is_stream ? std::filesystem::temp_directory_path() : target.parent_path()) / name).string();
 }
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-// Async-signal-safe calls alone: unlink and _exit. 128 + the signal is what a shell reports for a process that
-// a signal ended.
-extern "C" void on_interrupt(int signal) {
-    remove_unfinished_files();
-    ::_exit(128 + signal);
+// All of it, whatever the system takes at once. False with errno after a failure.
+bool write_all(int descriptor, const std::byte* bytes, std::size_t size) noexcept {
+    while (size > 0) {
+        const ssize_t written = ::write(descriptor, bytes, size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        bytes += written;
+        size -= static_cast<std::size_t>(written);
+    }
+    return true;
+}
+
+// Whether a finished file cannot take this one's place. A folder, or a name that no folder takes, is an error here: a
+// rename would tell it only after all the work of rendering.
+bool leads_to_stream(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) {
+        if (S_ISDIR(status.st_mode)) throw SystemError(path, "write", reason(EISDIR));
+        return !S_ISREG(status.st_mode);
+    }
+    if (errno == ENAMETOOLONG) throw SystemError(path, "write", reason(errno));
+    return false;
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : path_{path}, temporary_{temporary_name(path)} {
-    // A rename onto a folder would fail only after all the work of rendering: the constructor says so at once.
-    struct stat status {};
-    if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) throw SystemError(path, "write", reason(EISDIR));
-    slot_ = claim_slot(temporary_);
-    // O_EXCL: a file of that name is somebody else's. Mode 0666 leaves the permissions to the umask, as for any
-    // new file.
-    const int descriptor = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0) file_ = ::fdopen(descriptor, "wb");
-    if (file_ == nullptr) {
+AtomicFile::AtomicFile(const std::string& path)
+    : path_{path}, is_stream_{leads_to_stream(path)}, buffer_{std::make_unique<std::byte[]>(buffer_bytes)} {
+    open_temporary();
+    if (descriptor_ >= 0) return;
+    const int error = errno;
+    discard();
+    throw SystemError(path, "write", reason(error));
+}
+
+// O_EXCL: a file of that name is somebody else's. A killed process of the same number may have left one (the first process
+// of a container has the number 1 each time): the next name is tried. Mode 0666 leaves the permissions to the umask.
+void AtomicFile::open_temporary() {
+    constexpr int most_tries = 10000;
+    for (int i = 0; i < most_tries; ++i) {
+        temporary_ = temporary_name(path_, is_stream_);
+        // Entered before the file exists: an interrupt between the two finds nothing to unlink; the other order
+        // would leave a file behind.
+        slot_ = enter_unfinished_file(temporary_);
+        descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0) return;
+        // Not discard(): the file is another's.
         const int error = errno;
-        if (descriptor >= 0) ::close(descriptor);
-        discard();
-        throw SystemError(path, "write", reason(error));
+        forget_unfinished_file(slot_);
+        slot_ = -1;
+        errno = error;
+        if (error != EEXIST) return;
     }
 }
 
 AtomicFile::~AtomicFile() { discard(); }
 
-std::size_t AtomicFile::write(const void* bytes, std::size_t size) noexcept {
+bool AtomicFile::flush() noexcept {
+    if (failure_ != 0) return false;
     errno = 0;
-    const std::size_t written = std::fwrite(bytes, 1, size, file_);
-    if (written != size) note_failure();
-    return written;
+    if (!write_all(descriptor_, buffer_.get(), used_)) return note_failure(), false;
+    begin_ += static_cast<std::int64_t>(used_);
+    used_ = 0;
+    return true;
+}
+
+std::size_t AtomicFile::write(const void* bytes, std::size_t size) noexcept {
+    const auto* from = static_cast<const std::byte*>(bytes);
+    for (std::size_t left = size; left > 0;) {
+        if (used_ == buffer_bytes && !flush()) return size - left;
+        const std::size_t part = std::min(left, buffer_bytes - used_);
+        std::memcpy(buffer_.get() + used_, from, part);
+        from += part;
+        used_ += part;
+        left -= part;
+    }
+    return size;
 }
 
 bool AtomicFile::seek(std::int64_t position) noexcept {
+    if (!flush()) return false;
     errno = 0;
-    const bool done = ::fseeko(file_, position, SEEK_SET) == 0;
-    if (!done) note_failure();
-    return done;
+    if (::lseek(descriptor_, position, SEEK_SET) != position) return note_failure(), false;
+    begin_ = position;
+    return true;
 }
-
-std::int64_t AtomicFile::position() const noexcept { return ::ftello(file_); }
 
 void AtomicFile::note_failure() noexcept {
     if (failure_ == 0) failure_ = errno != 0 ? errno : EIO;
 }
 
-void AtomicFile::commit() {
+// The order is what makes it safe: a name must not reach the disk before the bytes that it stands for.
+void AtomicFile::put_in_place() {
     errno = 0;
-    if (std::fclose(file_) != 0) note_failure();  // the last buffer may be the one that does not fit
-    file_ = nullptr;
-    if (failure_ == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) note_failure();
-    if (failure_ != 0) throw SystemError(path_, "write", reason(failure_));  // the destructor removes what is there
-    slots[slot_].state = Slot::empty;
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) return note_failure();
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) return note_failure();
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) return note_failure();
+    forget_unfinished_file(slot_);
     slot_ = -1;
+    errno = sync_folder(std::filesystem::path(path_).parent_path().string());
+    if (errno != 0) note_failure();
+}
+
+void AtomicFile::send() noexcept {
+    const int stream = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (stream < 0) return note_failure();
+    bool done = ::lseek(descriptor_, 0, SEEK_SET) == 0;
+    while (done) {
+        const ssize_t count = ::read(descriptor_, buffer_.get(), buffer_bytes);
+        done = count >= 0 && write_all(stream, buffer_.get(), static_cast<std::size_t>(count));
+        if (count <= 0) break;
+    }
+    if (!done) note_failure();
+    if (::close(stream) != 0) note_failure();
+    discard();
+}
+
+void AtomicFile::commit() {
+    if (flush()) is_stream_ ? send() : put_in_place();
+    if (failure_ != 0) throw SystemError(path_, "write", reason(failure_));  // the destructor removes what is there
 }
 
 void AtomicFile::discard() noexcept {
-    if (file_ != nullptr) std::fclose(file_);
-    file_ = nullptr;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
     if (slot_ < 0) return;
     ::unlink(temporary_.c_str());
-    slots[slot_].state = Slot::empty;
+    forget_unfinished_file(slot_);
     slot_ = -1;
 }
 
@@ -128,21 +174,26 @@ void write_file(const std::string& path, std::string_view bytes) {
     file.commit();
 }
 
-void remove_unfinished_files() noexcept {
-    for (const Slot& slot : slots) {
-        if (slot.state == Slot::active) ::unlink(slot.path);
-    }
+int sync_folder(const std::string& folder) noexcept {
+    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    // A folder may be open to writers alone: then its names reach the disk when the system likes.
+    if (descriptor < 0) return errno == EACCES ? 0 : errno;
+    const int error = ::fsync(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    return error == EINVAL || error == ENOTSUP ? 0 : error;
 }
 
-void remove_unfinished_files_when_interrupted() noexcept {
-    struct sigaction action {};
-    action.sa_handler = on_interrupt;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU}) {
-        struct sigaction before {};
-        ::sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
-    }
-    std::signal(SIGXFSZ, SIG_IGN);
+std::string target_of_temporary(std::string_view name) {
+    if (!name.starts_with('.') || !name.ends_with(temporary_ending)) return "";
+    name.remove_prefix(1);
+    name.remove_suffix(temporary_ending.size());
+    const std::size_t dot = name.rfind('.'), dash = name.rfind('-');
+    if (dot == name.npos || dot == 0 || dash == name.npos || dash < dot) return "";
+    const auto is_number = [](std::string_view digits) {
+        return !digits.empty() && digits.find_first_not_of("0123456789") == digits.npos;
+    };
+    if (!is_number(name.substr(dot + 1, dash - dot - 1)) || !is_number(name.substr(dash + 1))) return "";
+    return std::string(name.substr(0, dot));
 }
 
 }  // namespace strata::scenes

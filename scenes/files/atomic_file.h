@@ -1,12 +1,14 @@
 // scenes/files/atomic_file.h - a file that appears under its name only when it is complete.
 //
-// Rule     Written beside its place under ".NAME.PROCESS-NUMBER.tmp", renamed by commit(). What was not committed is
-//          removed: by the destructor, or by remove_unfinished_files() when the process is interrupted. A symbolic link
-//          is replaced, not followed.
+// Rule     Written beside its place under ".NAME.PROCESS-NUMBER.tmp", with a long NAME cut so that the whole has 255 bytes.
+//          commit() puts the bytes on the disk (fsync), renames, and puts the new name on the disk (fsync of the folder).
+//          What was not committed is removed: by the destructor, or by unfinished_files.h when the process is interrupted.
+//          A symbolic link is replaced, not followed, unless it leads to a pipe or a device: commit() writes the finished
+//          bytes to these.
 // Tests    tests/scenes/files/atomic_file_test.cpp
 #pragma once
 #include <cstdint>
-#include <cstdio>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -23,7 +25,7 @@ class AtomicFile {
     // never throw, because image libraries call them.
     std::size_t write(const void* bytes, std::size_t size) noexcept;
     bool seek(std::int64_t position) noexcept;
-    [[nodiscard]] std::int64_t position() const noexcept;
+    [[nodiscard]] std::int64_t position() const noexcept { return begin_ + static_cast<std::int64_t>(used_); }
     [[nodiscard]] bool failed() const noexcept { return failure_ != 0; }
 
     // For a library that opens files by name only: it writes this one, commit() puts it in its place.
@@ -33,13 +35,22 @@ class AtomicFile {
     void commit();  // SystemError if any write failed, or the rename does
 
   private:
+    void open_temporary();
+    bool flush() noexcept;  // the buffer to the file
+    void put_in_place();    // the temporary's bytes under the final name
+    void send() noexcept;   // the temporary's bytes to a pipe or a device
     // note_failure() keeps the first errno; discard() closes and unlinks what was not committed.
     void note_failure() noexcept;
     void discard() noexcept;
 
     std::string path_, temporary_;
-    std::FILE* file_ = nullptr;
-    // Its entry in the table that a signal handler reads; -1 after commit().
+    bool is_stream_ = false;  // the path names a pipe or a device
+    int descriptor_ = -1;
+    // The bytes that follow `begin_` in the file and are not written yet.
+    std::unique_ptr<std::byte[]> buffer_;
+    std::size_t used_ = 0;
+    std::int64_t begin_ = 0;
+    // Its place in the table of unfinished files; -1 after commit().
     int slot_ = -1;
     int failure_ = 0;  // errno of the first failure
 };
@@ -47,12 +58,12 @@ class AtomicFile {
 // The whole file at once.
 void write_file(const std::string& path, std::string_view bytes);
 
-// Unlinks every file that is being written. Async-signal-safe.
-void remove_unfinished_files() noexcept;
+// Puts a folder's names on the disk: what was created in it or renamed is there after a power loss. A file system that
+// cannot is passed over. Answers errno, 0 if it is done.
+[[nodiscard]] int sync_folder(const std::string& folder) noexcept;
 
-// On SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE and SIGXCPU: remove_unfinished_files(), then _exit(128 + signal), which is
-// 130 for SIGINT. A signal that the process was told to ignore (nohup) stays ignored. SIGXFSZ is ignored, so that a
-// write beyond the limit of file sizes fails like one on a full disk.
-void remove_unfinished_files_when_interrupted() noexcept;
+// Whether `name`, without folder, is a temporary of AtomicFile; then the name that it was to get (the beginning of a long
+// one), else "".
+[[nodiscard]] std::string target_of_temporary(std::string_view name);
 
 }  // namespace strata::scenes

@@ -9,7 +9,7 @@
 
 #include "pipeline/device/check.h"
 #include "rasterizer/base/input_error.h"
-#include "scenes/files/atomic_file.h"
+#include "scenes/files/unfinished_files.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/table.h"

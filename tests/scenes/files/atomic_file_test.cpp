@@ -1,12 +1,14 @@
 #include "scenes/files/atomic_file.h"
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,17 +28,23 @@ int files_in(const std::string& folder) {
     return count;
 }
 
-// The exit status of `body` run in a child process.
-template <class Body>
-int status_of_child(Body body) {
+// The exit status of `body` run in a child process, while `beside` runs in this one.
+template <class Body, class Beside>
+int status_of_child(Body body, Beside beside) {
     const pid_t child = ::fork();
     if (child == 0) {
         body();
         ::_exit(99);
     }
+    beside();
     int status = 0;
     ::waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+}
+
+template <class Body>
+int status_of_child(Body body) {
+    return status_of_child(body, [] {});
 }
 
 }  // namespace
@@ -101,41 +109,81 @@ TEST_CASE("a disk that is full is an error, and leaves neither the file nor its 
     CHECK(files_in(folder.path) == 0);
 }
 
-TEST_CASE("a signal that ends the process removes every unfinished file, and the status is 128 and its number") {
-    const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU);
-    const TemporaryFolder folder;
-    const int status = status_of_child([&] {
-        strata::scenes::remove_unfinished_files_when_interrupted();
-        AtomicFile a{folder / "a.txt"}, b{folder / "b.txt"};
-        a.write("x", 1);
-        if (files_in(folder.path) != 2) ::_exit(1);
-        ::raise(signal);
-    });
-    INFO("signal " << signal);
-    CHECK(status == 128 + signal);
-    CHECK(files_in(folder.path) == 0);
-}
-
-TEST_CASE("a write beyond the limit of file sizes is an error, not a signal") {
-    const TemporaryFolder folder;
-    const int status = status_of_child([&] {
-        strata::scenes::remove_unfinished_files_when_interrupted();
-        const rlimit limit{4096, 4096};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-        try {
-            strata::scenes::write_file(folder / "a.txt", std::string(5000, 'x'));
-        } catch (const SystemError& error) {
-            ::_exit(std::string{error.what()}.find("File too large") != std::string::npos ? 3 : 4);
-        }
-    });
-    CHECK(status == 3);
-    CHECK(files_in(folder.path) == 0);
-}
-
 TEST_CASE("slots for unfinished files are given back: a thousand files one after the other, sixteen at once") {
     const TemporaryFolder folder;
     for (int i = 0; i < 1000; ++i) AtomicFile{folder / "a.txt"}.write("x", 1);
     std::vector<std::unique_ptr<AtomicFile>> files;
     for (int i = 0; i < 16; ++i) files.push_back(std::make_unique<AtomicFile>(folder / std::to_string(i)));
     CHECK_THROWS_AS(AtomicFile{folder / "one too many"}, SystemError);
+}
+
+TEST_CASE("a name of any length that a folder takes is written, and one byte more is told at once") {
+    const TemporaryFolder folder;
+    for (const std::size_t length : {1, 200, 238, 239, 240, 250, 254, 255}) {
+        const std::string path = folder / std::string(length, 'n');
+        strata::scenes::write_file(path, "x");
+        CHECK(strata::test::bytes_of(path) == "x");
+    }
+    CHECK(files_in(folder.path) == 8);
+    CHECK_THROWS_AS(AtomicFile{folder / std::string(256, 'n')}, SystemError);
+    CHECK(files_in(folder.path) == 8);
+}
+
+TEST_CASE("temporaries of a killed process with this one's number are left alone, and other names are found") {
+    const TemporaryFolder folder;
+    // The counter goes on by one with each file: the next names are known.
+    std::string first;
+    { first = AtomicFile{folder / "a.txt"}.temporary(); }
+    const auto dash = first.rfind('-');
+    const int next = std::stoi(first.substr(dash + 1)) + 1;
+    for (int i = 0; i < 5; ++i)
+        std::ofstream(first.substr(0, dash + 1) + std::to_string(next + i) + ".tmp") << "somebody's";
+    strata::scenes::write_file(folder / "a.txt", "x");
+    CHECK(strata::test::bytes_of(folder / "a.txt") == "x");
+    CHECK(files_in(folder.path) == 6);
+    for (int i = 0; i < 5; ++i)
+        CHECK(strata::test::bytes_of(first.substr(0, dash + 1) + std::to_string(next + i) + ".tmp") == "somebody's");
+}
+
+TEST_CASE("a pipe gets the bytes of the finished file and stays a pipe, also behind a symbolic link") {
+    const TemporaryFolder folder;
+    ::mkfifo((folder / "pipe").c_str(), 0600);
+    std::filesystem::create_symlink("pipe", folder / "link");
+    for (const char* name : {"pipe", "link"}) {
+        const int status = status_of_child(
+            [&] {
+                AtomicFile file{folder / name};
+                file.write(std::string(100000, 'x').data(), 100000);
+                file.seek(0);
+                file.write("ab", 2);
+                file.commit();
+                ::_exit(0);
+            },
+            [&] {
+                const std::string bytes = strata::test::bytes_of(folder / "pipe");
+                CHECK(bytes == "ab" + std::string(99998, 'x'));
+            });
+        CHECK(status == 0);
+        CHECK(std::filesystem::is_fifo(folder / "pipe"));
+    }
+    CHECK(files_in(folder.path) == 2);
+}
+
+TEST_CASE("a device that takes nothing is an error, and stays a device") {
+    CHECK_THROWS_WITH(strata::scenes::write_file("/dev/full", "x"), Catch::Contains("No space left"));
+    CHECK(std::filesystem::is_character_file("/dev/full"));
+    CHECK_NOTHROW(strata::scenes::write_file("/dev/null", "x"));
+}
+
+TEST_CASE("a temporary's name tells the name that it was to get, and no other name is a temporary's") {
+    using strata::scenes::target_of_temporary;
+    const TemporaryFolder folder;
+    for (const std::string target : {"a.txt", "0003.difference.png", ".hidden", "a-b.7-7"}) {
+        const AtomicFile file{folder / target};
+        const std::string name = std::filesystem::path(file.temporary()).filename().string();
+        CHECK(target_of_temporary(name) == target);
+    }
+    for (const char* name : {"", ".", ".tmp", "a.txt", ".a.txt.tmp", ".a.txt.12-.tmp", ".a.txt.-1.tmp", "a.txt.1-1.tmp",
+                             ".a.txt.1-1.tm", ".a.txt.1x-1.tmp", "..1-1.tmp", ".1-1.tmp", ".a.1.1-x.tmp"})
+        CHECK(target_of_temporary(name) == "");
 }
