@@ -2,14 +2,17 @@
 // peel, and what each remedy costs.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 
 #include "scenes/files/text_file.h"
 #include "tools/strata/command.h"
-#include "tools/strata/invariance/invariance_sweep.h"
+#include "tools/strata/invariance/invariance_cell.h"
+#include "tools/strata/invariance/invariance_images.h"
+#include "tools/strata/invariance/invariance_row.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
-#include "tools/strata/table.h"
+#include "tools/strata/sweep/sweep.h"
 
 namespace strata::tools {
 
@@ -58,19 +61,54 @@ void check_usage(const InvarianceOptions& options) {
         throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
 }
 
+std::vector<Cell> all_cells(const InvarianceOptions& options, CellRunner& runner) {
+    const auto cells = options.plan.empty()
+                           ? cells_of(options.keys)
+                           : parse_plan(scenes::read_text_file(options.plan), options.plan, options.keys);
+    return runner.expanded(cells);
+}
+
+Measured measured(std::size_t number, const Cell& cell, CellRunner& runner, const std::string& image_folder) {
+    const auto start = std::chrono::steady_clock::now();
+    const CellResult result = runner.run(cell);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    if (!image_folder.empty()) write_cell_images(image_folder, number, result);
+    return {.line = to_line(number, cell, result),
+            .timing = {{"cell", number}, {"seconds", taken.count()}, {"peel_seconds", result.measured.seconds}},
+            .seconds = taken.count()};
+}
+
+// `cells` and `runner` must outlive it.
+Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, CellRunner& runner) {
+    const auto described = [&](std::size_t i) { return description(i, cells[i], runner.view(cells[i])); };
+    const std::string folder = options.run.output;
+    return {.name = "invariance",
+            .cells = cells.size(),
+            .description = described,
+            .measure = [&, image_folder = options.images && !options.dry_run ? folder : ""](
+                           std::size_t i) { return measured(i, cells[i], runner, image_folder); },
+            .csv = csv_of,
+            .summary = [folder](const Lines& lines) { return summary(lines, folder); },
+            .alike =
+                [described](std::size_t i) {
+                    const nlohmann::ordered_json line = described(i);
+                    return line["scene"].dump() + line["width"].dump() + line["height"].dump() +
+                           line["algorithm"].dump();
+                }};
+}
+
 int invariance(InvarianceOptions& options) {
     check_usage(options);
     if (!options.run.scene.empty()) options.keys["scene"] = {options.run.scene};
     if (options.hypotheses) options.keys["hypothesis"] = {"all"};
-    Sweep sweep{options.plan.empty() ? cells_of(options.keys)
-                                     : parse_plan(scenes::read_text_file(options.plan), options.plan, options.keys),
-                options.run.output, options.shard, options.images};
     CellRunner runner(options.run.scene_options, options.run.render);
-    sweep.cells = runner.expanded(sweep.cells);
-    for (const Cell& cell : sweep.cells) runner.check(cell);
-    if (options.dry_run) return dry_run(sweep, runner), 0;
-    if (options.merge > 0) return merge_shards(sweep, runner, static_cast<std::size_t>(options.merge));
-    return run_sweep(sweep, runner);
+    const std::vector<Cell> cells = all_cells(options, runner);
+    for (const Cell& cell : cells) runner.check(cell);
+    const Work work = work_of(options, cells, runner);
+    if (options.dry_run) return dry_run(work, options.shard), 0;
+    const std::string& folder = options.run.output;
+    if (options.merge > 0) return merge_shards(work, folder, static_cast<std::size_t>(options.merge));
+    return run_sweep(work, folder, options.shard);
 }
 
 void add_sweep_options(CLI::App& app, InvarianceOptions& options) {

@@ -185,6 +185,12 @@ std::string to_csv(const ordered_json& line) {
     return fmt::format("{}\n", fmt::join(fields, ","));
 }
 
+std::string csv_of(const Lines& lines) {
+    std::string text = csv_header();
+    for (const ordered_json& line : lines) text += to_csv(line);
+    return text;
+}
+
 std::string summary(const Lines& lines, const std::string& folder) {
     constexpr std::size_t most_rows = 50;
     Table table{{{"cell", Align::right}, {"scene"}, {"write"}, {"compare"}, {"depth"}, {"remedy"}}, {}};

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "tools/strata/invariance/invariance_cell.h"
-#include "tools/strata/invariance/invariance_journal.h"
+#include "tools/strata/sweep/journal.h"
 
 namespace strata::tools {
 
@@ -19,6 +19,9 @@ namespace strata::tools {
 
 // The whole line, without its end.
 [[nodiscard]] nlohmann::ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& result);
+
+// results.csv of these lines.
+[[nodiscard]] std::string csv_of(const Lines& lines);
 
 [[nodiscard]] std::string csv_header();
 [[nodiscard]] std::string to_csv(const nlohmann::ordered_json& line);  // both with their newline

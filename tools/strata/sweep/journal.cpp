@@ -1,4 +1,4 @@
-#include "tools/strata/invariance/invariance_journal.h"
+#include "tools/strata/sweep/journal.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/system_error.h"
 #include "scenes/files/text_file.h"
-#include "tools/strata/options/parse.h"
 
 namespace strata::tools {
 
@@ -37,28 +36,6 @@ void check_line(const std::string& path, std::size_t number, const ordered_json&
 }
 
 }  // namespace
-
-std::vector<std::size_t> Shard::cells(std::size_t all) const {
-    std::vector<std::size_t> mine;
-    // Strided, not in blocks: neighbouring cells take about as long, so that shards end at about
-    // the same time.
-    for (std::size_t cell = index - 1; cell < all; cell += count) mine.push_back(cell);
-    return mine;
-}
-
-std::optional<Shard> to_shard(std::string_view text) {
-    const auto parts = split(text, '/');
-    if (parts.size() != 2) return std::nullopt;
-    const auto index = to_positive(parts[0]), count = to_positive(parts[1]);
-    if (!index || !count || *index > *count) return std::nullopt;
-    return Shard{static_cast<std::size_t>(*index), static_cast<std::size_t>(*count)};
-}
-
-std::string shard_file(const std::string& folder, const std::string& stem, const Shard& shard) {
-    // A sweep in one shard has the plain names.
-    const std::string part = shard.count == 1 ? "" : fmt::format(".{}of{}", shard.index, shard.count);
-    return (std::filesystem::path(folder) / (stem + part + ".jsonl")).string();
-}
 
 Found read_journal(const std::string& path) {
     Found found;

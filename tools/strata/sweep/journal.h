@@ -1,33 +1,17 @@
-// tools/strata/invariance/invariance_journal.h - the lines of a sweep on disk: appended one by one, taken up again
+// tools/strata/sweep/journal.h - the lines of a sweep on disk: appended one by one, taken up again
 // after a kill, merged.
 //
 // Rule     results.jsonl holds a line a cell in the order of the cells, so it is always a beginning of the finished
 //          file. A last line without its newline was torn by a kill: it is cut off, and its cell measured again.
-//          Every other line must be the one that this plan would write there. Shard i of n holds the cells i, i + n,
-//          ... in results.IofN.jsonl.
-// Tests    tests/tools/invariance_test.cpp
+//          Every other line must be the one that this plan would write there.
+// Tests    tests/tools/sweep_journal_test.cpp
 #pragma once
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace strata::tools {
-
-// Shard `index` of `count`; the default is the whole sweep.
-struct Shard {
-    // From 1 to `count`.
-    std::size_t index = 1, count = 1;
-    // Cells of a sweep of `all` that are this shard's, in order.
-    [[nodiscard]] std::vector<std::size_t> cells(std::size_t all) const;
-};
-
-// "2/5" is the shard 2 of 5. Nothing for a text that is not I/N with I from 1 to N.
-[[nodiscard]] std::optional<Shard> to_shard(std::string_view text);
-
-// "results", "jsonl": results.jsonl, or results.2of5.jsonl.
-[[nodiscard]] std::string shard_file(const std::string& folder, const std::string& stem, const Shard& shard);
 
 using Lines = std::vector<nlohmann::ordered_json>;
 

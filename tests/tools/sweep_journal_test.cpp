@@ -1,11 +1,11 @@
 // Model: files written here byte by byte, and shares of cells by division.
-#include "tools/strata/invariance/invariance_journal.h"
-
 #include <catch2/catch.hpp>
 #include <fstream>
 
 #include "rasterizer/base/input_error.h"
 #include "tests/tools/program.h"
+#include "tools/strata/sweep/journal.h"
+#include "tools/strata/sweep/shard.h"
 
 namespace {
 
