@@ -6,22 +6,10 @@
 // Source   audit.md 14.
 // Tests    tests/peeling/truth/truth_test.cpp, chain_test.cpp
 #pragma once
-#include <vector>
-
 #include "peeling/truth/chain_list.h"
-#include "pipeline/formats/image.h"
+#include "peeling/truth/real_image.h"
 
 namespace strata::peeling {
-
-// Red, green and blue of every pixel, row by row.
-struct RealImage {
-    int width = 0, height = 0;
-    std::vector<double> rgb;
-    friend bool operator==(const RealImage&, const RealImage&) = default;
-};
-
-// The values that the codes of a colour image stand for.
-[[nodiscard]] RealImage real_image(const pipeline::Image& image);
 
 // Throws InputError for a list with a light: shadow maps are the machine's alone.
 [[nodiscard]] RealImage render_chain(const ChainScene& scene, const Chain& chain);

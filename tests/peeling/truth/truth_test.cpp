@@ -14,6 +14,7 @@ namespace {
 using namespace strata::testing;
 using namespace strata::peeling;
 using namespace strata::pipeline;
+using strata::components;
 using Rational = boost::multiprecision::cpp_rational;
 using RationalVector = std::array<Rational, 4>;
 
