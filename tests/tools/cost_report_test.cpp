@@ -106,4 +106,12 @@ TEST_CASE("the picture of a frontier names its points and no others") {
     CHECK(svg.find("<title>worse<") != std::string::npos);
     CHECK(svg.find(" worse<") == std::string::npos);
     CHECK(svg.find("nan") == std::string::npos);
+    CHECK(frontier_svg(points, "a<b&c", "time").find("a&lt;b&amp;c") != std::string::npos);
+}
+
+TEST_CASE("the name of a scene with a comma in it is quoted in the table") {
+    std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2)};
+    rows[0].scene = "random:seed=1,triangles=3";
+    CHECK(table_csv(rows).find("\n\"random:seed=1,triangles=3\",default,dual,done,0.5,0.25,2,1,4,,,,6\n") !=
+          std::string::npos);
 }

@@ -132,11 +132,14 @@ TEST_CASE("a cost sweep draws a frontier for each of its three times, and says w
           "All of it: out/cost.csv, out/sentences.txt, out/results.csv and out/results.jsonl");
 }
 
-TEST_CASE("a scene without a truth and a command without a folder are refused in a sentence") {
+TEST_CASE("a scene without a truth, one scene twice and a command without a folder are refused in a sentence") {
     const Folder folder;
     const Ended light = run_strata(folder, {"cost", "shadow-demo", "--size", "16x16", "--knob", "peels", "-o", "out"});
     CHECK(light.status == 2);
     CHECK(light.err == "strata: scene: light: expected no light that casts shadows, found one\n");
+    const Ended twice = run_strata(folder, {"cost", "teapot", "teapot", "-o", "out"});
+    CHECK(twice.status == 2);
+    CHECK(twice.err == "strata: SCENE: expected scenes of different names, found 'teapot' twice\n");
     const Ended none = run_strata(folder, {"cost", "teapot"});
     CHECK(none.status == 2);
     CHECK(none.err == "strata: -o: expected a folder for the results, found none\n");

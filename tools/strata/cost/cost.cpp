@@ -50,6 +50,10 @@ struct CostSweep {
         run.scene = name;
         CostScene& scene = sweep.scenes.emplace_back();
         scene.name = name_of_scene(name);
+        for (std::size_t i = 0; i + 1 < sweep.scenes.size(); ++i)
+            if (sweep.scenes[i].name == scene.name)
+                throw CLI::ValidationError("SCENE",
+                                           "expected scenes of different names, found '" + scene.name + "' twice");
         scene.session = open_session(run);
         scene.base = {.scene = sweep.scenes.size() - 1,
                       .profile = scene.session.profile,

@@ -12,6 +12,20 @@ namespace {
 
 constexpr double plot_left = 70, plot_right = 620, plot_top = 40, plot_bottom = 420;
 
+// As XML wants it: a file's name may hold anything.
+[[nodiscard]] std::string escaped(const std::string& text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&')
+            safe += "&amp;";
+        else if (c == '<')
+            safe += "&lt;";
+        else
+            safe += c;
+    }
+    return safe;
+}
+
 // Whole powers of ten about all values, on pixels `from` to `to`.
 struct PowerAxis {
     int low, high;  // exponents
@@ -72,7 +86,7 @@ std::string frontier_svg(const std::vector<CostPoint>& points, const std::string
     std::string svg =
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"860\" height=\"470\" font-family=\"sans-serif\" "
         "font-size=\"12\">\n<rect width=\"860\" height=\"470\" fill=\"#fff\"/>\n" +
-        words(plot_left, 20, "start", title) + grid(x, y) +
+        words(plot_left, 20, "start", escaped(title)) + grid(x, y) +
         words((plot_left + plot_right) / 2, plot_bottom + 36, "middle", time_label) +
         words(8, plot_top - 6, "start", "RMSE / 255");
     for (const CostPoint& p : points)

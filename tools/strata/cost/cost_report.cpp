@@ -49,6 +49,11 @@ namespace {
     return s ? fmt::format("{:.6g},{:.6g},{:.6g}", s->median, s->least, s->greatest) : ",,";
 }
 
+// RFC 4180: the name of a scene may hold a comma.
+[[nodiscard]] std::string csv_word(const std::string& word) {
+    return word.find(',') == std::string::npos ? word : '"' + word + '"';
+}
+
 }  // namespace
 
 std::vector<std::size_t> frontier_of(const std::vector<CostPoint>& points) {
@@ -88,7 +93,7 @@ std::string table_csv(const std::vector<CostRow>& rows) {
         "scene,knob,value,outcome,rmse,from_default,default,default_least,default_greatest,literal,literal_least,"
         "literal_greatest,modelled\n";
     for (const CostRow& row : rows)
-        text += fmt::format("{},{},{},{},{:.6g},{:.6g},{},{},{}\n", row.scene, row.knob, row.value,
+        text += fmt::format("{},{},{},{},{:.6g},{:.6g},{},{},{}\n", csv_word(row.scene), row.knob, row.value,
                             row.refusal.empty() ? "done" : "refused", row.rmse, row.from_default, number(row.usual),
                             number(row.literal), number(row.modelled));
     return text;
