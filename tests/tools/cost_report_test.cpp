@@ -32,9 +32,9 @@ CostRow row_of(const std::string& knob, const std::string& value, double rmse, d
 }
 
 nlohmann::ordered_json made_line(int cell, const std::string& knob, double modelled) {
-    return {{"cell", cell}, {"scene", "s"},        {"knob", knob},
-            {"value", "v"}, {"opened", ""},        {"refusal", ""},
-            {"rmse", 1.0},  {"from_default", 0.0}, {"modelled_seconds", modelled}};
+    return {
+        {"cell", cell},        {"scene", "s"},  {"knob", knob}, {"value", "v"},        {"opened", ""},
+        {"algorithm", "dual"}, {"refusal", ""}, {"rmse", 1.0},  {"from_default", 0.0}, {"modelled_seconds", modelled}};
 }
 
 }  // namespace
@@ -96,6 +96,14 @@ TEST_CASE("times are told as ratios to the cheapest cell of their column, and a 
     CHECK(rows[0].modelled == 2);
     CHECK(rows[1].modelled == 1);
     CHECK_FALSE(rows[0].literal);
+}
+
+TEST_CASE("the oracle has no time on a card, and makes nobody else's ratio") {
+    Lines lines{made_line(0, "default", 0.5), made_line(1, "algorithm", 0.25)};
+    lines[1]["algorithm"] = "a_buffer";
+    const auto rows = cost_rows(lines, {});
+    CHECK(rows[0].modelled == 1);
+    CHECK_FALSE(rows[1].modelled);
 }
 
 TEST_CASE("the picture of a frontier names its points and no others") {

@@ -168,7 +168,11 @@ std::vector<CostRow> cost_rows(const Lines& lines, const Lines& timings) {
             row.rmse = line.at("rmse");
             row.from_default = line.at("from_default");
         }
-        if (!line.at("modelled_seconds").is_null()) row.modelled = line.at("modelled_seconds").get<double>();
+        // The oracle is no device's algorithm: one pass of it on a card means nothing.
+        const peeling::Algorithm* const algorithm = peeling::find_algorithm(line.at("algorithm").get<std::string>());
+        const bool is_oracle = algorithm != nullptr && algorithm->is_oracle;
+        if (!is_oracle && !line.at("modelled_seconds").is_null())
+            row.modelled = line.at("modelled_seconds").get<double>();
         if (const auto timing = timing_of.find(line.at("cell")); timing != timing_of.end()) {
             row.usual = spread_in(*timing->second, "default");
             row.literal = spread_in(*timing->second, "literal");
