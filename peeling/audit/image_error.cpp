@@ -53,6 +53,8 @@ double channel_value(const Image& image, int x, int y, int channel) {
     return 0;
 }
 
+double signal_to_noise(double rmse) { return 20.0 * natural_log(255.0 / rmse) / 0x1.26bb1bbb55516p+1; }  // ln 10
+
 ImageError image_error(const Image& image, const Image& truth) {
     const FloatEnvironment ours;
     ImageError error;
@@ -63,7 +65,7 @@ ImageError image_error(const Image& image, const Image& truth) {
         sum += codes * codes;
     });
     error.rmse = std::sqrt(sum / (3.0 * image.width * image.height));
-    if (error.rmse > 0) error.psnr = 20.0 * natural_log(255.0 / error.rmse) / 0x1.26bb1bbb55516p+1;  // ln 10
+    if (error.rmse > 0) error.psnr = signal_to_noise(error.rmse);
     return error;
 }
 

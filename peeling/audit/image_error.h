@@ -19,6 +19,9 @@ struct ImageError {
     friend bool operator==(const ImageError&, const ImageError&) = default;
 };
 
+// PSNR of an error above 0, in 1/255.
+[[nodiscard]] double signal_to_noise(double rmse);
+
 // Colour images of one size, of any colour format each.
 [[nodiscard]] ImageError image_error(const pipeline::Image& image, const pipeline::Image& truth);
 

@@ -18,6 +18,7 @@ struct Command {
 [[nodiscard]] Command add_layers(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
 [[nodiscard]] Command add_effects(CLI::App& root);
+[[nodiscard]] Command add_cost(CLI::App& root);
 [[nodiscard]] Command add_invariance(CLI::App& root);
 [[nodiscard]] Command add_hardware_check(CLI::App& root);
 [[nodiscard]] Command add_reproduce(CLI::App& root);

@@ -1,0 +1,125 @@
+// Model: dominance by definition, a search over all pairs of points; made-up rows, whose sentences are read back.
+#include "tools/strata/cost/cost_report.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/random_numbers.h"
+
+using namespace strata::tools;
+
+namespace {
+
+// Another point takes no more time and has no more error, and is better in one of them; of equal points the first stays.
+bool is_beaten(const std::vector<CostPoint>& points, std::size_t i) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const bool no_worse = points[k].time <= points[i].time && points[k].error <= points[i].error;
+        const bool is_better = points[k].time < points[i].time || points[k].error < points[i].error;
+        if (no_worse && (is_better || k < i)) return true;
+    }
+    return false;
+}
+
+CostRow row_of(const std::string& knob, const std::string& value, double rmse, double time) {
+    CostRow row;
+    row.scene = "made-up";
+    row.knob = knob;
+    row.value = value;
+    row.rmse = rmse;
+    row.from_default = 0.25;
+    row.usual = TimeSpread{time, time * 0.5, time * 2};
+    row.modelled = 3 * time;
+    return row;
+}
+
+nlohmann::ordered_json made_line(int cell, const std::string& knob, double modelled) {
+    return {
+        {"cell", cell},        {"scene", "s"},  {"knob", knob}, {"value", "v"},        {"opened", ""},
+        {"algorithm", "dual"}, {"refusal", ""}, {"rmse", 1.0},  {"from_default", 0.0}, {"modelled_seconds", modelled}};
+}
+
+}  // namespace
+
+TEST_CASE("the frontier holds the points that no other beats, cheapest first") {
+    strata::testing::Random random{3};
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<CostPoint> points;
+        for (int i = strata::testing::random_int(random, 1, 20); i > 0; --i) {
+            const double time = strata::testing::random_int(random, 1, 8);
+            const double error = strata::testing::random_int(random, 0, 8);
+            points.push_back({time, error, ""});
+        }
+        const auto frontier = frontier_of(points);
+        std::vector<bool> is_on(points.size());
+        for (const std::size_t i : frontier) is_on[i] = true;
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) wrong += is_on[i] == is_beaten(points, i) ? 1 : 0;
+        for (std::size_t k = 1; k < frontier.size(); ++k)
+            wrong += points[frontier[k - 1]].time >= points[frontier[k]].time ? 1 : 0;
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("a sentence says what its row's knob changes, in the row's own figures") {
+    std::vector<CostRow> rows{row_of("default", "front_to_back", 0.5, 2), row_of("depth", "d16 exact", 0.75, 3)};
+    rows[1].opened = "d16";
+    const auto sentences = sentences_of(rows);
+    REQUIRE(sentences.size() == 1);
+    CHECK(
+        sentences[0] ==
+        "made-up: depth d16 exact (with d16) instead of the default: 25.0000 % of pixels differ, RMSE 0.75 instead of "
+        "0.5, 1.50 times the time (0.75 to 3.00), 1.50 times the card's.");
+}
+
+TEST_CASE("a refused row and a link of the chain have sentences of their own") {
+    std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2), row_of("algorithm", "k_buffer rgba8", 0, 1),
+                              row_of("chain", "snap", 0.125, 1), row_of("alone", "snap", 0.375, 1)};
+    rows[1].refusal = "the card has none";
+    CHECK(sentences_of(rows) ==
+          std::vector<std::string>{"made-up: algorithm k_buffer rgba8 is refused: the card has none.",
+                                   "made-up: the chain exact up to snap leaves RMSE 0.125.",
+                                   "made-up: snap exact alone leaves RMSE 0.375."});
+}
+
+TEST_CASE("times are told as ratios to the cheapest cell of their column, and a cell's last timing counts") {
+    const Lines lines{made_line(0, "default", 0.5), made_line(1, "peels", 0.25)};
+    const auto timing = [](int cell, double median) {
+        return nlohmann::ordered_json{
+            {"cell", cell},
+            {"default", {{"median", median}, {"least", median / 2}, {"greatest", 2 * median}}},
+            {"literal", nullptr}};
+    };
+    const auto rows = cost_rows(lines, {timing(0, 9), timing(1, 5), timing(0, 10)});
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].usual->median == 2);
+    CHECK(rows[0].usual->least == 1);
+    CHECK(rows[1].usual->median == 1);
+    CHECK(rows[0].modelled == 2);
+    CHECK(rows[1].modelled == 1);
+    CHECK_FALSE(rows[0].literal);
+}
+
+TEST_CASE("the oracle has no time on a card, and makes nobody else's ratio") {
+    Lines lines{made_line(0, "default", 0.5), made_line(1, "algorithm", 0.25)};
+    lines[1]["algorithm"] = "a_buffer";
+    const auto rows = cost_rows(lines, {});
+    CHECK(rows[0].modelled == 1);
+    CHECK_FALSE(rows[1].modelled);
+}
+
+TEST_CASE("the picture of a frontier names its points and no others") {
+    const std::vector<CostPoint> points{{1, 4, "cheap"}, {2, 4, "worse"}, {3, 0, "exact"}};
+    const std::string svg = frontier_svg(points, "title", "time");
+    CHECK(svg.find(">1 cheap<") != std::string::npos);
+    CHECK(svg.find(">2 exact<") != std::string::npos);
+    CHECK(svg.find("<title>worse<") != std::string::npos);
+    CHECK(svg.find(" worse<") == std::string::npos);
+    CHECK(svg.find("nan") == std::string::npos);
+    CHECK(frontier_svg(points, "a<b&c", "time").find("a&lt;b&amp;c") != std::string::npos);
+}
+
+TEST_CASE("the name of a scene with a comma in it is quoted in the table") {
+    std::vector<CostRow> rows{row_of("default", "dual", 0.5, 2)};
+    rows[0].scene = "random:seed=1,triangles=3";
+    CHECK(table_csv(rows).find("\n\"random:seed=1,triangles=3\",default,dual,done,0.5,0.25,2,1,4,,,,6\n") !=
+          std::string::npos);
+}

@@ -1,0 +1,146 @@
+// Model: the sweep in one go; its sentences, parsed, beside the figures of cost.csv.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+namespace {
+
+// The teapot small, with the knobs that take little time and have every kind of row.
+Ended cost(const Folder& folder, const std::string& to, std::vector<std::string> more = {}) {
+    const std::vector<std::string> words{
+        "cost",      "teapot",   "--size", "48x40",  "--alpha",
+        "0.5",       "--repeat", "1",      "--knob", "subpixel_bits,depth,average_count,peels,chain,alone",
+        "--threads", "1",        "-o",     to};
+    more.insert(more.begin(), words.begin(), words.end());
+    return run_strata(folder, more);
+}
+
+// Rows of a table by their knob and value; fields by the names of the first row.
+using TableRow = std::map<std::string, std::string>;
+std::map<std::string, TableRow> rows_of(const std::string& csv) {
+    const auto lines = lines_of(csv);
+    const auto fields_of = [](const std::string& line) {
+        std::vector<std::string> fields;
+        std::stringstream text(line + ',');
+        for (std::string one; std::getline(text, one, ',');) fields.push_back(one);
+        return fields;
+    };
+    const auto names = fields_of(lines[0]);
+    std::map<std::string, TableRow> rows;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+        const auto fields = fields_of(lines[i]);
+        TableRow row;
+        for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = fields.at(k);
+        rows[row["knob"] + " " + row["value"]] = row;
+    }
+    return rows;
+}
+
+double number(const TableRow& row, const std::string& name) { return std::stod(row.at(name)); }
+
+// A figure that was printed with `digits` after the point.
+bool agrees(const std::string& printed, double figure, int digits) {
+    return std::fabs(std::stod(printed) - figure) <= 0.6 * std::pow(10.0, -digits) + 2e-5 * std::fabs(figure);
+}
+
+}  // namespace
+
+TEST_CASE("errors and counts of a cost sweep are the same in shards, and taken up again, as in one go") {
+    const Folder folder;
+    REQUIRE(cost(folder, "whole").status == 0);
+    const std::string lines = content_of(folder / "whole/results.jsonl"),
+                      table = content_of(folder / "whole/results.csv");
+    for (int i = 3; i >= 1; --i) CHECK(cost(folder, "shards", {"--shard", std::to_string(i) + "/3"}).status == 0);
+    CHECK(cost(folder, "shards", {"--merge", "3"}).status == 0);
+    CHECK(content_of(folder / "shards/results.jsonl") == lines);
+    CHECK(content_of(folder / "shards/results.csv") == table);
+    // A second run measures nothing and reports again.
+    const std::string timings = content_of(folder / "whole/timings.jsonl");
+    const std::string sentences = content_of(folder / "whole/sentences.txt");
+    REQUIRE(cost(folder, "whole").status == 0);
+    CHECK(content_of(folder / "whole/timings.jsonl") == timings);
+    CHECK(content_of(folder / "whole/sentences.txt") == sentences);
+}
+
+TEST_CASE("every sentence agrees with its row, and the chain made exact to its end leaves 0") {
+    const Folder folder;
+    REQUIRE(cost(folder, "out").status == 0);
+    const auto rows = rows_of(content_of(folder / "out/cost.csv"));
+    const auto sentences = lines_of(content_of(folder / "out/sentences.txt"));
+    CHECK(sentences.size() + 1 == rows.size());  // the default has none
+    const TableRow* standard = nullptr;
+    for (const auto& [name, row] : rows)
+        if (row.at("knob") == "default") standard = &row;
+    REQUIRE(standard != nullptr);
+    const std::regex change(
+        R"(teapot: (.*?)(?: \(with .*\))? instead of the default: ([^ ]*) % of pixels differ, RMSE ([^ ]*) instead of ([^ ,]*), ([^ ]*) times the time \(([^ ]*) to ([^ ]*)\), literally ([^ ]*) times the cheapest literal one, ([^ ]*) times the card's\.)");
+    const std::regex link(
+        R"(teapot: (?:the (chain) exact up to (\w+)|(\w+) exact (alone)|the chain as the machine has it).* RMSE ([^ ]*?)(?: from the truth)?\.)");
+    const std::regex refusal(R"(teapot: (.*) is refused: .*\.)");
+    std::map<std::string, int> kinds;
+    for (const std::string& sentence : sentences) {
+        INFO(sentence);
+        std::smatch part;
+        if (std::regex_match(sentence, part, refusal)) {
+            ++kinds["refused"];
+            CHECK(rows.at(part[1]).at("outcome") == "refused");
+        } else if (std::regex_match(sentence, part, change)) {
+            ++kinds["change"];
+            const TableRow& row = rows.at(part[1]);
+            const double unit = number(*standard, "default");
+            CHECK(agrees(part[2], 100 * number(row, "from_default"), 4));
+            CHECK(agrees(part[3], number(row, "rmse"), 5));
+            CHECK(agrees(part[4], number(*standard, "rmse"), 5));
+            CHECK(agrees(part[5], number(row, "default") / unit, 2));
+            CHECK(agrees(part[6], number(row, "default_least") / unit, 2));
+            CHECK(agrees(part[7], number(row, "default_greatest") / unit, 2));
+            CHECK(agrees(part[8], number(row, "literal"), 2));
+            CHECK(agrees(part[9], number(row, "modelled") / number(*standard, "modelled"), 2));
+        } else {
+            REQUIRE(std::regex_match(sentence, part, link));
+            ++kinds["link"];
+            const std::string name = part[1].matched   ? "chain " + part[2].str()
+                                     : part[4].matched ? "alone " + part[3].str()
+                                                       : "chain machine";
+            CHECK(agrees(part[5], number(rows.at(name), "rmse"), 5));
+        }
+    }
+    CHECK(kinds["change"] > 20);
+    CHECK(kinds["link"] == 15);
+    CHECK(kinds["refused"] >= 1);
+    CHECK(number(rows.at("chain store"), "rmse") == 0);
+    CHECK(number(rows.at("chain machine"), "rmse") > 0);
+}
+
+TEST_CASE("a cost sweep draws a frontier for each of its three times, and says where everything is") {
+    const Folder folder;
+    const Ended ended = cost(folder, "out");
+    REQUIRE(ended.status == 0);
+    for (const char* column : {"default", "literal", "modelled"}) {
+        const std::string svg = content_of(folder / (std::string("out/frontier.teapot.") + column + ".svg"));
+        CHECK(svg.starts_with("<svg"));
+        CHECK(svg.ends_with("</svg>\n"));
+    }
+    CHECK(lines_of(ended.out).back() ==
+          "All of it: out/cost.csv, out/sentences.txt, out/results.csv and out/results.jsonl");
+}
+
+TEST_CASE("a scene without a truth, one scene twice and a command without a folder are refused in a sentence") {
+    const Folder folder;
+    const Ended light = run_strata(folder, {"cost", "shadow-demo", "--size", "16x16", "--knob", "peels", "-o", "out"});
+    CHECK(light.status == 2);
+    CHECK(light.err == "strata: scene: light: expected no light that casts shadows, found one\n");
+    const Ended twice = run_strata(folder, {"cost", "teapot", "teapot", "-o", "out"});
+    CHECK(twice.status == 2);
+    CHECK(twice.err == "strata: SCENE: expected scenes of different names, found 'teapot' twice\n");
+    const Ended none = run_strata(folder, {"cost", "teapot"});
+    CHECK(none.status == 2);
+    CHECK(none.err == "strata: -o: expected a folder for the results, found none\n");
+}

@@ -1,0 +1,44 @@
+// tools/strata/cost/cost_row.h - a cell as a line of results.jsonl and of timings.jsonl, and both together as a row of the report.
+//
+// Rule     reports.md 10.2. A line holds no time; timings.jsonl holds nothing else. Of several timings of a cell the last
+//          counts: a sweep that was stopped may have measured it twice.
+// Tests    tests/tools/cost_test.cpp
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/strata/sweep/journal.h"
+
+namespace strata::tools {
+
+struct CostScene;   // tools/strata/cost/cost_run.h
+struct CostCell;    // tools/strata/cost/cost_plan.h
+struct CostResult;  // tools/strata/cost/cost_run.h
+struct CostTimes;
+
+[[nodiscard]] nlohmann::ordered_json cost_description(std::size_t number, const CostScene& scene, const CostCell& cell);
+[[nodiscard]] nlohmann::ordered_json cost_line(std::size_t number, const CostScene& scene, const CostCell& cell,
+                                               const CostResult& result);
+[[nodiscard]] nlohmann::ordered_json cost_timing(std::size_t number, const CostTimes& times);
+
+// Errors and counts of all cells; null is an empty field.
+[[nodiscard]] std::string cost_csv(const Lines& lines);
+
+// Of the rounds of a cell.
+struct TimeSpread {
+    double median = 0, least = 0, greatest = 0;
+};
+
+// A cell as the report shows it. Times are ratios to the cheapest cell of the scene in the same column.
+struct CostRow {
+    std::string scene, knob, value, opened, refusal;
+    double rmse = 0, from_default = 0;
+    std::optional<TimeSpread> usual, literal;  // usual: the way in which the cell runs by default
+    std::optional<double> modelled;
+    [[nodiscard]] bool is_chain() const { return knob == "chain" || knob == "alone"; }
+};
+[[nodiscard]] std::vector<CostRow> cost_rows(const Lines& lines, const Lines& timings);
+
+}  // namespace strata::tools

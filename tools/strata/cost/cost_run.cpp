@@ -1,0 +1,110 @@
+#include "tools/strata/cost/cost_run.h"
+
+#include <chrono>
+
+#include "peeling/render.h"
+#include "peeling/truth/truth.h"
+
+namespace strata::tools {
+
+namespace {
+
+using peeling::RenderResult;
+
+[[nodiscard]] RenderResult rendered(const Session& session, const CostCell& cell,
+                                    const peeling::RenderOptions& options) {
+    return peeling::Renderer(session.scene.list, session.view, cell.profile, options).render(*cell.algorithm);
+}
+
+[[nodiscard]] CostCell default_cell(const CostBase& base) { return cost_cells(base, {}).front(); }
+
+[[nodiscard]] peeling::RealImage chain_picture(const CostScene& scene, const CostCell& cell) {
+    return peeling::render_chain({scene.session.scene.list, scene.session.view, cell.profile, cell.options},
+                                 *cell.chain);
+}
+
+// A full-screen pass has a fragment a pixel.
+[[nodiscard]] CardWork work_of(const CostScene& scene, const CostCell& cell, const RenderResult& result) {
+    const auto& passes = result.frame.passes;
+    const auto& counters = result.frame.counters;
+    const auto pixels =
+        static_cast<std::uint64_t>(cell.options.width) * static_cast<std::uint64_t>(cell.options.height);
+    return {scene.vertices * static_cast<std::uint64_t>(passes.geometry),
+            counters.fragments_rasterized + pixels * static_cast<std::uint64_t>(passes.full_screen),
+            counters.bytes_read + counters.bytes_written};
+}
+
+// Set-up and passes; scene, truth and audit (unless it is what is timed) stand outside.
+[[nodiscard]] double seconds_of(const Session& session, const CostCell& cell, pipeline::Execution execution) {
+    peeling::RenderOptions options = cell.options;
+    options.execution = execution;
+    options.nearest_depth = false;
+    options.audit = cell.is_timed_with_audit;
+    const auto start = std::chrono::steady_clock::now();
+    static_cast<void>(rendered(session, cell, options));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+int layers_of(const Session& session, const CostBase& base) {
+    const CostCell cell = default_cell(base);
+    return rendered(session, cell, cell.options).audit.layers_max;
+}
+
+void complete(CostScene& scene) {
+    const CostCell cell = default_cell(scene.base);
+    scene.truth = peeling::render_chain({scene.session.scene.list, scene.session.view, cell.profile, cell.options},
+                                        peeling::exact_chain);
+    const RenderResult result = rendered(scene.session, cell, cell.options);
+    if (result.refusal) throw pipeline::Refused{cell.profile, *result.refusal};
+    scene.pictured = peeling::real_image(result.frame.color);
+}
+
+CostResult run_cell(const CostScene& scene, const CostCell& cell) {
+    CostResult found;
+    if (cell.chain) {
+        const peeling::RealImage picture = chain_picture(scene, cell);
+        found.error = peeling::real_error(picture, scene.truth);
+        found.from_default = peeling::real_error(picture, scene.pictured).pixels;
+        return found;
+    }
+    const RenderResult result = rendered(scene.session, cell, cell.options);
+    if (result.refusal) {
+        found.refusal = result.refusal->sentence(cell.profile);
+        return found;
+    }
+    const peeling::RealImage picture = peeling::real_image(result.frame.color);
+    found.error = peeling::real_error(picture, scene.truth);
+    found.from_default = peeling::real_error(picture, scene.pictured).pixels;
+    found.order_errors = result.audit.order_errors;
+    found.layers = result.audit.layers_max;
+    found.passes = result.frame.passes;
+    found.work = work_of(scene, cell, result);
+    found.modelled = modelled_seconds(card_of(scene.base.profile.has_fragment_programs), found.work);
+    return found;
+}
+
+CostTimes time_cell(const CostScene& scene, const CostCell& cell, int rounds) {
+    CostTimes times;
+    const CostCell reference = default_cell(scene.base);
+    const auto reference_seconds = [&] { return seconds_of(scene.session, reference, reference.options.execution); };
+    constexpr double long_run = 2;
+    // A first round warms up, and says whether literal execution is worth another.
+    static_cast<void>(reference_seconds());
+    static_cast<void>(seconds_of(scene.session, cell, cell.options.execution));
+    double first_reference = reference_seconds();
+    const double first_literal = seconds_of(scene.session, cell, pipeline::Execution::literal);
+    if (first_literal > long_run) times.literal.push_back(first_literal / first_reference);
+    for (int round = 0; round < rounds; ++round) {
+        const double with = reference_seconds();
+        const double taken = seconds_of(scene.session, cell, cell.options.execution);
+        times.seconds.push_back(taken);
+        times.ratios.push_back(taken / with);
+        if (first_literal > long_run) continue;
+        times.literal.push_back(seconds_of(scene.session, cell, pipeline::Execution::literal) / with);
+    }
+    return times;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,55 @@
+// tools/strata/cost/cost_run.h - measures one cell of `strata cost`: its error from the truth, its counted work, its times.
+//
+// Rule     Errors and counts depend on the cell alone. Times are wall clock from the scene in memory to finished pixels
+//          without audit, each round one of the default cell, one of this cell and one of it in literal execution, in
+//          turn; literal execution once if that takes over 2 s. A time is kept as its ratio to the default's of the same
+//          round.
+// Tests    tests/tools/cost_test.cpp
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "peeling/truth/real_error.h"
+#include "tools/strata/cost/cost_card.h"
+#include "tools/strata/cost/cost_plan.h"
+#include "tools/strata/render/run.h"
+
+namespace strata::tools {
+
+// A scene with what all its cells are measured against.
+struct CostScene {
+    std::string name;  // without its folder
+    Session session;
+    CostBase base;
+    std::uint64_t vertices = 0;          // of the list
+    peeling::RealImage truth, pictured;  // pictured: what the default cell shows
+};
+
+struct CostResult {
+    std::string refusal;  // the sentence; empty: it ran
+    peeling::RealError error;
+    double from_default = 0;  // the share of pixels that differ from the default cell's picture
+    std::optional<std::uint64_t> order_errors;
+    int layers = 0;
+    pipeline::PassCount passes;
+    CardWork work;
+    double modelled = 0;  // seconds
+};
+
+// Ratios to the default cell, one a round; empty where nothing was timed.
+struct CostTimes {
+    std::vector<double> seconds, ratios, literal;
+};
+
+[[nodiscard]] CostResult run_cell(const CostScene& scene, const CostCell& cell);
+[[nodiscard]] CostTimes time_cell(const CostScene& scene, const CostCell& cell, int rounds);
+
+// Renders the truth and the default cell of a scene whose session and base are there.
+void complete(CostScene& scene);
+
+// How many layers the deepest pixel has, as the audit counts them.
+[[nodiscard]] int layers_of(const Session& session, const CostBase& base);
+
+}  // namespace strata::tools
