@@ -14,6 +14,7 @@
 
 #include "scenes/gltf/document/container.h"
 #include "scenes/gltf/document/place.h"
+#include "scenes/images/image_module.h"
 
 namespace strata::scenes {
 
@@ -31,5 +32,8 @@ struct ImageHeader {
 
 // width * height * 4 codes, top row first. `header` is what read_image_header said of the same bytes.
 [[nodiscard]] std::vector<std::uint8_t> decode_image(Bytes bytes, const ImageHeader& header, const Place& place);
+
+// A PNG's own channels and bits, for programs that compare codes; `path` is read whole. InputError for anything else.
+[[nodiscard]] StoredCodes read_png_codes(const std::string& path);
 
 }  // namespace strata::scenes

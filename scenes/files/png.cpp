@@ -23,6 +23,9 @@ using pipeline::ColorSpace;
 using pipeline::Format;
 using pipeline::Image;
 
+// The largest picture, 16384 x 16384 of 4 codes, is 2^30 bytes before it is packed, and 2^31 with 16 bits a code.
+constexpr std::size_t max_png_bytes = std::size_t{1} << 31;
+
 // 255 c / a to the nearest code, a half goes up.
 // c and a are at most 255, so that every product is below 2^18. A premultiplied colour above its alpha gives
 // 255.
@@ -80,10 +83,21 @@ void write_png(const std::string& path, const OutputColor& image) {
     });
 }
 
+StoredCodes read_png_codes(const std::string& path) {
+    const std::string file = read_text_file(path, max_png_bytes);
+    const Bytes bytes = std::as_bytes(std::span{file});
+    const Place place{path, ""};
+    const ImageHeader header = read_image_header(bytes, place);
+    if (header.kind != ImageKind::png) throw InputError(path, "format", "a PNG", "a JPEG");
+    return image_module().decode_codes({.bytes = bytes,
+                                        .reader = "png",
+                                        .width = static_cast<int>(header.width),
+                                        .height = static_cast<int>(header.height)},
+                                       place);
+}
+
 std::vector<FileImage> read_png(const std::string& path) {
-    // The largest picture, 16384 x 16384 of 4 codes, is 2^30 bytes before it is packed.
-    constexpr std::size_t max_bytes = std::size_t{1} << 31;
-    const std::string file = read_text_file(path, max_bytes);
+    const std::string file = read_text_file(path, max_png_bytes);
     const Bytes bytes = std::as_bytes(std::span{file});
     const Place place{path, ""};
     const ImageHeader header = read_image_header(bytes, place);  // all chunks whole: libpng says and leaks nothing

@@ -69,4 +69,24 @@ Codes decode(const EncodedPicture& picture, const Place& place) {
     return channels == 4 ? codes : to_rgba(codes, channels);
 }
 
+StoredCodes decode_codes(const EncodedPicture& picture, const Place& place) {
+    OIIO::Filesystem::IOMemReader memory(picture.bytes.data(), picture.bytes.size());
+    const auto reader = open(memory, picture, place);
+    const OIIO::ImageSpec& spec = reader->spec();
+    StoredCodes stored{.width = spec.width,
+                       .height = spec.height,
+                       .channels = spec.nchannels,
+                       .bits = spec.format == OIIO::TypeDesc::UINT16 ? 16 : 8};
+    if (stored.bits == 16) {
+        stored.codes.resize(static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels);
+        if (!reader->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT16, stored.codes.data()))
+            place.fail("IMAGE_DATA_INVALID", "an image that decodes", in_quotes(reader->geterror()));
+    } else {
+        const Codes codes = read(*reader, place);
+        stored.codes.assign(codes.begin(), codes.end());
+    }
+    reader->close();
+    return stored;
+}
+
 }  // namespace strata::scenes::images

@@ -11,6 +11,7 @@ extern "C" __attribute__((visibility("default"))) const strata::scenes::ImageMod
                                     .write_exr = images::write_exr,
                                     .write_exr_parts = images::write_exr_parts,
                                     .read_exr = images::read_exr,
-                                    .decode = images::decode};
+                                    .decode = images::decode,
+                                    .decode_codes = images::decode_codes};
     return &module;
 }

@@ -85,6 +85,12 @@ struct EncodedPicture {
     int width = 0, height = 0;
 };
 
+// A PNG's channels as the file has them: a palette is looked up, nothing else is changed. 16-bit codes where `bits` is 16, else 8.
+struct StoredCodes {
+    int width = 0, height = 0, channels = 0, bits = 8;
+    std::vector<std::uint16_t> codes{};
+};
+
 // The writers answer "", or OpenImageIO's words for what failed.
 struct ImageModule {
     const char* version;
@@ -96,6 +102,8 @@ struct ImageModule {
     void (*read_exr)(const std::string& path, const std::function<void(StoredPart&&)>& take);
     // width * height * 4 codes. InputError at `place` where the bytes do not decode to that size.
     std::vector<std::uint8_t> (*decode)(const EncodedPicture& picture, const Place& place);
+    // The same without a change to width, channels or bits.
+    StoredCodes (*decode_codes)(const EncodedPicture& picture, const Place& place);
 };
 
 // The module's only exported symbol, and the type of the function behind it.

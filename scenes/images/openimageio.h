@@ -36,5 +36,6 @@ static_assert(color_space_name.size() == color_space_stand_in.size());
 [[nodiscard]] std::string write_exr_parts(const std::string& path, std::span<const PartSource> parts);
 void read_exr(const std::string& path, const std::function<void(StoredPart&&)>& take);
 [[nodiscard]] std::vector<std::uint8_t> decode(const EncodedPicture& picture, const Place& place);
+[[nodiscard]] StoredCodes decode_codes(const EncodedPicture& picture, const Place& place);
 
 }  // namespace strata::scenes::images

@@ -23,7 +23,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
          "strata: expected a command (render, layers, bench, effects, invariance, reproduce, hardware-check, scene, "
-         "digest, algorithms, profiles or scenes), found 'rendr' "
+         "digest, compare, algorithms, profiles or scenes), found 'rendr' "
          "(did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},
          "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},

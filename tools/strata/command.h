@@ -24,6 +24,7 @@ struct Command {
 [[nodiscard]] Command add_reproduce(CLI::App& root);
 [[nodiscard]] Command add_scene(CLI::App& root);
 [[nodiscard]] Command add_digest(CLI::App& root);
+[[nodiscard]] Command add_compare(CLI::App& root);
 [[nodiscard]] Command add_algorithms(CLI::App& root);
 [[nodiscard]] Command add_profiles(CLI::App& root);
 [[nodiscard]] Command add_scenes(CLI::App& root);

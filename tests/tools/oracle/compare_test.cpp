@@ -1,0 +1,155 @@
+// Model: a picture changed on purpose; how many pixels and how far is counted while they are changed.
+#include "tools/oracle/compare.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "rasterizer/base/input_error.h"
+#include "tests/tools/oracle/pictures.h"
+#include "tools/oracle/drawings.h"
+#include "tools/oracle/report.h"
+
+using namespace strata::oracle;
+using namespace strata::test;
+
+namespace {
+
+const KindReport* find_kind(const Comparison& found, Kind kind) {
+    const auto at = std::ranges::find(found.kinds, kind, &KindReport::kind);
+    return at == found.kinds.end() ? nullptr : &*at;
+}
+
+std::size_t inside_pixel() { return 15 * 40 + 19; }
+
+}  // namespace
+
+TEST_CASE("a picture equals itself, whatever bits it has, and then there is nothing to explain") {
+    const Picture picture = ellipse();
+    const Comparison found = compare(picture, picture);
+    CHECK(found.equal);
+    CHECK(found.accepted);
+    CHECK(found.differing == 0);
+    CHECK(found.kinds.empty());
+    CHECK(found.explanations.empty());
+    CHECK(to_text(found) == "equal\n");
+}
+
+TEST_CASE("colours that are a code off are found at their pixel, and forgiven only by a tolerance of as many codes") {
+    const Picture reference = ellipse();
+    Picture candidate = reference;
+    candidate.targets[0].codes[inside_pixel() * 4 + 1] += 2;
+    const Comparison found = compare(reference, candidate);
+    REQUIRE(find_kind(found, Kind::color) != nullptr);
+    CHECK(found.kinds.size() == 1);
+    CHECK(find_kind(found, Kind::color)->first_x == 19);
+    CHECK(find_kind(found, Kind::color)->first_y == 15);
+    CHECK(found.targets[0].distances == std::map<std::uint32_t, std::uint64_t>{{2, 1}});
+    CHECK_FALSE(found.accepted);
+    CHECK_FALSE(compare(reference, candidate, {.color_codes = 1}).accepted);
+    CHECK(compare(reference, candidate, {.color_codes = 2}).accepted);
+    CHECK_FALSE(compare(reference, candidate, {.color_codes = 2}).equal);
+    CHECK_FALSE(compare(reference, candidate, {.depth_codes = 2, .coverage_pixels = 5}).accepted);
+}
+
+TEST_CASE("the first pixel of a kind is the first that its tolerance does not forgive") {
+    const Picture reference = ellipse();
+    Picture candidate = reference;
+    candidate.targets[0].codes[inside_pixel() * 4] += 1;
+    candidate.targets[0].codes[(inside_pixel() + 3) * 4] += 5;
+    const Comparison found = compare(reference, candidate, {.color_codes = 1});
+    REQUIRE(find_kind(found, Kind::color) != nullptr);
+    CHECK(find_kind(found, Kind::color)->first_x == 22);
+    CHECK(find_kind(found, Kind::color)->pixels == 2);
+    CHECK(find_kind(found, Kind::color)->beyond == 1);
+}
+
+TEST_CASE("another colour behind everything is the background, and drawn pixels that are not are coverage") {
+    const Picture reference = ellipse();
+    std::uint64_t empty = 0;
+    Picture candidate = make_picture({make_target("", Code::unorm8, 40, 30, 4, [&](int x, int y) {
+        if (!is_in_ellipse(x, y)) ++empty;
+        return is_in_ellipse(x, y) ? ellipse_texel(x, y) : Texel{0, 0, 0, 255};
+    })});
+    const Comparison found = compare(reference, candidate);
+    REQUIRE(found.kinds.size() == 1);
+    CHECK(found.kinds[0].kind == Kind::background);
+    CHECK(found.kinds[0].pixels == empty);
+
+    Picture holed = reference;
+    std::copy_n(reference.targets[0].codes.begin(), 4,
+                holed.targets[0].codes.begin() + static_cast<std::ptrdiff_t>(inside_pixel() * 4));
+    const Comparison hole = compare(reference, holed);
+    REQUIRE(hole.kinds.size() == 1);
+    CHECK(hole.kinds[0].kind == Kind::coverage);
+    CHECK(compare(reference, holed, {.coverage_pixels = 1}).accepted);
+    CHECK_FALSE(compare(reference, holed, {.color_codes = 255}).accepted);
+}
+
+TEST_CASE("depths are told apart by codes, with a histogram, and decide what is drawn") {
+    const auto depth = [](int off) {
+        return make_target("", Code::unorm24, 40, 30, 1, [=](int x, int y) -> Texel {
+            if (!is_in_ellipse(x, y)) return {0xffffff, 0, 0, 0};
+            return {static_cast<std::uint32_t>(1000 * (x + y) + (x % 3 == 0 ? off : 0)), 0, 0, 0};
+        });
+    };
+    std::uint64_t changed = 0;
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x) changed += is_in_ellipse(x, y) && x % 3 == 0 ? 1 : 0;
+    const Comparison found = compare(make_picture({depth(0)}), make_picture({depth(2)}));
+    REQUIRE(found.kinds.size() == 1);
+    CHECK(found.kinds[0].kind == Kind::depth);
+    CHECK(found.kinds[0].pixels == changed);
+    CHECK(found.targets[0].distances == std::map<std::uint32_t, std::uint64_t>{{2, changed}});
+    CHECK(compare(make_picture({depth(0)}), make_picture({depth(2)}), {.depth_codes = 2}).accepted);
+}
+
+TEST_CASE("pictures of unequal size, or without a common target, are no input; a missing alpha is told") {
+    const Picture reference = ellipse();
+    CHECK_THROWS_AS(compare(reference, make_picture({make_target("", Code::unorm8, 39, 30, 4, ellipse_texel)})),
+                    strata::InputError);
+    CHECK_THROWS_AS(compare(reference, make_picture({make_target("", Code::unorm24, 40, 30, 1, ellipse_texel)})),
+                    strata::InputError);
+    const Comparison rgb = compare(reference, make_picture({make_target("", Code::unorm8, 40, 30, 3, ellipse_texel)}));
+    CHECK(rgb.equal);
+    REQUIRE(rgb.not_compared.size() == 1);
+    CHECK(rgb.not_compared[0] == "color: 4 channels in the reference, 3 in the candidate");
+}
+
+TEST_CASE("reports name every kind, and JUnit fails those alone that are beyond the tolerance") {
+    const Picture reference = ellipse();
+    Picture candidate = reference;
+    candidate.targets[0].codes[inside_pixel() * 4] += 1;
+    const std::string strict = to_junit(compare(reference, candidate));
+    CHECK(strict.find("failures=\"1\"") != std::string::npos);
+    CHECK(strict.find("name=\"color\">") != std::string::npos);
+    CHECK(strict.find("name=\"depth\"/>") != std::string::npos);
+    CHECK(to_junit(compare(reference, candidate, {.color_codes = 1})).find("failures=\"0\"") != std::string::npos);
+    CHECK(to_text(compare(reference, candidate)).starts_with("different: 1 of 1200 pixels differ\n"));
+    CHECK(to_text(compare(reference, candidate, {.color_codes = 1})).starts_with("accepted: 1 of 1200"));
+    CHECK(to_json(compare(reference, candidate)).find("\"kind\": \"color\"") != std::string::npos);
+}
+
+TEST_CASE("a heat map is black exactly where the pictures are equal, and has the colour of the kind elsewhere") {
+    const Picture reference = ellipse();
+    Picture candidate = reference;
+    candidate.targets[0].codes[inside_pixel() * 4] += 1;
+    const Comparison found = compare(reference, candidate);
+    const strata::pipeline::Image heat = heat_map(found);
+    int lit = 0;
+    for (std::size_t i = 0; i < heat.codes.size(); i += 4)
+        lit += heat.codes[i] + heat.codes[i + 1] + heat.codes[i + 2] > 0 ? 1 : 0;
+    CHECK(lit == 1);
+    CHECK(heat.codes[inside_pixel() * 4] >= 128);
+    const strata::pipeline::Image side = side_by_side(reference, candidate, found);
+    CHECK(side.width == 3 * 40 + 8);
+    int wrong = 0;
+    for (int y = 0; y < 30; ++y)
+        for (int x = 0; x < 40; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const std::size_t own = static_cast<std::size_t>((y * 40 + x) * 4 + c);
+                wrong += side.codes[side.index(x, y, c)] != reference.targets[0].codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 44, y, c)] != candidate.targets[0].codes[own] ? 1 : 0;
+                wrong += side.codes[side.index(x + 88, y, c)] != heat.codes[own] ? 1 : 0;
+            }
+    CHECK(wrong == 0);
+}

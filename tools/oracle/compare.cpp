@@ -1,0 +1,141 @@
+#include "tools/oracle/compare.h"
+
+#include <algorithm>
+
+#include "rasterizer/base/float_environment.h"
+#include "tools/oracle/coverage.h"
+#include "tools/oracle/layers.h"
+
+namespace strata::oracle {
+
+std::string_view name(Kind kind) noexcept {
+    switch (kind) {
+        case Kind::none: return "none";
+        case Kind::coverage: return "coverage";
+        case Kind::background: return "background";
+        case Kind::layer_missing: return "layer_missing";
+        case Kind::layer_doubled: return "layer_doubled";
+        case Kind::layer_swapped: return "layer_swapped";
+        case Kind::layer_merged: return "layer_merged";
+        case Kind::layer_other: return "layer_other";
+        case Kind::depth: return "depth";
+        case Kind::color: return "color";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+namespace {
+
+// Beside the distances of all targets, the worst of a pixel's depths and of its other codes.
+struct Distances {
+    std::vector<std::uint32_t> color, depth;
+};
+
+void measure(const Pair& pair, Distances& worst, Comparison& result) {
+    TargetReport report{.part = pair.reference->part,
+                        .name = pair.reference->name,
+                        .reference = pair.reference->code,
+                        .candidate = pair.candidate->code,
+                        .channels = pair.channels()};
+    std::vector<std::uint32_t>& of_kind = pair.reference->meaning == Meaning::depth ? worst.depth : worst.color;
+    for (std::size_t i = 0; i < pair.reference->pixels(); ++i) {
+        const std::uint32_t apart = pair.distance_at(i);
+        if (apart == 0) continue;
+        ++report.differing;
+        ++report.distances[apart];
+        report.greatest = std::max(report.greatest, apart);
+        of_kind[i] = std::max(of_kind[i], apart);
+    }
+    result.targets.push_back(std::move(report));
+}
+
+class Sorter {
+  public:
+    Sorter(const Picture& reference, const Picture& candidate, const Pairing& pairing, const Tolerances& tolerances)
+        : reference_layers_{layers_of(reference)},
+          candidate_layers_{layers_of(candidate)},
+          masks_{drawn(pairing.pairs)},
+          tolerances_{tolerances} {}
+
+    [[nodiscard]] const std::optional<Masks>& masks() const { return masks_; }
+    [[nodiscard]] bool has_layers() const { return !reference_layers_.empty() && !candidate_layers_.empty(); }
+
+    [[nodiscard]] Kind kind_of(std::size_t pixel, const Distances& worst) const {
+        if (has_layers()) {
+            const Kind kind = compare_layers(reference_layers_, candidate_layers_, pixel);
+            if (kind != Kind::none) return kind;
+        }
+        if (worst.color[pixel] == 0 && worst.depth[pixel] == 0) return Kind::none;
+        if (masks_ && masks_->reference[pixel] != masks_->candidate[pixel]) return Kind::coverage;
+        if (masks_ && !masks_->reference[pixel]) return Kind::background;
+        return worst.depth[pixel] != 0 ? Kind::depth : Kind::color;
+    }
+
+    // Layers and the background have no tolerance of their own: their colours and depths have.
+    [[nodiscard]] bool is_forgiven(Kind kind, std::size_t pixel, const Distances& worst) const {
+        switch (kind) {
+            case Kind::background:
+            case Kind::depth:
+            case Kind::color:
+                return worst.color[pixel] <= tolerances_.color_codes && worst.depth[pixel] <= tolerances_.depth_codes;
+            case Kind::none: return true;
+            default: return false;
+        }
+    }
+
+  private:
+    std::vector<LayerTarget> reference_layers_, candidate_layers_;
+    std::optional<Masks> masks_;
+    Tolerances tolerances_;
+};
+
+// Takes a pixel down in the report of its kind. The first pixel is the first that is not forgiven.
+void add(std::vector<KindReport>& kinds, Kind kind, std::size_t pixel, int width, bool forgiven) {
+    KindReport& report = kinds[static_cast<std::size_t>(kind)];
+    report.kind = kind;
+    ++report.pixels;
+    if (report.first_x < 0 || (!forgiven && report.beyond == 0)) {
+        report.first_x = static_cast<int>(pixel % static_cast<std::size_t>(width));
+        report.first_y = static_cast<int>(pixel / static_cast<std::size_t>(width));
+    }
+    report.beyond += forgiven ? 0 : 1;
+}
+
+}  // namespace
+
+Comparison compare(const Picture& reference, const Picture& candidate, const Tolerances& tolerances) {
+    const FloatEnvironment ours;
+    const Pairing pairing = pair_targets(reference, candidate);
+    const Target& first = *pairing.pairs[0].reference;
+    const std::size_t pixels = first.pixels();
+    Comparison result{.width = first.width, .height = first.height};
+    result.not_compared = pairing.not_compared;
+    Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels)};
+    for (const Pair& pair : pairing.pairs) measure(pair, worst, result);
+
+    const Sorter sorter{reference, candidate, pairing, tolerances};
+    std::vector<KindReport> kinds(kind_count);
+    result.kind_of.resize(pixels);
+    result.distance_of.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const Kind kind = sorter.kind_of(i, worst);
+        result.kind_of[i] = kind;
+        result.distance_of[i] = std::max(worst.color[i], worst.depth[i]);
+        if (kind == Kind::none) continue;
+        ++result.differing;
+        add(kinds, kind, i, result.width, sorter.is_forgiven(kind, i, worst));
+    }
+    KindReport& coverage = kinds[static_cast<std::size_t>(Kind::coverage)];
+    if (coverage.pixels > 0) {
+        coverage.detail = compare_coverage(*sorter.masks(), result.width, result.height).sentence();
+        if (coverage.pixels <= tolerances.coverage_pixels) coverage.beyond = 0;
+    }
+    std::erase_if(kinds, [](const KindReport& kind) { return kind.pixels == 0; });
+    result.kinds = std::move(kinds);
+    result.equal = result.differing == 0;
+    result.accepted = std::ranges::all_of(result.kinds, [](const KindReport& kind) { return kind.beyond == 0; });
+    if (!result.equal) result.explanations = explanations(pairing.pairs);
+    return result;
+}
+
+}  // namespace strata::oracle

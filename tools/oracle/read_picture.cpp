@@ -1,0 +1,145 @@
+// tools/oracle/read_picture.cpp - EXR and PNG to a Picture; picture.h states the rule.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "pipeline/formats/format.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/image_decode.h"
+#include "scenes/files/image_formats.h"
+#include "scenes/files/load_image_module.h"
+#include "tools/oracle/numbers_file.h"
+#include "tools/oracle/picture.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using scenes::StoredPart;
+
+Code code_of(pipeline::Format format) {
+    switch (pipeline::info(format).type) {
+        case pipeline::ChannelType::unorm8: return Code::unorm8;
+        case pipeline::ChannelType::half: return Code::half;
+        case pipeline::ChannelType::single: return Code::single;
+        case pipeline::ChannelType::stencil: return Code::integer;
+        case pipeline::ChannelType::depth: break;
+    }
+    switch (pipeline::depth_format(format)) {
+        case pipeline::DepthFormat::d16: return Code::unorm16;
+        case pipeline::DepthFormat::d24: return Code::unorm24;
+        case pipeline::DepthFormat::d16f: return Code::integer;
+        case pipeline::DepthFormat::d32f: break;
+    }
+    return Code::single;
+}
+
+Code code_of(scenes::StoredType type) noexcept {
+    switch (type) {
+        case scenes::StoredType::half: return Code::half;
+        case scenes::StoredType::single: return Code::single;
+        case scenes::StoredType::word: break;
+    }
+    return Code::integer;
+}
+
+// A part that Strata wrote says what its codes are.
+Target of_image(const scenes::FileImage& found) {
+    const pipeline::Image& image = found.image;
+    Target target{.part = found.part,
+                  .name = found.target,
+                  .meaning = pipeline::is_depth(image.format) ? Meaning::depth : Meaning::color,
+                  .code = code_of(image.format),
+                  .width = image.width,
+                  .height = image.height,
+                  .channels = image.channels()};
+    target.codes.assign(image.codes.begin(), image.codes.end());
+    return target;
+}
+
+// Channels of one type in the given order. Bytes may begin anywhere, so they are copied.
+Target of_channels(const StoredPart& part, const std::vector<std::string>& names, Meaning meaning) {
+    Target target{
+        .part = part.header.name, .meaning = meaning, .width = part.header.width, .height = part.header.height};
+    target.channels = static_cast<int>(names.size());
+    target.codes.resize(target.pixels() * names.size());
+    const std::size_t stride = pixel_bytes(part.header);
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        const scenes::ChannelPlace place = *scenes::find_channel(part.header, names[c]);
+        target.code = code_of(place.type);
+        for (std::size_t i = 0; i < target.pixels(); ++i)
+            std::memcpy(&target.codes[i * names.size() + c], &part.bytes[i * stride + place.offset],
+                        size_of(place.type));
+    }
+    return target;
+}
+
+// Another program's part: its colours, its depth, and every other channel by itself.
+void add_foreign(const StoredPart& part, const std::string& path, int number, std::vector<Target>& targets) {
+    std::vector<std::string> colors, others;
+    for (const char* name : {"R", "G", "B", "A"})
+        if (scenes::find_channel(part.header, name)) colors.emplace_back(name);
+    const auto type_of = [&](const std::string& name) { return scenes::find_channel(part.header, name)->type; };
+    for (const std::string& name : colors)
+        if (type_of(name) != type_of(colors[0]))
+            throw InputError(path, fmt::format("part {}", number), "colour channels of one type", "several types");
+    if (!colors.empty()) {
+        targets.push_back(of_channels(part, colors, Meaning::color));
+        targets.back().name = "color";
+    }
+    for (const scenes::StoredChannel& channel : part.header.channels) {
+        if (std::ranges::find(colors, channel.name) != colors.end()) continue;
+        const bool is_depth = channel.name == "Z";
+        targets.push_back(of_channels(part, {channel.name}, is_depth ? Meaning::depth : Meaning::other));
+        targets.back().name = is_depth ? "depth" : channel.name;
+    }
+}
+
+Picture read_exr(const std::string& path) {
+    Picture picture{path, {}};
+    scenes::image_module().read_exr(path, [&, number = 0](StoredPart&& part) mutable {
+        const auto fail = [&](const char* expected, const char* found) {
+            throw InputError(path, fmt::format("part {}", number), expected, found);
+        };
+        if (part.header.is_deep) fail("a flat image", "a deep one");
+        if (!part.is_whole) fail("a whole image", "a damaged one");
+        if (scenes::attribute(part.header, "format.color").empty())
+            add_foreign(part, path, number, picture.targets);
+        else
+            for (const scenes::FileImage& image : scenes::as_images(part, number, path))
+                picture.targets.push_back(of_image(image));
+        ++number;
+    });
+    return picture;
+}
+
+Picture read_png(const std::string& path) {
+    const scenes::StoredCodes stored = scenes::read_png_codes(path);
+    Target target{.name = "color",
+                  .code = stored.bits == 16 ? Code::unorm16 : Code::unorm8,
+                  .width = stored.width,
+                  .height = stored.height,
+                  .channels = stored.channels};
+    target.codes.assign(stored.codes.begin(), stored.codes.end());
+    return {path, {std::move(target)}};
+}
+
+}  // namespace
+
+Picture read_picture(const std::string& path, const std::optional<RawLayout>& layout) {
+    const auto ends_in = [&](std::string_view ending) {
+        return path.size() >= ending.size() &&
+               std::equal(ending.rbegin(), ending.rend(), path.rbegin(),
+                          [](char wanted, char c) { return wanted == (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
+    };
+    if (ends_in(".exr")) return read_exr(path);
+    if (ends_in(".png")) return read_png(path);
+    if (ends_in(".npy")) return {path, {read_npy(path)}};
+    if (layout) return {path, {read_raw(path, *layout)}};
+    throw InputError(path, "name", "a file that ends in .exr, .png or .npy, or --layout for one of bare numbers",
+                     "another ending");
+}
+
+}  // namespace strata::oracle

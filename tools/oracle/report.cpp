@@ -1,0 +1,129 @@
+#include "tools/oracle/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace strata::oracle {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string in_part(const TargetReport& target) {
+    return target.part.empty() ? target.name : fmt::format("{} {}", target.part, target.name);
+}
+
+std::string verdict(const Comparison& c) {
+    if (c.equal) return "equal";
+    const auto pixels = static_cast<std::uint64_t>(c.width) * static_cast<std::uint64_t>(c.height);
+    return fmt::format("{}: {} of {} pixels differ", c.accepted ? "accepted" : "different", c.differing, pixels);
+}
+
+// The smallest distances: a port that rounds otherwise shows as 1 and 2 alone.
+std::string histogram(const TargetReport& target) {
+    constexpr int most = 8;
+    std::string text;
+    int shown = 0;
+    for (const auto& [distance, pixels] : target.distances) {
+        if (shown++ == most) return text + fmt::format(", ... up to {}", target.greatest);
+        text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", distance, pixels);
+    }
+    return text;
+}
+
+std::string share(const Explanation& e) {
+    const double percent = 100.0 * static_cast<double>(e.explained) / static_cast<double>(e.of);
+    return fmt::format("{:.1f} % of the differing pixels are those of {}{}", percent, e.sentence,
+                       e.contradicted == 0 ? "" : fmt::format("; {} equal pixels speak against it", e.contradicted));
+}
+
+std::string escaped(std::string_view text) {
+    std::string xml;
+    for (const char c : text) {
+        if (c == '<')
+            xml += "&lt;";
+        else if (c == '&')
+            xml += "&amp;";
+        else if (c == '"')
+            xml += "&quot;";
+        else
+            xml += c;
+    }
+    return xml;
+}
+
+}  // namespace
+
+std::string to_text(const Comparison& c) {
+    std::string text = verdict(c) + '\n';
+    for (const TargetReport& target : c.targets)
+        if (target.differing > 0)
+            text += fmt::format(
+                "  target {} ({}{}): {} pixels differ by at most {} codes; pixels by codes: {}\n", in_part(target),
+                name(target.reference),
+                target.candidate == target.reference ? "" : fmt::format(" against {}", name(target.candidate)),
+                target.differing, target.greatest, histogram(target));
+    for (const KindReport& kind : c.kinds)
+        text += fmt::format("  {}: {} pixels, {} of them beyond the tolerance, first at {},{}{}\n", name(kind.kind),
+                            kind.pixels, kind.beyond, kind.first_x, kind.first_y,
+                            kind.detail.empty() ? "" : "; " + kind.detail);
+    for (const Explanation& e : c.explanations) text += fmt::format("  {}: {}\n", e.mistake, share(e));
+    for (const std::string& left_out : c.not_compared) text += fmt::format("  not compared: {}\n", left_out);
+    return text;
+}
+
+std::string to_json(const Comparison& c) {
+    ordered_json document{{"equal", c.equal},   {"accepted", c.accepted},   {"width", c.width},
+                          {"height", c.height}, {"differing", c.differing}, {"targets", ordered_json::array()}};
+    for (const TargetReport& target : c.targets) {
+        ordered_json distances = ordered_json::array();
+        for (const auto& [distance, pixels] : target.distances) distances.push_back({distance, pixels});
+        document["targets"].push_back({{"part", target.part},
+                                       {"name", target.name},
+                                       {"reference", name(target.reference)},
+                                       {"candidate", name(target.candidate)},
+                                       {"channels", target.channels},
+                                       {"differing", target.differing},
+                                       {"greatest", target.greatest},
+                                       {"distances", std::move(distances)}});
+    }
+    document["kinds"] = ordered_json::array();
+    for (const KindReport& kind : c.kinds)
+        document["kinds"].push_back({{"kind", name(kind.kind)},
+                                     {"pixels", kind.pixels},
+                                     {"beyond", kind.beyond},
+                                     {"first", {kind.first_x, kind.first_y}},
+                                     {"detail", kind.detail}});
+    document["explanations"] = ordered_json::array();
+    for (const Explanation& e : c.explanations)
+        document["explanations"].push_back({{"mistake", e.mistake},
+                                            {"sentence", e.sentence},
+                                            {"explained", e.explained},
+                                            {"of", e.of},
+                                            {"contradicted", e.contradicted}});
+    document["not_compared"] = c.not_compared;
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+std::string to_junit(const Comparison& c) {
+    const auto failures = std::ranges::count_if(c.kinds, [](const KindReport& kind) { return kind.beyond > 0; });
+    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+    text += fmt::format("<testsuite name=\"strata compare\" tests=\"{}\" failures=\"{}\">\n", kind_count - 1, failures);
+    for (std::size_t k = 1; k < kind_count; ++k) {
+        const auto kind = static_cast<Kind>(k);
+        const auto found = std::ranges::find(c.kinds, kind, &KindReport::kind);
+        text += fmt::format("  <testcase classname=\"strata.compare\" name=\"{}\"", name(kind));
+        if (found == c.kinds.end() || found->beyond == 0) {
+            text += "/>\n";
+            continue;
+        }
+        text += fmt::format(">\n    <failure message=\"{}\"/>\n  </testcase>\n",
+                            escaped(fmt::format("{} pixels, first at {},{}{}", found->beyond, found->first_x,
+                                                found->first_y, found->detail.empty() ? "" : "; " + found->detail)));
+    }
+    return text + "</testsuite>\n";
+}
+
+}  // namespace strata::oracle

@@ -1,0 +1,16 @@
+// tools/oracle/report.h - a comparison in words: text for people, JSON for programs, JUnit for continuous integration.
+#pragma once
+#include <string>
+
+#include "tools/oracle/compare.h"
+
+namespace strata::oracle {
+
+// The verdict in the first line; then targets, kinds and explanations that there are.
+[[nodiscard]] std::string to_text(const Comparison& comparison);
+// One object; every key is always there.
+[[nodiscard]] std::string to_json(const Comparison& comparison);
+// A test case a kind, failed where pixels differ beyond the tolerance.
+[[nodiscard]] std::string to_junit(const Comparison& comparison);
+
+}  // namespace strata::oracle

@@ -1,0 +1,110 @@
+// tools/strata/compare.cpp - strata compare: how a candidate differs from a reference, by kinds of mistakes.
+#include "tools/oracle/compare.h"
+
+#include <memory>
+
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/image_io.h"
+#include "tools/oracle/drawings.h"
+#include "tools/oracle/report.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+// The command line.
+struct CompareOptions {
+    std::string reference, candidate;
+    std::optional<oracle::RawLayout> layout{};
+    oracle::Tolerances tolerances{};
+    std::string heat, side, junit;
+    bool json = false;
+};
+
+void write_png(const std::string& path, const pipeline::Image& image) {
+    if (!path.empty()) scenes::write_image(path, {.color = image});
+}
+
+// Files first: what stands on standard output has been written.
+int compare(const CompareOptions& options) {
+    check_outputs(
+        {{"--heat", options.heat, {".png"}}, {"--side", options.side, {".png"}}, {"--junit", options.junit, {".xml"}}});
+    const oracle::Picture reference = oracle::read_picture(options.reference, options.layout);
+    const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
+    const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances);
+    write_png(options.heat, oracle::heat_map(found));
+    write_png(options.side, oracle::side_by_side(reference, candidate, found));
+    if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
+    print(options.json ? oracle::to_json(found) : oracle::to_text(found));
+    return found.accepted ? 0 : 1;
+}
+
+// "color=1,depth=2,coverage=10", each at most once.
+std::optional<oracle::Tolerances> to_tolerances(std::string_view text) {
+    oracle::Tolerances tolerances;
+    std::vector<std::string_view> seen;
+    for (const std::string& part : split(text, ',')) {
+        const std::size_t is = part.find('=');
+        if (is == std::string::npos) return std::nullopt;
+        const auto amount = to_int<std::uint32_t>(std::string_view(part).substr(is + 1));
+        if (!amount) return std::nullopt;
+        const std::string kind = part.substr(0, is);
+        if (kind == "color")
+            tolerances.color_codes = *amount;
+        else if (kind == "depth")
+            tolerances.depth_codes = *amount;
+        else if (kind == "coverage")
+            tolerances.coverage_pixels = *amount;
+        else
+            return std::nullopt;
+    }
+    return tolerances;
+}
+
+}  // namespace
+
+Command add_compare(CLI::App& root) {
+    auto* app = root.add_subcommand("compare", "tell how a picture differs from a reference, by kinds of mistakes");
+    const auto options = std::make_shared<CompareOptions>();
+    app->add_option("REFERENCE", options->reference, "an .exr, .png or .npy file, or bare numbers with --layout")
+        ->required()
+        ->type_name("");
+    app->add_option("CANDIDATE", options->candidate, "the same; the kinds of files may differ")
+        ->required()
+        ->type_name("");
+    add_option(
+        *app, options->layout,
+        {"--layout", "WIDTHxHEIGHT:FORMAT[:bottom-up]", "of files of bare little-endian numbers",
+         "WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, rgb16, rgba32f, d24 or d32f, and :bottom-up if the lowest row "
+         "comes first"},
+        [](std::string_view text) -> std::optional<std::optional<oracle::RawLayout>> {
+            const auto layout = oracle::raw_layout(text);
+            if (!layout) return std::nullopt;
+            return layout;
+        });
+    add_option(*app, options->tolerances,
+               {"--tolerance", "KIND=N[,KIND=N...]",
+                "forgive colours and depths N codes apart, and N pixels of other coverage; nothing without this option",
+                "color=N, depth=N and coverage=N with commas between"},
+               to_tolerances);
+    add_path(*app, options->heat, {"--heat", "FILE.png", "where which kind of difference is", "a file name"});
+    add_path(*app, options->side,
+             {"--side", "FILE.png", "reference, candidate and heat map side by side", "a file name"});
+    add_path(*app, options->junit,
+             {"--junit", "FILE.xml", "a test case a kind, for continuous integration", "a file name"});
+    app->add_flag("--json", options->json, "one JSON document instead of text");
+    app->footer(
+        "Examples:\n"
+        "  strata render teapot --size 64x64 -o teapot.exr && strata compare teapot.exr teapot.exr\n"
+        "  strata render teapot --size 64x64 -o teapot.png && strata compare --json --side side.png teapot.png "
+        "teapot.png\n"
+        "Exit status: 0 equal or within --tolerance, 1 different, 2 bad input or usage, 3 the system failed, 130 "
+        "interrupted.");
+    return {app, [options] { return compare(*options); }};
+}
+
+}  // namespace strata::tools
