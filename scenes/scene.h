@@ -29,6 +29,8 @@ struct Scene {
     std::string name;
     pipeline::DrawList list;
     Bounds bounds;
+    // The view that the scene is made for, where it is made for one: taken unless the user names another.
+    std::optional<pipeline::View> own_view{};
     // In the order in which the walk over the nodes meets them; a name that was met before gets #2, #3 behind
     // it.
     std::vector<SceneCamera> cameras;
@@ -47,7 +49,7 @@ struct SceneOptions {
 };
 
 // `spec` is a path to a .gltf or .glb file, or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
-// "random:seed=S,triangles=N", "shadow-demo". Throws InputError for everything that is not one of them or is malformed.
+// "random:seed=S,triangles=N", "shadow-demo", "hard:case=NAME". Throws InputError for everything that is not one of them or is malformed.
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 
 // The two halves of load_scene.

@@ -6,6 +6,7 @@
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/nearest_name.h"
+#include "scenes/procedural/hard_cases/hard_case.h"
 #include "scenes/procedural/parameters.h"
 #include "scenes/procedural/plane_stack.h"
 #include "scenes/procedural/random_soup.h"
@@ -54,17 +55,22 @@ Scene shadow_demo(const std::string& spec, const SceneOptions& options) {
     return make_shadow_demo(options);
 }
 
+// The first case is the default.
+Scene hard_case(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{"case"}};
+    Keys cases;
+    for (const HardCase& hard : hard_cases()) cases.push_back(hard.name);
+    return make_hard_case(options, hard_cases()[parameters.choice("case", cases)]);
+}
+
 // The table that names, choice and suggestions come from. A new scene is a line here, and one in
 // procedural_scenes().
 struct Maker {
     std::string_view name;
     Scene (*make)(const std::string& spec, const SceneOptions& options);
 };
-constexpr Maker makers[] = {{"teapot", teapot},
-                            {"volume-beam", volume_beam},
-                            {"random", random_soup},
-                            {"planes", plane_stack},
-                            {"shadow-demo", shadow_demo}};
+constexpr Maker makers[] = {{"teapot", teapot},      {"volume-beam", volume_beam}, {"random", random_soup},
+                            {"planes", plane_stack}, {"shadow-demo", shadow_demo}, {"hard", hard_case}};
 
 Keys names() {
     Keys result;
@@ -97,6 +103,9 @@ const std::vector<ProceduralScene>& procedural_scenes() {
          "65536; 1 to 256, default 8)"},
         {"shadow-demo", "",
          "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
+        {"hard", "case=NAME",
+         "a small scene on which rasterizers and peels go wrong, seen as it is meant to be unless a camera is named "
+         "(strata hard-cases --list names them)"},
     };
     return scenes;
 }

@@ -54,12 +54,12 @@ void add_scene(Words& words, const RunOptions& options) {
 void add_view(Words& words, const RunOptions& options) {
     const peeling::RenderOptions& render = options.render;
     add(words, "--size", fmt::format("{}x{}", render.width, render.height));
-    // The view is always named, also where it is the default.
+    // The view is always named, also where it is the default, unless it comes with the scene.
     const Orbit orbit = options.orbit.value_or(Orbit{});
-    if (options.camera.empty())
-        add(words, "--orbit", fmt::format("{},{}", orbit.azimuth, orbit.elevation));
-    else
+    if (!options.camera.empty())
         add(words, "--camera", file_name(options.camera));
+    else if (!options.takes_own_view)
+        add(words, "--orbit", fmt::format("{},{}", orbit.azimuth, orbit.elevation));
     if (render.alpha) add(words, "--alpha", fmt::format("{}", *render.alpha));
     const auto& b = render.background;
     if (b != pipeline::Rgba{0, 0, 0, 1}) add(words, "--background", fmt::format("{},{},{}", b[0], b[1], b[2]));

@@ -24,6 +24,7 @@ struct RunOptions {
     std::string profile = "geforce8";                   // a name or a file
     std::string camera;                                 // --camera; empty: the orbit
     std::optional<Orbit> orbit;
+    bool takes_own_view = false;  // neither is given, and the scene turned out to have a view of its own
     peeling::RenderOptions render;
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     Simd simd = Simd::best;

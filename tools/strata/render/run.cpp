@@ -19,9 +19,11 @@ namespace strata::tools {
 
 namespace {
 
-// The view of --camera or of the orbit. A name means a camera of the scene first, then a file.
+// The view of --camera or of the orbit; without either, the scene's own if it has one. A name means a camera of the
+// scene first, then a file.
 pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) {
     const double aspect = double(options.render.width) / options.render.height;
+    if (options.takes_own_view) return *scene.own_view;
     if (options.camera.empty()) {
         const Orbit orbit = options.orbit.value_or(Orbit{});
         return scenes::orbit_view(scene.bounds, orbit.azimuth, orbit.elevation, aspect);
@@ -79,6 +81,7 @@ Session open_session(RunOptions& options) {
     for (const std::string& warning : session.scene.warnings)
         std::fprintf(stderr, "strata: warning: %s\n", warning.c_str());
     warn_of_opaque(options, session.scene);
+    options.takes_own_view = options.camera.empty() && !options.orbit && session.scene.own_view.has_value();
     session.view = find_view(options, session.scene);
     check_sorted(options, session.scene);
     // Given as sRGB values; the frame blends in the colour space of the run.
