@@ -114,7 +114,12 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {
     constexpr std::int64_t large = 128, many = 32;
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
-    return options.tile_size.value_or(!algorithm.replayed && has_many ? large : 64);
+    if (!algorithm.replayed) return options.tile_size.value_or(has_many ? large : 64);
+    // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form visits them once.
+    const bool has_bytes = options.color_format.value_or(Format::rgba8) == Format::rgba8;
+    const bool is_closed = algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers &&
+                           (has_bytes || algorithm.key == DepthKey::stored_code);
+    return options.tile_size.value_or(is_closed ? 64 : 32);
 }
 
 struct Renderer::State {

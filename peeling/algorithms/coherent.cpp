@@ -77,6 +77,7 @@ void find_reached(CoherentPeel& peel) {
 Drawn composite_run(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.nearest, peel.reached};
+    state.selection = {.keeps = Keeps::window, .from = peel.nearest, .before = peel.reached};
     return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_from(in, own.depth(0), out);
         keep_before(in, own.depth(1), out);
@@ -90,6 +91,7 @@ Drawn composite_run(CoherentPeel& peel) {
 Drawn composite_end(CoherentPeel& peel) {
     PassState state = composite_state(peel.accumulated);
     state.reads = {peel.reached, peel.region.opaque_depth()};
+    state.selection = {.keeps = Keeps::window, .at = peel.reached};
     peel.ties.start();
     return peel.region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_at(in, own.depth(0), out);

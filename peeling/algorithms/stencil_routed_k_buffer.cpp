@@ -48,6 +48,9 @@ Capture capture(Region& region, Target stencil, int pass) {
     state.color[0] = into.color;
     state.reads[0] = region.opaque_depth();
     state.needs = code_with_color;
+    state.selection = {.keeps = Keeps::arrivals,
+                       .before = region.opaque_depth(),
+                       .first_arrival = static_cast<std::uint32_t>(k * pass)};
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_before(in, own.depth(0), out);  // before the stencil test: what is hidden takes no sample
         out.color[0] = in.color;

@@ -10,7 +10,7 @@
 #pragma once
 #include <cstdint>
 
-#include "pipeline/stages/target.h"
+#include "pipeline/stages/target_handle.h"
 
 namespace strata::pipeline {
 
@@ -18,7 +18,9 @@ namespace strata::pipeline {
 enum class Keeps : std::uint8_t {
     everything,  // no selection: every fragment is visited
     nearest,     // the first arrival of the least key, by a depth test LESS with a write and without blending
-    window,      // all of the window, in the order of arrival: for windows of one key
+    window,      // all of the window, in the order of arrival
+    arrivals,    // from number `first_arrival` of the window on, in the order of arrival, one for each sample: by a
+                 // stencil test that all of the window count down and only those meet
     ends  // the window's first and last key, all arrivals, and the nearest and farthest between: for MAX of (-z, z)
 };
 
@@ -35,9 +37,11 @@ struct FragmentSelection {
     Keeps keeps = Keeps::everything;
     Outside outside = Outside::discarded;
     Target behind{};  // depth target: keys greater than its code
+    Target from{};    // depth target: keys not less than its code
     Target at{};      // depth target: keys equal to its code
     Target before{};  // depth target: keys less than its code
     Target range{};   // float target: keys from minus its red to its green, both included
+    std::uint32_t first_arrival = 0;
     bool by_reference =
         false;  // `behind` bounds reference_code, the program looks at it alone, and it is the stored code
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;

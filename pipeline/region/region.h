@@ -171,7 +171,12 @@ class Region {
     void select(const PassState& state);
     void select_nearest(const PassState& state);
     void select_window(const PassState& state);
+    void select_arrivals(const PassState& state);
     void select_ends(const PassState& state);
+    template <class FragmentsAt>
+    void count_down(const PassState& state, const FragmentsAt& fragments_at);
+    [[nodiscard]] Drawn book_arrivals(const PassState& state, const Drawn& visited);
+    [[nodiscard]] std::size_t samples_of_pass() const noexcept { return static_cast<std::size_t>(pass_samples_); }
     // Null where there is no such target.
     [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? storage(t).depth(0) : nullptr; }
     [[nodiscard]] FragmentBatch* next_selected(const PassState& state);  // null after the last

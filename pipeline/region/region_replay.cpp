@@ -90,6 +90,7 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
     kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow
     kept.units = state.needs.units;
     if (may_replay && store().serves(kept)) {
+        store().recall_only(needs);
         replay(sink);
     } else if (may_replay && store().may_start()) {
         source_ = Source::captured;

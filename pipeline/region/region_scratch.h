@@ -5,12 +5,12 @@
 #include <mutex>
 #include <vector>
 
+#include "pipeline/fragments/fragment_store.h"
+#include "pipeline/fragments/selected_fragments.h"
+#include "pipeline/fragments/sorted_fragments.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
 #include "pipeline/region/arena.h"
-#include "pipeline/region/fragment_store.h"
-#include "pipeline/region/selected_fragments.h"
-#include "pipeline/region/sorted_fragments.h"
 
 namespace strata::pipeline {
 

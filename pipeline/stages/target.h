@@ -1,8 +1,9 @@
-// pipeline/stages/target.h - a render target as state names it, and what is read from or written to it by a batch.
+// pipeline/stages/target.h - what a batch reads from a render target and writes to it.
 #pragma once
 #include <array>
 #include <cstdint>
 
+#include "pipeline/stages/target_handle.h"
 #include "rasterizer/base/vector.h"
 #include "rasterizer/coverage/fragment_batch.h"
 
@@ -11,13 +12,6 @@ namespace strata::pipeline {
 using rasterizer::batch_capacity;
 using rasterizer::FragmentBatch;
 using rasterizer::Lanes;
-
-// A handle into its region's storage: copy it, swap it, compare it. The same number in every region.
-struct Target {
-    int id = -1;
-    [[nodiscard]] constexpr bool exists() const noexcept { return id >= 0; }
-    friend constexpr bool operator==(Target, Target) = default;
-};
 
 // The values of a clear: a colour, converted to the target's format like a source's; a depth, clamped to [0,1] unless
 // the profile stores it as it is (formats.md 5.5); a stencil value.

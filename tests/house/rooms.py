@@ -15,7 +15,7 @@ import sys
 
 FLOORS = {
     "rasterizer": ["base", "rules", "coverage", "set_up", "values", "walk"],
-    "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "region"],
+    "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
     "peeling": ["programs", "closed", "algorithms", "audit", "", "truth"],
     "scenes": ["numbers", "", "gltf/document", "images", "files", "procedural", "gltf"],
     "tools": ["hardware_check", "oracle", "strata", "bench"],

@@ -91,6 +91,17 @@ TEST_CASE("a selection that its program does not keep is found where selections 
     CHECK_NOTHROW(run_with({}));
 }
 
+TEST_CASE("stencil routing visits every fragment once, however many passes it takes", "[slow]") {
+    for (const std::uint32_t layers : {7u, 16u, 64u, 240u}) {
+        const FragmentScene scene = deep_scene(layers);
+        RenderOptions options = options_for(scene);
+        options.tile_size = 8;
+        const auto result = render(scene, {"geforce8", "stencil_routed_k_buffer"}, options);
+        CHECK(result.frame.passes.geometry == static_cast<int>((layers + 7) / 8));
+        CHECK(result.frame.work.visited == std::uint64_t{layers} * scene.pixels.size());
+    }
+}
+
 TEST_CASE("the fragments that a peel visits grow with its layers, and not with their square", "[slow]") {
     for (const Machine& machine : one_layer_peels)
         for (const std::uint32_t layers : {16u, 64u, 256u, 1024u}) {

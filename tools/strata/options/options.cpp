@@ -271,7 +271,8 @@ void add_resource_options(CLI::App& app, RunOptions& options) {
                 "bytes such as 65536, 64M or 1G"},
                to_bytes);
     add_choice(app, options.render.tile_size, "--tile", tile_sizes,
-               "side of a tile in pixels; same bits (default 64; 128 in large frames of one pass)");
+               "side of a tile in pixels; same bits (default 64; 32 where a peel runs pass by pass, 128 in large "
+               "frames of one pass)");
     add_option(
         app, options.render.threads,
         {"--threads", "N", "threads at most; same bits (default 0: all that there are)", "a whole number from 0"},

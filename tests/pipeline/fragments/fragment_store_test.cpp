@@ -1,5 +1,5 @@
 // Model: the batches themselves, kept by the test.
-#include "pipeline/region/fragment_store.h"
+#include "pipeline/fragments/fragment_store.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,10 +1,11 @@
-// pipeline/region/sorted_fragments.cpp - sorting, and finding bounds in what is sorted (execution.md 7.1).
-#include "pipeline/region/sorted_fragments.h"
+// pipeline/fragments/sorted_fragments.cpp - sorting, and finding bounds in what is sorted (execution.md 7.1).
+#include "pipeline/fragments/sorted_fragments.h"
 
 #include <algorithm>
 #include <bit>
 #include <memory>
 
+#include "pipeline/formats/lane_mask.h"
 #include "pipeline/stages/alpha_test.h"
 #include "rasterizer/rules/depth_code.h"
 
@@ -22,6 +23,11 @@ constexpr std::uint32_t not_counted = ~0u;
 [[nodiscard]] bool is_at_most(float value, float most) noexcept {
     return std::bit_cast<std::uint32_t>(value) <= std::bit_cast<std::uint32_t>(most);  // false for -0 and NaN
 }
+
+// How many fragments of a batch have no word, by the first reason for it.
+struct Fates {
+    std::uint64_t masked, hidden, alpha_killed;
+};
 
 // Of neighbouring passes bounds are the same or a few words apart: steps that double, from where the last one was.
 [[nodiscard]] std::uint32_t first_from(std::span<const std::uint64_t> words, std::uint64_t word,
@@ -54,12 +60,13 @@ void sort_column(std::span<std::uint64_t> words) {
 }  // namespace
 
 bool SortedFragments::sort(const FragmentStore& store, const SortRequest& request, std::size_t pixels,
-                           std::uint64_t limit) {
+                           std::uint64_t limit, const std::uint32_t* surface) {
     request_ = request;
     state_ = State::declined;
     start_.assign(pixels + 1, 0);
-    if (!take(store, limit)) return false;
-    for (std::size_t p = 0; p < pixels; ++p) sort_column({words_.data() + start_[p], start_[p + 1] - start_[p]});
+    if (!take(store, limit, surface)) return false;
+    for (std::size_t p = 0; p < pixels && !request.by_arrival; ++p)
+        sort_column({words_.data() + start_[p], start_[p + 1] - start_[p]});
     for (auto& finger : finger_) finger.assign(pixels, Found{});
     updates_end_.assign(pixels, not_counted);
     updates_.resize(words_.size());
@@ -69,8 +76,8 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
 
 // Every batch is recalled once. Its words go where the pixels' columns begin as soon as all columns' heights are known:
 // until then they stand in the order of arrival.
-bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit) {
-    rasterized_ = masked_ = alpha_killed_ = 0;
+bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface) {
+    rasterized_ = masked_ = alpha_killed_ = hidden_ = 0;
     has_plain_colors_ = stores_reference_ = true;
     const std::size_t pixels = start_.size() - 1;
     for (std::size_t number = 0; number < store.batches(); ++number) rasterized_ += store.count(number);
@@ -86,27 +93,31 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit) {
                 return static_cast<std::uint64_t>(std::count(alive.begin(), alive.begin() + batch->count, 0u));
             };
             const std::uint64_t masked = dead();
+            for (std::size_t i = 0; request_.by_arrival && i < count; ++i)
+                alive[i] &= mask(batch->code[i] < surface[batch->pixel[i]]);
+            const std::uint64_t unseen = dead();
             if (request_.alpha.enabled)
                 alpha_test(request_.alpha, request_.eight_bit_alpha, batch->color[3].data(), alive.data(),
                            batch->count);
-            if (!visit(number, count, alive, masked, dead() - masked)) return false;
+            if (!visit(number, count, alive, Fates{masked, unseen - masked, dead() - unseen})) return false;
         }
         return true;
     };
-    const bool sortable = for_each_alive([&](std::size_t, std::size_t count, const Lanes<std::uint32_t>& is_alive,
-                                             std::uint64_t masked, std::uint64_t killed) {
-        masked_ += masked;
-        alpha_killed_ += killed;
-        for (std::size_t i = 0; i < count; ++i) start_[batch->pixel[i] + 1] += is_alive[i] & 1u;
-        look_at_values(store, *batch);
-        return has_sortable_keys(*batch);
-    });
+    const bool sortable =
+        for_each_alive([&](std::size_t, std::size_t count, const Lanes<std::uint32_t>& is_alive, const Fates& lost) {
+            masked_ += lost.masked;
+            hidden_ += lost.hidden;
+            alpha_killed_ += lost.alpha_killed;
+            for (std::size_t i = 0; i < count; ++i) start_[batch->pixel[i] + 1] += is_alive[i] & 1u;
+            look_at_values(store, *batch);
+            return has_sortable_keys(*batch);
+        });
     if (!sortable) return false;
     for (std::size_t p = 0; p < pixels; ++p) start_[p + 1] += start_[p];
     words_.resize(start_[pixels]);
     updates_end_.assign(start_.begin(), start_.end() - 1);  // for now: where the column's next word goes
     return for_each_alive(
-        [&](std::size_t number, std::size_t count, const Lanes<std::uint32_t>& is_alive, std::uint64_t, std::uint64_t) {
+        [&](std::size_t number, std::size_t count, const Lanes<std::uint32_t>& is_alive, const Fates&) {
             for (std::size_t i = 0; i < count; ++i) {
                 if (is_alive[i] == 0) continue;
                 const std::uint32_t key =

@@ -1,4 +1,4 @@
-// pipeline/region/sorted_fragments.h - the fragments of a store, every pixel's sorted by (key, arrival): where passes with a selection
+// pipeline/fragments/sorted_fragments.h - the fragments of a store, every pixel's sorted by (key, arrival): where passes with a selection
 // find what they keep.
 //
 // Rule     A fragment is a word of 64 bits: its key above, below it its place in the store, which rises with arrival. So one
@@ -8,14 +8,14 @@
 //          bounds of successive passes move by a few words, so finding the next takes a few comparisons, however long the column.
 // Numbers  12 bytes a fragment and 32 a pixel. No key is a NaN, and no stored code of a float buffer negative: else nothing is sorted.
 // Source   execution.md 7.1.
-// Tests    tests/pipeline/region/sorted_fragments_test.cpp
+// Tests    tests/pipeline/fragments/sorted_fragments_test.cpp
 #pragma once
 #include <cstdint>
 #include <span>
 
 #include "pipeline/device/state.h"
+#include "pipeline/fragments/fragment_store.h"
 #include "pipeline/frame/run_settings.h"
-#include "pipeline/region/fragment_store.h"
 #include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {
@@ -26,14 +26,16 @@ struct SortRequest {
     bool is_float = false;  // stored codes are bits of binary32
     AlphaTest alpha{};
     bool eight_bit_alpha = true;
+    bool by_arrival = false;  // not sorted by key, and without those that do not lie before `surface`
     friend bool operator==(const SortRequest&, const SortRequest&) = default;
 };
 
 class SortedFragments {
   public:
-    // Sorts the fragments of a complete store, within `limit` bytes. False if that cannot be done.
+    // Sorts the fragments of a complete store, within `limit` bytes. False if that cannot be done. `surface`: codes, one a
+    // pixel, for a request by arrival.
     [[nodiscard]] bool sort(const FragmentStore& store, const SortRequest& request, std::size_t pixels,
-                            std::uint64_t limit);
+                            std::uint64_t limit, const std::uint32_t* surface = nullptr);
     void forget() noexcept { state_ = State::empty; }
     [[nodiscard]] bool serves(const SortRequest& request) const noexcept {
         return state_ == State::sorted && request_ == request;
@@ -45,6 +47,7 @@ class SortedFragments {
     [[nodiscard]] std::uint64_t rasterized() const noexcept { return rasterized_; }
     [[nodiscard]] std::uint64_t masked() const noexcept { return masked_; }              // killed by MASK
     [[nodiscard]] std::uint64_t alpha_killed() const noexcept { return alpha_killed_; }  // by the request's alpha test
+    [[nodiscard]] std::uint64_t hidden() const noexcept { return hidden_; }              // not before the surface
     // Whether every colour is in [0, 1024] and every alpha in [0, 1], none of them -0: MAX of such has no order.
     [[nodiscard]] bool has_plain_colors() const noexcept { return has_plain_colors_; }
     // Whether the reference code is every fragment's stored one.
@@ -59,20 +62,25 @@ class SortedFragments {
     // are looked for in every pass.
     enum class Finger : std::uint8_t { low, high, surface };
     [[nodiscard]] std::uint32_t below(std::size_t pixel, std::uint64_t bound, Finger finger) noexcept;
+    // Asks for the words at a pixel's finger before they are looked at.
+    void prefetch(std::size_t pixel, Finger finger) const noexcept {
+        if (pixel < finger_[0].size())
+            __builtin_prefetch(words_.data() + start_[pixel] + finger_[static_cast<std::size_t>(finger)][pixel].at);
+    }
     // How many of the fragments [first, last) pass a depth test LESS with a write, as they arrive.
     [[nodiscard]] std::uint32_t passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) noexcept;
 
   private:
     enum class State : std::uint8_t { empty, sorted, declined };
 
-    [[nodiscard]] bool take(const FragmentStore& store, std::uint64_t limit);
+    [[nodiscard]] bool take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface);
     [[nodiscard]] bool has_sortable_keys(const rasterizer::FragmentBatch& batch) const noexcept;
     void look_at_values(const FragmentStore& store, const rasterizer::FragmentBatch& batch) noexcept;
     void count_updates(std::size_t pixel, std::uint32_t last) noexcept;
 
     State state_ = State::empty;
     SortRequest request_;
-    std::uint64_t rasterized_ = 0, masked_ = 0, alpha_killed_ = 0;
+    std::uint64_t rasterized_ = 0, masked_ = 0, alpha_killed_ = 0, hidden_ = 0;
     bool has_plain_colors_ = false, stores_reference_ = false;
     UninitializedVector<std::uint64_t> words_;
     std::vector<std::uint32_t> start_ = std::vector<std::uint32_t>(1);  // by pixel, and the end of the last

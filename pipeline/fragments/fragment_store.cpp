@@ -1,8 +1,8 @@
-// pipeline/region/fragment_store.cpp - packing of batches and unpacking, by one list of arrays (execution.md 5.3).
+// pipeline/fragments/fragment_store.cpp - packing of batches and unpacking, by one list of arrays (execution.md 5.3).
 //
 // Numbers  All arrays of a fragment take 129 bytes together, so a batch of 256 takes 33,024 bytes at most and fits into a
 //          fresh chunk. Packed arrays have no alignment: they are copied as bytes.
-#include "pipeline/region/fragment_store.h"
+#include "pipeline/fragments/fragment_store.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,18 @@ namespace strata::pipeline {
 using rasterizer::FragmentBatch;
 using rasterizer::FragmentNeeds;
 using rasterizer::Lanes;
+
+namespace {
+
+// Whether `array` of a batch holds colours or depths that `needs` does not name. Few passes look at the other arrays, and
+// none of the many passes of a peel: they are taken wherever they are held.
+bool is_left_out(const FragmentBatch& batch, const FragmentNeeds& needs, const void* array) noexcept {
+    const bool is_color = array >= &batch.color[0] && array <= &batch.color[3];
+    return (is_color && !needs.color) || (array == &batch.code && !needs.code) ||
+           (array == &batch.shader_z && !needs.shader_z);
+}
+
+}  // namespace
 
 // Visits the arrays of `batch` that `needs` names, in the order in which they are packed.
 template <class Visit>
@@ -48,7 +60,7 @@ std::size_t FragmentStore::packed_bytes(std::size_t count) const noexcept {
 
 void FragmentStore::start(const FragmentNeeds& needs, std::uint64_t limit) {
     forget();
-    needs_ = needs;
+    needs_ = recalled_ = needs;
     limit_ = limit;
     state_ = State::filling;
 }
@@ -106,7 +118,7 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     const Packed& packed = batches_[number];
     const std::byte* at = packed.begin;
     const auto unpack = [&](auto& array) {
-        std::memcpy(array.data(), at, packed.count * sizeof(array[0]));
+        if (!is_left_out(batch, recalled_, &array)) std::memcpy(array.data(), at, packed.count * sizeof(array[0]));
         at += packed.count * sizeof(array[0]);
     };
     batch.count = packed.count;
@@ -119,7 +131,6 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
 }
 
 // Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.
-// Arrays that few passes look at are fetched wherever they are held.
 void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs,
                           FragmentBatch& batch) const noexcept {
     std::array<const std::byte*, rasterizer::batch_capacity> begin;
@@ -130,15 +141,13 @@ void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentN
         number[i] = places[i] & 0xff;
         begin[i] = packed.begin + (packed.has_dead ? count[i] * sizeof(std::uint32_t) : 0);
     }
-    const auto is_left_out = [&](const void* array) {
-        const bool is_color = array >= &batch.color[0] && array <= &batch.color[3];
-        return array == &batch.pixel || array == &batch.x || array == &batch.y || (is_color && !needs.color) ||
-               (array == &batch.code && !needs.code) || (array == &batch.shader_z && !needs.shader_z);
+    const auto is_skipped = [&](const void* array) {
+        return array == &batch.pixel || array == &batch.x || array == &batch.y || is_left_out(batch, needs, array);
     };
     std::uint32_t before = 0;
     for_each_array(needs_, batch, [&](auto& array) {
         constexpr auto size = static_cast<std::uint32_t>(sizeof(array[0]));
-        for (std::size_t i = 0; i < places.size() && !is_left_out(&array); ++i)
+        for (std::size_t i = 0; i < places.size() && !is_skipped(&array); ++i)
             std::memcpy(&array[i], begin[i] + (count[i] * before + number[i] * size), size);
         before += size;
     });

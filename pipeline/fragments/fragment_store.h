@@ -1,11 +1,11 @@
-// pipeline/region/fragment_store.h - a region's fragments as its first draw saw them, for the draws that follow: what replay stands on.
+// pipeline/fragments/fragment_store.h - a region's fragments as its first draw saw them, for the draws that follow: what replay stands on.
 //
 // Rule     Batches are kept whole and in submission order, after texture and MASK: what later stages see of a batch does not
 //          depend on whether it was rasterized or recalled. A store that would outgrow its limit forgets everything, and its
 //          region rasterizes every pass.
 // Layout   The arrays of one batch lie one after the other, packed to its count; batches fill chunks of 256 KiB. Batches as the
 //          rasterizer made them cost no second sorting and read back in a straight line.
-// Tests    tests/pipeline/region/fragment_store_test.cpp; tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/fragments/fragment_store_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +29,8 @@ class FragmentStore {
     // Whether the store is complete and holds every array that `needs` names.
     [[nodiscard]] bool serves(const rasterizer::FragmentNeeds& needs) const noexcept;
     [[nodiscard]] std::size_t batches() const noexcept { return batches_.size(); }
+    // From now on batches are recalled without colours and depths that `needs` does not name.
+    void recall_only(const rasterizer::FragmentNeeds& needs) noexcept { recalled_ = needs; }
     void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive) const;
 
     // A fragment's place among all of the store: places rise with arrival.
@@ -60,7 +62,7 @@ class FragmentStore {
     [[nodiscard]] std::size_t packed_bytes(std::size_t count) const noexcept;
 
     State state_ = State::empty;
-    rasterizer::FragmentNeeds needs_;
+    rasterizer::FragmentNeeds needs_, recalled_;
     std::uint64_t limit_ = 0;
     std::vector<UninitializedVector<std::byte>> chunks_;  // kept from region to region: memory is asked for once
     std::size_t used_chunks_ = 0, used_bytes_ = 0;        // the latter of the last chunk in use

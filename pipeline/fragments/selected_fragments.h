@@ -1,4 +1,4 @@
-// pipeline/region/selected_fragments.h - the fragments that a selection keeps of one pass, on their way to the program, and the counts of
+// pipeline/fragments/selected_fragments.h - the fragments that a selection keeps of one pass, on their way to the program, and the counts of
 // the others.
 #pragma once
 #include <cstdint>
@@ -14,6 +14,7 @@ struct SelectedFragments {
     };
     std::vector<std::vector<One>> of_rank;      // pixels rise
     std::size_t ranks = 0, rank = 0, next = 0;  // in use; of the next batch, and its first fragment there
+    bool is_ready = false;                      // chosen for the present pass
     std::uint64_t inside = 0;                   // fragments in their pixel's window
     std::uint64_t passed = 0;                   // of these, the ones that pass the depth test, of Keeps::nearest
 

@@ -1,6 +1,6 @@
 // Models: every pixel's fragments in a list of its own, sorted by std::stable_sort; bounds counted one by one; a depth buffer
 // that is a single number, for the fragments that pass it.
-#include "pipeline/region/sorted_fragments.h"
+#include "pipeline/fragments/sorted_fragments.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""How long every peel takes beside the a_buffer of the same run: by device, format, layers and limits.
+
+    tools/bench/peels.py [--slices 64,256] [--size 512x512] [--orders near] [--models ../shared/models] [--repeat 3]
+
+Standard library alone. A row is a job; its ratio is its median over a_buffer's of the same profile, format and run. `most` is
+what the ratio is to keep to; the exit status is 1 if one does not.
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+FORMATS = {"geforce3": ["rgba8"], "geforce8": ["rgba8", "rgba16f", "rgba32f"], "geforce8_dx101": ["rgba8", "rgba16f", "rgba32f"],
+           "ideal": ["rgba8", "rgba16f", "rgba32f"]}
+PEELS = ["front_to_back", "dual", "dual_independent", "depth_units", "shadow_map_depth_replace", "layer_peel", "coherent_stencil",
+         "coherent_blend", "coherent_ideal", "stencil_routed_k_buffer", "hybrid", "batched"]
+MOST_ON_SLICES, MOST_ON_MODELS = 2.5, {"batched": 3.0, "stencil_routed_k_buffer": 3.0}
+LIMIT = 20  # of the rows with --max-passes
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--strata", default=str(ROOT / "build/release/strata"), help="the built command")
+    parser.add_argument("--slices", default="64,256", help="planes of the stack, with commas between")
+    parser.add_argument("--orders", default="near,far", help="which end of the stack is drawn first")
+    parser.add_argument("--profiles", default=",".join(FORMATS))
+    parser.add_argument("--algorithms", default=",".join(PEELS))
+    parser.add_argument("--size", default="512x512")
+    parser.add_argument("--model-size", default="1024x1024")
+    parser.add_argument("--models", default=str(ROOT / "../shared/models"), help="folder with bunny.glb and dragon.glb")
+    parser.add_argument("--threads", default="2")
+    parser.add_argument("--repeat", default="3")
+    options = parser.parse_args()
+    if not pathlib.Path(options.strata).exists():
+        sys.exit(f"peels.py: --strata: expected the built command, found nothing at {options.strata}")
+    return options
+
+
+def jobs(options, scene, size, profile, color_format, extra):
+    """Medians in milliseconds by algorithm; what the profile refuses is missing."""
+    command = [options.strata, "bench", scene, "--size", size, "--profile", profile, "--color-format", color_format,
+               "--algorithm", "a_buffer," + options.algorithms, "--threads", options.threads, "--repeat", options.repeat,
+               "--warm-up", "0", "--json", "-", *extra]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(f"peels.py: {' '.join(command)} ended with exit status {done.returncode}: {done.stderr.strip()}")
+    return {job["algorithm"]: job["seconds"]["median"] * 1e3 for job in json.loads(done.stdout)["jobs"]}
+
+
+def scenes_of(options):
+    for slices in options.slices.split(","):
+        for order in options.orders.split(","):
+            yield f"volume-beam:slices={slices},order={order}", options.size, [], MOST_ON_SLICES, {}
+    for model in ("bunny", "dragon"):
+        path = pathlib.Path(options.models) / f"{model}.glb"
+        if path.exists():
+            yield str(path), options.model_size, ["--alpha", "0.5"], 2.0, MOST_ON_MODELS
+        else:
+            print(f"peels.py: no {path}: its rows are missing", file=sys.stderr)
+
+
+def main():
+    options = parse_arguments()
+    kept = True
+    print("| scene | profile | format | passes | job | ms | a_buffer | ratio | most | kept |")
+    print("|" + "---|" * 10)
+    for scene, size, extra, most, exceptions in scenes_of(options):
+        for profile in options.profiles.split(","):
+            for color_format in FORMATS.get(profile, ["rgba8"]):
+                for limit in ([], ["--max-passes", str(LIMIT)]):
+                    times = jobs(options, scene, size, profile, color_format, extra + limit)
+                    base = times.pop("a_buffer")
+                    for algorithm, ms in times.items():
+                        bound = exceptions.get(algorithm, most)
+                        keeps = ms <= bound * base
+                        kept = kept and keeps
+                        print(f"| {pathlib.Path(scene).stem} | {profile} | {color_format} | {limit[1] if limit else 'all'} | {algorithm} | "
+                              f"{ms:.1f} | {base:.1f} | {ms / base:.2f} | {bound} | {'yes' if keeps else '**no**'} |", flush=True)
+    sys.exit(0 if kept else 1)
+
+
+if __name__ == "__main__":
+    main()
