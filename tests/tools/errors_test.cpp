@@ -12,6 +12,14 @@ struct Wrong {
     std::string sentence;  // all of it, or where it ends in "..." its beginning
 };
 
+// render, layers ... or scenes
+std::string listed_commands() {
+    std::string listed;
+    for (const std::string& verb : commands())
+        listed += (listed.empty() ? "" : verb == commands().back() ? " or " : ", ") + verb;
+    return listed;
+}
+
 bool says(const std::string& err, const std::string& sentence) {
     if (sentence.ends_with("...")) return err.starts_with(sentence.substr(0, sentence.size() - 3));
     return err == sentence + "\n";
@@ -22,9 +30,7 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (render, layers, bench, effects, invariance, reproduce, hardware-check, scene, "
-         "digest, compare, algorithms, profiles or scenes), found 'rendr' "
-         "(did you mean 'render'?)"},
+         "strata: expected a command (" + listed_commands() + "), found 'rendr' (did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},
          "strata: expected an option of strata render, found '--sise' (did you mean '--size'?)"},
         {{"render", "teapot", "--sise=8x8"},

@@ -24,21 +24,8 @@ std::vector<std::string> examples_of(const std::string& help) {
 }  // namespace
 
 TEST_CASE("every example of every --help runs as printed") {
-    const std::string verb = GENERATE(from_range(std::vector<std::string>{
-        "render",
-        "layers",
-        "bench",
-        "cost",
-        "effects",
-        "invariance",
-        "reproduce",
-        "scene",
-        "digest",
-        "compare",
-        "algorithms",
-        "profiles",
-        "scenes",
-    }));
+    const std::string verb = GENERATE(from_range(commands()));
+    if (verb == "hardware-check") return;  // its examples need captures
     const Folder folder;
     const Ended help = run_strata(folder, {verb, "--help"});
     CHECK(help.status == 0);
@@ -57,24 +44,8 @@ TEST_CASE("strata alone tells its commands, an example that runs, and where ther
     const Ended ended = run_strata(folder, {});
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
-    CHECK(lines_of(ended.out).size() < 20);
-    for (const char* verb : {
-             "render",
-             "layers",
-             "bench",
-             "cost",
-             "effects",
-             "invariance",
-             "reproduce",
-             "hardware-check",
-             "scene",
-             "digest",
-             "compare",
-             "algorithms",
-             "profiles",
-             "scenes",
-         })
-        CHECK(ended.out.find(std::string{"\n  "} + verb + " ") != std::string::npos);
+    CHECK(lines_of(ended.out).size() < 25);
+    for (const std::string& verb : commands()) CHECK(ended.out.find("\n  " + verb + " ") != std::string::npos);
     const std::size_t example = ended.out.find("strata render");
     REQUIRE(example != std::string::npos);
     CHECK(shell(folder, ended.out.substr(example, ended.out.find('\n', example) - example)).status == 0);

@@ -9,6 +9,14 @@
 
 namespace strata::test {
 
+// Every command, in the order in which the help tells them.
+[[nodiscard]] inline std::vector<std::string> commands() {
+    return {
+        "render",         "layers", "bench",  "effects", "cost",       "invariance", "reproduce",
+        "hardware-check", "scene",  "digest", "compare", "algorithms", "profiles",   "scenes",
+    };
+}
+
 // A folder of its own that goes when the test does.
 class Folder {
   public:

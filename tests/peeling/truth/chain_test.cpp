@@ -56,7 +56,7 @@ Both both(const DrawList& list, const std::string& profile, const RenderOptions&
 
 }  // namespace
 
-TEST_CASE("a chain without an exact link has the picture of sequential depth units, to the bit") {
+TEST_CASE("a chain without an exact link has the picture of sequential depth units, to the bit", "[slow]") {
     for (const char* profile : {"geforce3", "geforce8", "ideal", "llvmpipe"})
         for (std::uint64_t seed = 0; seed < 4; ++seed) {
             INFO(profile << ", seed " << seed);
@@ -66,7 +66,8 @@ TEST_CASE("a chain without an exact link has the picture of sequential depth uni
         }
 }
 
-TEST_CASE("a chain without an exact link follows every depth path and format, colour format and snapping grid") {
+TEST_CASE("a chain without an exact link follows every depth path and format, colour format and snapping grid",
+          "[slow]") {
     const DrawList list = random_chain_list(11, parts_of(11));
     RenderOptions options = chain_options();
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24})
@@ -99,7 +100,7 @@ TEST_CASE("exact blending alone, on exact depths, gives the picture of the A-buf
         }
 }
 
-TEST_CASE("links made exact one after the other end at the truth, and every link moves some picture") {
+TEST_CASE("links made exact one after the other end at the truth, and every link moves some picture", "[slow]") {
     RenderOptions options = chain_options();
     options.depth = DepthFormat::d16;
     const DeviceProfile& device = *find_profile("geforce3");

@@ -18,7 +18,7 @@ using strata::components;
 using Rational = boost::multiprecision::cpp_rational;
 using RationalVector = std::array<Rational, 4>;
 
-constexpr int frame_width = 24, frame_height = 20;
+constexpr int frame_width = 16, frame_height = 12;
 
 RationalVector clip_position(const View& view, const strata::Vec3& p) {
     RationalVector v;
@@ -98,8 +98,8 @@ std::array<Rational, 3> rational_pixel(const DrawList& list, const Rgba& backgro
 
 }  // namespace
 
-TEST_CASE("the truth is what rational arithmetic says of every pixel, to 2^-40") {
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+TEST_CASE("the truth is what rational arithmetic says of every pixel, to 2^-40", "[slow]") {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const DrawList list = random_chain_list(seed, {.transparent = 10, .opaque = 4});
         RenderOptions options;
         options.width = frame_width;
@@ -121,7 +121,7 @@ TEST_CASE("the truth is what rational arithmetic says of every pixel, to 2^-40")
             }
         INFO("seed " << seed);
         CHECK(wrong == 0);
-        CHECK(covered > 200);
+        CHECK(covered > 80);
     }
 }
 

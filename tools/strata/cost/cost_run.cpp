@@ -90,19 +90,18 @@ CostTimes time_cell(const CostScene& scene, const CostCell& cell, int rounds) {
     const CostCell reference = default_cell(scene.base);
     const auto reference_seconds = [&] { return seconds_of(scene.session, reference, reference.options.execution); };
     constexpr double long_run = 2;
-    // A first round warms up, and says whether literal execution is worth another.
+    // Runs before the first round warm up, and say whether literal execution is worth a run in each.
     static_cast<void>(reference_seconds());
     static_cast<void>(seconds_of(scene.session, cell, cell.options.execution));
-    double first_reference = reference_seconds();
     const double first_literal = seconds_of(scene.session, cell, pipeline::Execution::literal);
-    if (first_literal > long_run) times.literal.push_back(first_literal / first_reference);
     for (int round = 0; round < rounds; ++round) {
         const double with = reference_seconds();
         const double taken = seconds_of(scene.session, cell, cell.options.execution);
+        const bool is_long = first_literal > long_run;
+        const double literal = is_long ? first_literal : seconds_of(scene.session, cell, pipeline::Execution::literal);
         times.seconds.push_back(taken);
         times.ratios.push_back(taken / with);
-        if (first_literal > long_run) continue;
-        times.literal.push_back(seconds_of(scene.session, cell, pipeline::Execution::literal) / with);
+        times.literal.push_back(literal / with);
     }
     return times;
 }

@@ -2,7 +2,7 @@
 //
 // Rule     Errors and counts depend on the cell alone. Times are wall clock from the scene in memory to finished pixels
 //          without audit, each round one of the default cell, one of this cell and one of it in literal execution, in
-//          turn; literal execution once if that takes over 2 s. A time is kept as its ratio to the default's of the same
+//          turn; literal execution once, related to every round's default, if that takes over 2 s. A time is kept as its ratio to the default's of the same
 //          round.
 // Tests    tests/tools/cost_test.cpp
 #pragma once

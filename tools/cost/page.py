@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Makes the page of `strata cost` from the folders that it wrote, with the pictures of the frontiers beside it.
+
+usage: page.py FOLDER... -o RESULTS.md
+
+Figures are those of cost.csv and results.csv; the page computes nothing.
+"""
+import argparse
+import csv
+import glob
+import os
+import re
+import shutil
+
+HEAD = """# What accuracy costs
+
+Made by `tools/cost/make_page.sh`; [reports.md](../../scenes/reference/reports.md) 10 says what is measured and how. Errors are those from
+the truth of the scene (nothing snapped, nothing stored), in 1/255. Times are ratios to the cheapest cell of their column; the spread is
+that of the rounds, so on a machine that does other things it is wide.
+"""
+
+
+def rows_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def table(titles, rows):
+    yield "| " + " | ".join(titles) + " |"
+    yield "|" + "---|" * len(titles)
+    for row in rows:
+        yield "| " + " | ".join(row) + " |"
+    yield ""
+
+
+def rounded(text):
+    return f"{float(text):.4g}" if text else ""
+
+
+def spread(row, column):
+    if not row[column]:
+        return ""
+    return f"{rounded(row[column])} ({rounded(row[column + '_least'])} to {rounded(row[column + '_greatest'])})"
+
+
+def chain(rows):
+    links = {row["value"]: row["rmse"] for row in rows if row["knob"] == "chain"}
+    alone = {row["value"]: row["rmse"] for row in rows if row["knob"] == "alone"}
+    return table(["link", "RMSE with the chain exact up to it", "RMSE with it alone exact"],
+                 [[name, rounded(error), rounded(alone.get(name, links["machine"]))] for name, error in links.items()])
+
+
+def frontier(folder, picture, rows):
+    """The names on the picture's frontier, with their rows' figures."""
+    with open(os.path.join(folder, picture), encoding="utf-8") as file:
+        names = re.findall(r'text-anchor="start">\d+ ([^<]+)</text>', file.read())
+    of_name = {f"{row['knob']} {row['value']}": row for row in rows}
+    return table(["on the frontier", "RMSE", "default", "literal", "card"],
+                 [[name, rounded(row["rmse"]), spread(row, "default"), spread(row, "literal"), rounded(row["modelled"])]
+                  for name, row in ((name, of_name[name]) for name in names)])
+
+
+def section(folder, page):
+    rows = rows_of(os.path.join(folder, "cost.csv"))
+    scene = rows[0]["scene"]
+    yield f"## {scene}"
+    yield ""
+    yield f"{len(rows)} cells, {sum(row['outcome'] == 'refused' for row in rows)} refused."
+    yield ""
+    yield from chain(rows)
+    for picture in sorted(os.path.basename(name) for name in glob.glob(os.path.join(folder, "frontier.*.svg"))):
+        beside = f"RESULTS.{picture}"
+        shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))
+        yield f"![{picture}]({beside})"
+        yield ""
+        yield from frontier(folder, picture, rows)
+    yield "Every row as a sentence:"
+    yield ""
+    with open(os.path.join(folder, "sentences.txt"), encoding="utf-8") as file:
+        yield from ("- " + line.rstrip("\n") for line in file)
+    yield ""
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+")
+    parser.add_argument("-o", dest="page", required=True)
+    words = parser.parse_args()
+    text = HEAD + "\n" + "\n".join(line for folder in words.folders for line in section(folder, words.page))
+    with open(words.page, "w", encoding="utf-8") as file:
+        file.write(text.rstrip("\n") + "\n")
+
+
+if __name__ == "__main__":
+    main()
