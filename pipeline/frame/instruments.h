@@ -21,11 +21,14 @@ enum class Effect : std::uint8_t {
     blending
 };
 
+struct Observer;  // pipeline/frame/observer.h
+
 struct Instruments {
     Effect once_more =
         Effect::none;         // simulated once more than the state asks for, and never replayed: its cost can be timed
     bool log_passes = false;  // fill FrameResult::pass_log
     bool trust_idle = true;   // false: as if every algorithm promised Idle::no; finds promises that are not kept
+    const Observer* observer = nullptr;  // sees every step; the run is then literal
 };
 
 }  // namespace strata::pipeline
