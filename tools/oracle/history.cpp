@@ -218,7 +218,8 @@ class Recorder {
                 break;
             case Stage::alpha_test: kill(open, is_alive, Fate::alpha_killed); break;
             case Stage::depth_units:
-                if (!is_alive && !open.is_dead) open.sample_fate = Fate::depth_unit_killed;
+                if (!is_alive && !open.is_dead && e.state.depth_unit_count > 0)
+                    open.sample_fate = Fate::depth_unit_killed;
                 break;
             case Stage::tests:
                 if (is_alive) open.has_passed = true;

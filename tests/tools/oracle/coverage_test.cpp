@@ -57,6 +57,10 @@ TEST_CASE("edges that count on all sides, or on none, are a fill rule") {
         compare_coverage({rectangle(Owns::left_and_top), rectangle(Owns::none)}, shape_width, shape_height);
     CHECK(none.mistake == CoverageMistake::edge_rule);
     CHECK(none.gained == 0);
+    const CoverageReport grown =
+        compare_coverage({rectangle(Owns::none), rectangle(Owns::all)}, shape_width, shape_height);
+    CHECK(grown.mistake == CoverageMistake::edge_rule);
+    CHECK(grown.lost == 0);
 }
 
 TEST_CASE("ties that go to the other edge gain on one side what they lose on the other") {

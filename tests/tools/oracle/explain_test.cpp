@@ -222,10 +222,17 @@ TEST_CASE("the lines of explain, done again, give the picture's bits at every pi
             const auto histories = explain(column.input(profile), algorithm, {0, 0, 20, 14});
             REQUIRE(histories.size() == 20 * 14);
             int wrong = 0, unequal = 0;
+            std::map<Fate, std::uint64_t> fates;
             std::string first;
             for (std::size_t p = 0; p < histories.size(); ++p) {
                 const Replayed done = replay(json::parse(to_json(histories[p])));
                 lines += done.lines;
+                for (const Line& line : histories[p].lines) {
+                    const bool is_quad = line.kind == LineKind::quad;
+                    if (line.kind != LineKind::fragment && !is_quad) continue;
+                    // Of quads, what a program discards is not counted.
+                    if (!is_quad || line.fate != Fate::discarded) ++fates[line.fate];
+                }
                 ++pixels;
                 unequal += done.wrong_before + done.wrong_after + done.wrong_fate;
                 const bool is_right = std::equal(done.picture.begin(), done.picture.end(),
@@ -236,6 +243,10 @@ TEST_CASE("the lines of explain, done again, give the picture's bits at every pi
             INFO(scene << " by " << name << ", first at " << first);
             CHECK(wrong == 0);
             CHECK(unequal == 0);
+            CHECK(fates[Fate::discarded] == usual.frame.counters.discarded);
+            CHECK(fates[Fate::depth_killed] == usual.frame.counters.depth_killed);
+            CHECK(fates[Fate::stencil_killed] == usual.frame.counters.stencil_killed);
+            CHECK(fates[Fate::alpha_killed] + fates[Fate::masked] == usual.frame.counters.alpha_killed);
         }
     CHECK(pixels == 18 * 280);
     CHECK(lines > 30 * pixels);
