@@ -208,7 +208,7 @@ Replayed replay(const json& history) {
 
 }  // namespace
 
-TEST_CASE("the lines of explain, done again, give the picture's bits at every pixel of three scenes") {
+TEST_CASE("the lines of explain, done again, give the picture's bits at every pixel of three scenes", "[slow]") {
     int pixels = 0, lines = 0;
     for (const std::string scene : {"random", "teapot", "volume-beam:slices=6"})
         for (const std::string name :
