@@ -133,7 +133,9 @@ struct Renderer::State {
     std::optional<int> deepest{};                   // fragments of the deepest pixel, once somebody asked
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
-        return algorithm.whole_frame ? Execution::literal : options.execution;
+        // A tile that stops early does not know how many layers the others take from its two ends.
+        const bool keeps_both_ends = options.keep_layers && algorithm.takes_both_ends;
+        return algorithm.whole_frame || keeps_both_ends ? Execution::literal : options.execution;
     }
 
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
@@ -230,7 +232,7 @@ struct Renderer::State {
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
             return Refusal{"layers in " + algorithm.name + ", which composites on the fly", "",
-                           "use depth_units or front_to_back"};
+                           "use dual or front_to_back"};
         if (algorithm.compares_own_codes && !is_invariant())
             return Refusal{"choice of the depth that " + algorithm.name + " compares", "",
                            "use depth_units, front_to_back, dual or dual_independent"};

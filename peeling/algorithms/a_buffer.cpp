@@ -48,6 +48,7 @@ void count_pass(Region& region) {
 
 void a_buffer(Region& region) {
     const Target result = region.make_color();
+    region.call(result, "result");
     region.begin_iteration();
     region.copy(region.opaque_color(), result);
     const std::vector<std::uint32_t> coverage = coverage_of(region);

@@ -33,6 +33,7 @@ struct Algorithm {
     pipeline::DepthKey key = pipeline::DepthKey::stored_code;
     bool exact = false;  // order_errors must be 0
     bool makes_layers = false;
+    bool takes_both_ends = false;       // its layers come from the near end and from the far one
     bool premultiplied_layers = false;  // their colours are times alpha
     ListOrder order = ListOrder::given;
     bool kills_alpha_zero = false;    // an alpha test keeps fragments that store alpha 0 from being layers

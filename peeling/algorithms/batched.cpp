@@ -98,6 +98,10 @@ Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool
 
 void batched(Region& region) {
     LayerTargets t{region.make_color(), region.make_depth(), region.make_depth(), region.make_color()};
+    region.call(t.layer, "layer");
+    region.call(t.peeled, "nearest");
+    region.call(t.nearest, "nearest");
+    region.call(t.accumulated, "accumulated");
     region.clear(t.accumulated, {.color = {0, 0, 0, 1}});
     for (const Interval& interval : intervals_of(region.frame()))
         for (bool first = true; !region.limit_reached(); first = false) {

@@ -19,6 +19,13 @@ struct CoherentPeel {
           full_counts{r},
           composited{r},
           ties{r} {
+        region.call(accumulated, "accumulated");
+        region.call(stencil, "stencil");
+        region.call(nearest, "nearest");
+        region.call(previous, "previous");
+        region.call(breaker, "breaker");
+        region.call(reached, "reached");
+        region.call(last_in_order, "last_in_order");
         region.clear(accumulated, {.color = {0, 0, 0, 1}});
         region.clear(reached, {.depth = 0.0f});  // as published: zNear, which strict comparisons lose (E23)
         from_the_start = !published;

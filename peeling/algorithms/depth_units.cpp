@@ -47,6 +47,8 @@ void depth_units(Region& region) {
         region.begin_iteration();
         const Target layer = region.make_color();
         const Target nearest = region.make_depth();
+        region.call(layer, "layer");
+        region.call(nearest, "nearest");
         region.clear(layer, {.color = {0, 0, 0, 0}});
         region.copy(region.opaque_depth(), nearest);
         const Drawn drawn = peel(region, peeled, nearest, layer, layers.color.empty());
@@ -57,6 +59,7 @@ void depth_units(Region& region) {
         region.keep_layer(layer, nearest);
     }
     const Target result = region.make_color();
+    region.call(result, "result");
     region.copy(region.opaque_color(), result);
     composite_quads(region, layers, result);
     region.publish(result);

@@ -86,6 +86,13 @@ void dual(Region& region) {
     const auto rg = Format::rg32f;
     DualTargets t{region.make(rg),     region.make(rg),     region.make_color(),
                   region.make_color(), region.make_color(), region.make_color()};
+    region.call(t.min_max, "min_max");
+    region.call(t.next_min_max, "min_max");
+    region.call(t.front, "front");
+    region.call(t.next_front, "front");
+    region.call(t.back_dump, "back_layer");
+    region.call(t.back, "back");
+    DualLayers layers{region};
     region.clear(t.front, {.color = {0, 0, 0, 0}});
     region.copy(region.opaque_color(), t.back);
     initialize(region, t.min_max);
@@ -95,6 +102,7 @@ void dual(Region& region) {
         static_cast<void>(peel(region, t));
         const Drawn blended = blend_back(region, t);
         trace_peel(region, t);
+        layers.keep(t.min_max);
         std::swap(t.min_max, t.next_min_max);
         std::swap(t.front, t.next_front);
         // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.

@@ -54,12 +54,18 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
 void dual_independent(Region& region) {
     Target min_max = region.make(Format::rg32f), next_min_max = region.make(Format::rg32f);
     const Target front = region.make_color(), back = region.make_color();
+    region.call(min_max, "min_max");
+    region.call(next_min_max, "min_max");
+    region.call(front, "front");
+    region.call(back, "back");
+    DualLayers layers{region};
     region.clear(front, {.color = {0, 0, 0, 1}});
     region.copy(region.opaque_color(), back);
     initialize(region, min_max);
     while (!region.limit_reached()) {
         region.begin_iteration();
         const Drawn drawn = peel(region, min_max, next_min_max, front, back);
+        layers.keep(min_max);
         std::swap(min_max, next_min_max);
         if (!region.any(drawn.passed, Idle::steady)) break;
     }

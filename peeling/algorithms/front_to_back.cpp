@@ -62,6 +62,10 @@ void front_to_back(Region& region) {
     const Target layer = region.make_color();
     Target peeled = region.make_depth();
     Target nearest = region.make_depth();
+    region.call(accumulated, "accumulated");
+    region.call(layer, "layer");
+    region.call(peeled, "nearest");
+    region.call(nearest, "nearest");
     region.clear(accumulated, {.color = {0, 0, 0, 1}});
     for (bool first = true; !region.limit_reached(); first = false) {
         region.begin_iteration();

@@ -57,6 +57,8 @@ Drawn peel(Region& region, const Buffers& to) {
 
 void shadow_map(Region& region) {
     Buffers buffers{region.make_color(), region.make_depth(), {}};
+    region.call(buffers.color, "color");
+    region.call(buffers.depth, "depth");
     SavedLayers layers;
     while (!region.limit_reached()) {
         region.begin_iteration();
@@ -65,11 +67,14 @@ void shadow_map(Region& region) {
         const Drawn drawn = peel(region, buffers);
         buffers.map = copied(region, buffers.depth, region.make_depth());
         layers.depth.push_back(buffers.map);
+        region.call(buffers.map, "map");
         layers.color.push_back(copied(region, buffers.color, region.make_color()));
+        region.call(layers.color.back(), "layer");
         if (!region.any(drawn.passed, idle_when_zero(region.frame()))) break;
         region.keep_layer(layers.color.back(), layers.depth.back());
     }
     const Target result = region.make_color();
+    region.call(result, "result");
     region.copy(region.opaque_color(), result);
     composite_quads(region, layers, result);
     region.publish(result);

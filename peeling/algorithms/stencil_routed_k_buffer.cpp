@@ -29,6 +29,8 @@ struct Capture {
 Capture capture(Region& region, Target stencil, int pass) {
     const Capture into{region.make(region.frame().color_format, k),
                        region.make(target_format(region.frame().key_request().format), k)};
+    region.call(into.color, "samples_color");
+    region.call(into.depth, "samples_depth");
     region.clear(into.depth, {.depth = 1.0f});  // a sample that stays empty: nothing visible lies there
     for (int s = 0; s < k; ++s)
         region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + k * pass)},
@@ -89,6 +91,7 @@ Rgba composite(std::vector<Sample>& samples, const Rgba& background) {
 Target resolve(Region& region, const std::vector<Capture>& captures) {
     RegionShortcuts shortcuts{region};
     const Target result = region.make_color();
+    region.call(result, "result");
     const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
     std::vector<Sample> samples;
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel) {
@@ -126,6 +129,7 @@ void report_overflow(Region& region, Target stencil) {
 
 void stencil_routed_k_buffer(Region& region) {
     const Target stencil = region.make(Format::s8, k);
+    region.call(stencil, "stencil");
     std::vector<Capture> captures;
     while (static_cast<int>(captures.size()) < most_passes && !region.limit_reached()) {
         region.begin_iteration();

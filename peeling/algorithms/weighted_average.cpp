@@ -63,6 +63,9 @@ void weighted_average(Region& region) {
     const Target sums = region.make(wide ? Format::rgba32f : Format::rgba16f);
     const Format count_format = wide ? Format::r32f : region.frame().average_count;
     const Target count = region.make(count_format), result = region.make_color();
+    region.call(sums, "sums");
+    region.call(count, "count");
+    region.call(result, "result");
     accumulate(region, sums, count);
     PassState state;
     state.color[0] = result;

@@ -15,6 +15,8 @@ using namespace pipeline;
 void weighted_sum(Region& region) {
     const Target sums = region.make(region.frame().color_format == Format::rgba32f ? Format::rgba32f : Format::rgba16f);
     const Target result = region.make_color();
+    region.call(sums, "sums");
+    region.call(result, "result");
     region.clear(sums, {});
     PassState add;
     add.depth = {.enabled = true, .func = CompareFunc::less, .write = false};

@@ -113,4 +113,53 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
     }));
 }
 
+// The layers that a dual peel composites on the fly, as images of their own, where the frame keeps layers. After a peel its fragments are
+// drawn again, those at the near and those at the far end by themselves, with the straight colours that came in. Fragments tied at a
+// depth are one layer, MAX of each channel. That is no pass of the machine, and not counted (algorithms.md 5.5).
+class DualLayers {
+  public:
+    explicit DualLayers(pipeline::Region& region) : region_{region} {
+        if (region.frame().keep_layers) layer_ = {region.make_color(), region.make_depth()};
+    }
+
+    // Keeps both layers of the pass that reads this min-max depth.
+    void keep(pipeline::Target min_max) {
+        if (!region_.frame().keep_layers) return;
+        region_.uncounted([&] {
+            keep(min_max, pipeline::Side::front);
+            keep(min_max, pipeline::Side::back);
+        });
+    }
+
+  private:
+    void keep(pipeline::Target min_max, pipeline::Side side) {
+        using namespace pipeline;
+        region_.clear(layer_.color, {.color = {0, 0, 0, 0}});
+        region_.copy(region_.opaque_depth(), layer_.depth);
+        PassState state;
+        state.color[0] = layer_.color;
+        state.blend[0] = blend_mode::max;
+        state.depth = {.enabled = true, .func = CompareFunc::lequal, .write = true};
+        state.depth_target = layer_.depth;
+        state.reads = {min_max, region_.opaque_depth()};
+        const DepthCompare compare = region_.frame().depth_compare();
+        state.needs.reference = !compare.is_plain();
+        static_cast<void>(
+            region_.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                PeelLanes lane;
+                classify(compare, in, own.color(0), own.depth(1), lane);
+                const Lanes<std::uint32_t>& taken = side == Side::front ? lane.is_near : lane.is_far;
+                for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= taken[i];
+                out.color[0] = in.color;
+            }));
+        region_.keep_layer(layer_.color, layer_.depth, side);
+    }
+
+    struct Targets {
+        pipeline::Target color, depth;
+    };
+    pipeline::Region& region_;
+    Targets layer_{};
+};
+
 }  // namespace strata::peeling

@@ -19,6 +19,7 @@ inline void publish_over(pipeline::Region& region, pipeline::Target front, Front
                          pipeline::Target behind) {
     using namespace pipeline;
     const Target result = region.make_color();
+    region.call(result, "result");
     PassState state;
     state.color[0] = result;
     state.reads = {front, behind};

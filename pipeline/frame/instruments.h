@@ -21,6 +21,8 @@ enum class Effect : std::uint8_t {
     blending
 };
 
+struct Observer;  // pipeline/frame/observer.h
+
 struct Instruments {
     Effect once_more =
         Effect::none;         // simulated once more than the state asks for, and never replayed: its cost can be timed
@@ -28,6 +30,7 @@ struct Instruments {
     bool check_selections =
         false;               // visit every fragment, too, and throw std::logic_error where a selection promised wrongly
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; finds promises that are not kept
+    const Observer* observer = nullptr;  // sees every step; the run is then literal
 };
 
 }  // namespace strata::pipeline

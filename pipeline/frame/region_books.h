@@ -27,7 +27,8 @@ struct Decision {
 };
 
 struct KeptLayer {
-    Image color, depth;  // of the region's rectangle
+    Image color, depth;       // of the region's rectangle
+    Side side = Side::front;  // from which end the peel took it
 };
 
 struct RegionBooks {

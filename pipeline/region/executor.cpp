@@ -270,6 +270,7 @@ class FrameRun {
                 if (kept.color.codes.empty()) {
                     kept.color = Image{part.color.format, whole.width(), whole.height()};
                     kept.depth = Image{part.depth.format, whole.width(), whole.height()};
+                    kept.side = part.side;
                 }
                 copy_into(part.color, rect(r), kept.color);
                 copy_into(part.depth, rect(r), kept.depth);
@@ -310,6 +311,10 @@ FrameResult run(const Frame& frame, const Body& body, Execution execution, int t
     Frame rasterized = frame;  // in every pass
     rasterized.replay = {};
     const Frame& given = instruments.once_more == Effect::none ? frame : rasterized;
+    if (instruments.observer != nullptr) {
+        rasterized.trace = rasterized.trace || instruments.observer->traced;
+        return run_as(rasterized, Execution::literal);
+    }
     if (execution == Execution::literal) return run_as(given, execution);
     if (!frame.needs_frame) try {
             return run_as(given, execution);

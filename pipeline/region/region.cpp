@@ -96,6 +96,7 @@ void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_m
     }
     if (has_stencil(format)) storage.fill_stencil(value.stencil, sample_mask);
     record().counters += of_clear(1, bytes(storage));
+    show({.step = Step::clear, .to = target, .clear = &value, .sample_mask = sample_mask});
 }
 
 // A bit copy of codes (formats.md 5.6): it rounds nothing, and -0 and NaN stay what they are.
@@ -105,6 +106,7 @@ void Region::copy(Target from, Target to) {
     at(to) = at(from);
     record().counters += of_copy(1, bytes(at(from)));
     ++record().passes.copies;
+    show({.step = Step::copy, .to = to, .from = from});
 }
 
 // The part that lies in this region is written, and its source must lie here, too: a tile knows no neighbour. Else the
@@ -123,6 +125,7 @@ void Region::copy_rectangle(Target from, const rasterizer::Rect& from_rect, Targ
     for (int y = written.y0; y < written.y1; ++y) copy_row(source, written, y, dx, dy, texture);
     record().counters += of_copy(static_cast<std::uint64_t>(info(source.format()).bytes_per_pixel), written.area());
     ++record().passes.copies;
+    show({.step = Step::copy, .to = to, .from = from});
 }
 
 // Row y of `written`; overlapping copies within one target are not asked for.

@@ -18,6 +18,7 @@
 #include "pipeline/frame/captured_fragment.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/instruments.h"
+#include "pipeline/frame/observer.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/region_books.h"
 #include "pipeline/frame/trace.h"
@@ -71,6 +72,12 @@ class Region {
     [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
 
+    // What people call a target, for observers.
+    void call(Target target, std::string_view name) const {
+        if (const Observer* o = instruments_.observer; o != nullptr && o->named) o->named(target, name);
+    }
+    [[nodiscard]] int target_count() const noexcept { return static_cast<int>(storages_.size()); }
+
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
@@ -104,6 +111,13 @@ class Region {
     Drawn draw_sums(const PassState& state, P&& program) {
         return sums_suit_rows(state) ? draw_sum_rows(state) : draw(state, program);
     }
+    // Runs `work`, whose passes, clears and copies are the emulator's own: nothing counts them.
+    template <class Work>
+    void uncounted(Work&& work) {
+        books_.counts = false;
+        work();
+        books_.counts = true;
+    }
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
     Drawn full_screen(const PassState& state, P&& program);
@@ -112,7 +126,10 @@ class Region {
     template <FragmentProgram P>
     void trace_pixels(Target read, P&& program);
     // Adds one step to the trace that no pass shows.
-    void trace(const TraceEntry& entry) { traced().push_back(entry); }
+    void trace(const TraceEntry& entry) {
+        traced().push_back(entry);
+        show(entry);
+    }
 
     // The frame's answer to "is the count above the limit that --termination sets?".
     // A promise belongs to the query that ends the loop, the last act of its iteration: a region that keeps it may stop there.
@@ -124,13 +141,16 @@ class Region {
     void count_with(int iteration) { books_.counted_record = static_cast<std::size_t>(iteration); }
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1);
-    void keep_layer(Target color, Target depth);
+    void keep_layer(Target color, Target depth, Side side = Side::front);
     // `pixels` of this region, the first of them at region index `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail);
     void report(Fault fault, std::string detail);  // no pixel is meant
 
     // Hands over the final colour, which is an algorithm's result.
-    void publish(Target color) { books_.published = color; }
+    void publish(Target color) {
+        books_.published = color;
+        show({.step = Step::publish, .to = color});
+    }
 
     // Every fragment of the transparent list in submission order, after MASK, before any test.
     [[nodiscard]] std::vector<CapturedFragment> capture(Bookkeeping bookkeeping);
@@ -229,6 +249,23 @@ class Region {
         return instruments_.once_more == effect || (frame_.effects == Effects::all && !is_called_for);
     }
 
+    // To the observer, if there is one.
+    void show(StepEvent event) const {
+        if (instruments_.observer == nullptr || !instruments_.observer->step) return;
+        event.is_counted = books_.counts;
+        event.iteration = books_.iterations;
+        instruments_.observer->step(*this, event);
+    }
+    void show(const TraceEntry& entry) const {
+        if (const Observer* o = instruments_.observer; o != nullptr && o->traced) o->traced(*this, entry);
+    }
+    void show(Stage stage, const PassState& state, const FragmentBatch& batch, const Outputs& out,
+              const Lanes<std::uint32_t>& alive, int sample = 0) const {
+        if (instruments_.observer == nullptr || !instruments_.observer->stage) return;
+        instruments_.observer->stage(
+            *this, {stage, state, batch, out, alive, sample, kind_ == PassKind::geometry, books_.counts});
+    }
+
     [[nodiscard]] bool is_one_sample(Target t) const { return t.exists() && storage(t).samples() == 1; }
     [[nodiscard]] TargetStorage& at(Target t) { return storages_[static_cast<std::size_t>(t.id)]; }
     [[nodiscard]] const Loads& loads() const noexcept;
@@ -282,11 +319,14 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
     auto sink = [&](FragmentBatch& batch) {
         Outputs& out = start_batch(batch);
         shade_or_recall(list, batch, out);
+        show(Stage::shaded, state, batch, out, out.alive);
         load(state, batch);
         run_program(program, batch, out);
+        show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     };
     for_each_batch(list, state, rasterizer::BatchSink{sink});
+    show({.step = Step::geometry, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
     return drawn;
 }
 
@@ -325,8 +365,10 @@ Drawn Region::full_screen(const PassState& state, P&& program) {
         Outputs& out = start_batch(batch);
         load(state, batch);
         run_program(program, batch, out);
+        show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     }
+    show({.step = Step::full_screen, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
     return drawn;
 }
 

@@ -31,6 +31,7 @@ bool Region::any(Count count, Idle idle) {
         answer = idle == Idle::when_zero && !std::exchange(probing_, true);
     }
     books_.decisions.push_back({count.own_, idle, answer});
+    show({.step = Step::query, .passed = count.own_, .answer = answer});
     if (!answer) books_.end_iterations();
     return answer;
 }
@@ -46,9 +47,9 @@ bool Region::limit_reached(int passes) {
 }
 
 // A layer of the probe is empty: the executor leaves such layers out when it looks for the frame's last one.
-void Region::keep_layer(Target color, Target depth) {
+void Region::keep_layer(Target color, Target depth, Side side) {
     if (!frame_.keep_layers) return;
-    books_.layers.push_back({image(color), image(depth)});
+    books_.layers.push_back({image(color), image(depth), side});
     if (probing_) ++books_.idle_layers;
 }
 

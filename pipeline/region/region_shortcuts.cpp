@@ -105,6 +105,7 @@ void RegionShortcuts::book(const Counters& counters, const PassCount& passes) {
     region_.record().counters += counters;
     region_.record().passes += passes;
     region_.books_.geometry_passes += passes.geometry;
+    if (passes.full_screen > 0) region_.show(StepEvent{.step = Step::full_screen});
 }
 
 void RegionShortcuts::store_pixels(Target target, std::uint32_t first, int pixels, const ColorCodes& codes) {

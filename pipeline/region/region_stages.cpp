@@ -183,6 +183,7 @@ void Region::finish(const PassState& state, const FragmentBatch& batch, Outputs&
         record().counters.alpha_killed += before - alive_count(out, batch.count);
     }
     if (idles(Effect::alpha_test, state.alpha.enabled)) idle_alpha_test(state, batch, out);
+    show(Stage::alpha_test, state, batch, out, out.alive);
     for (int sample = 0; sample < pass_samples_; ++sample)
         if (state.sample_mask >> sample & 1u) finish_sample(state, batch, out, sample, drawn);
     drawn.tallied = Count{tallied_};
@@ -195,14 +196,17 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
     Lanes<std::uint32_t>& alive = scratch_->alive;
     std::copy_n(out.alive.begin(), batch.count, alive.begin());
     if (state.depth_unit_count > 0) test_depth_units(state, batch, alive);
+    show(Stage::depth_units, state, batch, out, alive, sample);
     idle_tests(state, batch, alive);
     const bool is_tested = state.depth.enabled || state.stencil.enabled;
     const std::uint64_t passed =
         is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
     drawn.passed.own_ += passed;
+    show(Stage::tests, state, batch, out, alive, sample);
     if (passed == 0) return;
     if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
     write_colors(state, batch, out, sample, alive, passed);
+    show(Stage::written, state, batch, out, alive, sample);
     if (out.traced && frame_.trace && books_.counts && sample == 0) record_trace(batch, out, alive);
 }
 
@@ -210,8 +214,8 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
 void Region::record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         if (alive[i] != 0 && out.side[i] != Side::none)
-            scratch_->trace.push_back({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0,
-                                       out.side[i], kind_ == PassKind::geometry});
+            trace({batch.pixel[i], out.key[i], kind_ == PassKind::geometry ? batch.primitive[i] : 0, out.side[i],
+                   kind_ == PassKind::geometry});
 }
 
 // The units test one after the other, without a write; a fragment stops at the first that fails (fragment-stages.md 4).

@@ -204,7 +204,7 @@ void write_layers(const std::string& path, std::span<const OutputColor> layers) 
     for (const OutputColor& layer : layers) {
         parts.push_back(source_of(layer));
         // Three digits sort up to a thousand layers; beyond that the number grows.
-        parts.back().header.name = fmt::format("layer.{:03}", parts.size() - 1);
+        parts.back().header.name = layer.part.empty() ? fmt::format("layer.{:03}", parts.size() - 1) : layer.part;
     }
     write_exr_parts(path, parts);
 }

@@ -26,6 +26,7 @@ struct OutputColor {
     bool premultiplied = false;  // whether `color` holds colours times alpha
     pipeline::ColorSpace space = pipeline::ColorSpace::encoded;
     Attributes attributes{};  // formats, digests and colour space are added by the writer
+    std::string part{};       // its name among layers; "": layer.NNN by its number
 };
 
 // The kind of file that the ending of its name asks for.
@@ -37,7 +38,7 @@ enum class ImageFile : std::uint8_t { png, exr };
 // One target, with its depths in an .exr; a .png leaves depths out.
 void write_image(const std::string& path, const OutputColor& image);
 
-// Part `layer.000`, `layer.001` ... of one EXR file; all of one size, and at least one.
+// Part `layer.000`, `layer.001` ... of one EXR file, or as each says; all of one size, and at least one.
 void write_layers(const std::string& path, std::span<const OutputColor> layers);
 
 // Every fragment of every pixel, pixel by pixel in rows from the top; within a pixel in the order given.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 
 #include "scenes/numbers/srgb_encode.h"
@@ -161,11 +162,20 @@ bool agrees(const Mistake& mistake, const Pair& pair, std::size_t pixel) {
     return true;
 }
 
-void count(const Mistake& mistake, const Pair& pair, Explanation& sum) {
+// Such a pixel tells nothing of how a value was changed.
+bool is_nearly_equal(const Pair& pair, std::size_t pixel) {
+    for (int c = 0; c < pair.channels(); ++c)
+        if (!is_near(pair.candidate->at(pixel, c), pair.reference->value_at(pixel, c))) return false;
+    return true;
+}
+
+// `evidence`: explained pixels that are no mere rounding.
+void count(const Mistake& mistake, const Pair& pair, Explanation& sum, std::uint64_t& evidence) {
     for (std::size_t pixel = 0; pixel < pair.reference->pixels(); ++pixel) {
         const bool agreed = agrees(mistake, pair, pixel), equal = pair.is_equal_at(pixel);
         sum.of += equal ? 0 : 1;
         sum.explained += !equal && agreed ? 1 : 0;
+        evidence += !equal && agreed && (mistake.moved || !is_nearly_equal(pair, pixel)) ? 1 : 0;
         sum.contradicted += equal && !agreed ? 1 : 0;
     }
 }
@@ -176,14 +186,16 @@ std::vector<Explanation> explanations(std::span<const Pair> pairs) {
     std::vector<Mistake> mistakes = of_places();
     for (Mistake& mistake : of_values()) mistakes.push_back(std::move(mistake));
     std::vector<Explanation> found;
+    std::map<std::string, std::uint64_t> evidence;
     for (const Mistake& mistake : mistakes) {
         // A mistake of places shows in colours and depths alike: one entry sums both.
         if (found.empty() || found.back().mistake != mistake.name) found.push_back({mistake.name, mistake.sentence});
         for (const Pair& pair : pairs)
-            if (pair.reference->meaning == mistake.meaning) count(mistake, pair, found.back());
+            if (pair.reference->meaning == mistake.meaning) count(mistake, pair, found.back(), evidence[mistake.name]);
     }
-    std::erase_if(found, [](const Explanation& e) {
-        return e.explained == 0 || 2 * e.explained < e.of || e.explained <= e.contradicted;
+    std::erase_if(found, [&](const Explanation& e) {
+        return 2 * evidence[e.mistake] < e.explained || e.explained == 0 || 2 * e.explained < e.of ||
+               e.explained <= e.contradicted;
     });
     std::ranges::stable_sort(found, [](const Explanation& a, const Explanation& b) {
         const auto gain = [](const Explanation& e) {

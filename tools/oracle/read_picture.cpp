@@ -76,6 +76,16 @@ Target of_channels(const StoredPart& part, const std::vector<std::string>& names
     return target;
 }
 
+// A part of a depth target alone: its codes are those of the format that the part names.
+Target own_depth(const StoredPart& part, const std::string& format) {
+    Target target = of_channels(part, {"Zbits"}, Meaning::depth);
+    target.name = "depth";
+    for (const pipeline::Format known :
+         {pipeline::Format::d16, pipeline::Format::d24, pipeline::Format::d24s8, pipeline::Format::d32f})
+        if (pipeline::info(known).name == format) target.code = code_of(known);
+    return target;
+}
+
 // Another program's part: its colours, its depth, and every other channel by itself.
 void add_foreign(const StoredPart& part, const std::string& path, int number, std::vector<Target>& targets) {
     std::vector<std::string> colors, others;
@@ -105,7 +115,10 @@ Picture read_exr(const std::string& path) {
         };
         if (part.header.is_deep) fail("a flat image", "a deep one");
         if (!part.is_whole) fail("a whole image", "a damaged one");
-        if (scenes::attribute(part.header, "format.color").empty())
+        if (const std::string format = scenes::attribute(part.header, "format.depth");
+            scenes::attribute(part.header, "format.color").empty() && !format.empty())
+            picture.targets.push_back(own_depth(part, format));
+        else if (scenes::attribute(part.header, "format.color").empty())
             add_foreign(part, path, number, picture.targets);
         else
             for (const scenes::FileImage& image : scenes::as_images(part, number, path))

@@ -16,6 +16,8 @@ struct Command {
 // Each adds its subcommand to the root. The options live as long as the Command.
 [[nodiscard]] Command add_render(CLI::App& root);
 [[nodiscard]] Command add_layers(CLI::App& root);
+[[nodiscard]] Command add_passes(CLI::App& root);
+[[nodiscard]] Command add_explain(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
 [[nodiscard]] Command add_effects(CLI::App& root);
 [[nodiscard]] Command add_cost(CLI::App& root);

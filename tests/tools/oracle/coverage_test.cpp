@@ -11,12 +11,12 @@ using namespace strata::test;
 
 namespace {
 
-constexpr int width = 64, height = 48;
+constexpr int shape_width = 64, shape_height = 48;
 
 Mask sampled(const std::function<bool(double x, double y)>& is_in) {
     Mask mask;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) mask.push_back(is_in(x + 0.5, y + 0.5));
+    for (int y = 0; y < shape_height; ++y)
+        for (int x = 0; x < shape_width; ++x) mask.push_back(is_in(x + 0.5, y + 0.5));
     return mask;
 }
 
@@ -39,22 +39,28 @@ Mask rectangle(Owns owns) {
 
 TEST_CASE("a shape moved by half a pixel is told as moved, with the way that it went") {
     const Masks right{sampled(is_in_disc), sampled([](double x, double y) { return is_in_disc(x - 0.5, y); })};
-    const CoverageReport found = compare_coverage(right, width, height);
+    const CoverageReport found = compare_coverage(right, shape_width, shape_height);
     CHECK(found.mistake == CoverageMistake::moved);
     CHECK(found.moved_x == Approx(0.5).margin(0.15));
     CHECK(found.moved_y == Approx(0.0).margin(0.1));
     const Masks up{sampled(is_in_disc), sampled([](double x, double y) { return is_in_disc(x, y + 0.5); })};
-    CHECK(compare_coverage(up, width, height).moved_y == Approx(-0.5).margin(0.15));
-    CHECK(compare_coverage(up, width, height).mistake == CoverageMistake::moved);
+    CHECK(compare_coverage(up, shape_width, shape_height).moved_y == Approx(-0.5).margin(0.15));
+    CHECK(compare_coverage(up, shape_width, shape_height).mistake == CoverageMistake::moved);
 }
 
 TEST_CASE("edges that count on all sides, or on none, are a fill rule") {
-    const CoverageReport all = compare_coverage({rectangle(Owns::left_and_top), rectangle(Owns::all)}, width, height);
+    const CoverageReport all =
+        compare_coverage({rectangle(Owns::left_and_top), rectangle(Owns::all)}, shape_width, shape_height);
     CHECK(all.mistake == CoverageMistake::edge_rule);
     CHECK(all.lost == 0);
-    const CoverageReport none = compare_coverage({rectangle(Owns::left_and_top), rectangle(Owns::none)}, width, height);
+    const CoverageReport none =
+        compare_coverage({rectangle(Owns::left_and_top), rectangle(Owns::none)}, shape_width, shape_height);
     CHECK(none.mistake == CoverageMistake::edge_rule);
     CHECK(none.gained == 0);
+    const CoverageReport grown =
+        compare_coverage({rectangle(Owns::none), rectangle(Owns::all)}, shape_width, shape_height);
+    CHECK(grown.mistake == CoverageMistake::edge_rule);
+    CHECK(grown.lost == 0);
 }
 
 TEST_CASE("ties that go to the other edge gain on one side what they lose on the other") {
@@ -67,7 +73,7 @@ TEST_CASE("ties that go to the other edge gain on one side what they lose on the
         });
     };
     const CoverageReport found =
-        compare_coverage({shape(Owns::left_and_top), shape(Owns::right_and_bottom)}, width, height);
+        compare_coverage({shape(Owns::left_and_top), shape(Owns::right_and_bottom)}, shape_width, shape_height);
     CHECK(found.mistake == CoverageMistake::edge_rule);
     CHECK(found.gained > 0);
     CHECK(found.lost > 0);
@@ -80,11 +86,11 @@ TEST_CASE("a border that trembles is snapping, and a hole far from it a lost sur
                               const double shake = (static_cast<double>(state >> 8) / 16777216.0 - 0.5) * 0.8;
                               return is_in_disc(x + shake, y + shake);
                           })};
-    CHECK(compare_coverage(trembling, width, height).mistake == CoverageMistake::snapping);
+    CHECK(compare_coverage(trembling, shape_width, shape_height).mistake == CoverageMistake::snapping);
     const Masks holed{sampled(is_in_disc), sampled([](double x, double y) {
                           return is_in_disc(x, y) && (x - 31) * (x - 31) + (y - 25) * (y - 25) > 49;
                       })};
-    const CoverageReport hole = compare_coverage(holed, width, height);
+    const CoverageReport hole = compare_coverage(holed, shape_width, shape_height);
     CHECK(hole.mistake == CoverageMistake::surface);
     CHECK(hole.gained == 0);
 }

@@ -1,39 +1,15 @@
 // Model: files laid out here byte by byte, from the formats' own pages, and files that the project writes.
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
+#include "tests/tools/oracle/own_file.h"
 #include "tests/tools/oracle/pictures.h"
 
 using namespace strata::oracle;
 using namespace strata::test;
 
 namespace {
-
-// A file of its own that goes when the test does.
-class OwnFile {
-  public:
-    OwnFile(const std::string& ending, const std::string& bytes) : path_{unique(ending)} {
-        std::ofstream{path_, std::ios::binary} << bytes;
-    }
-    explicit OwnFile(const std::string& ending) : path_{unique(ending)} {}
-    OwnFile(const OwnFile&) = delete;
-    OwnFile& operator=(const OwnFile&) = delete;
-    ~OwnFile() { std::filesystem::remove(path_); }
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-  private:
-    static std::string unique(const std::string& ending) {
-        std::string name = (std::filesystem::temp_directory_path() / "strata-picture-XXXXXX").string();
-        const int handle = mkstemp(name.data());
-        REQUIRE(handle >= 0);
-        std::filesystem::remove(name);
-        return name + ending;
-    }
-    std::string path_;
-};
 
 std::string big_endian(std::uint32_t word) {
     std::string bytes;

@@ -1,5 +1,8 @@
 // tools/strata/render/layers.cpp - strata layers: what an algorithm peeled, layer by layer, and every fragment of the
 // frame.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 #include <numeric>
 
@@ -41,17 +44,31 @@ scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fra
     return deep;
 }
 
+// The layers from near to far. A peel from both ends gives them as it takes them, the last ones perhaps without a fragment; they are
+// called by their end and their pass, and what is behind everything comes last.
+std::vector<scenes::OutputColor> ordered_layers(const Finished& finished) {
+    std::vector<scenes::OutputColor> front, back;
+    for (const auto& layer : finished.result.frame.layers) {
+        const bool is_back = layer.side == pipeline::Side::back;
+        std::vector<scenes::OutputColor>& end = is_back ? back : front;
+        end.push_back({.color = layer.color, .depth = layer.depth});
+        if (!finished.algorithm.takes_both_ends) continue;
+        end.back().part = fmt::format("{}.{:03}", is_back ? "back" : "front", end.size() - 1);
+        if (std::ranges::all_of(layer.color.codes, [](std::uint32_t code) { return code == 0; })) end.pop_back();
+    }
+    front.insert(front.end(), back.rbegin(), back.rend());
+    return front;
+}
+
 // Writes the layers (-o) and the fragments (--deep) of one algorithm.
 void write_layers(const LayersOptions& options, const Finished& finished) {
     const scenes::Attributes attributes = attributes_of("layers", options.run, finished);
     if (!options.run.output.empty()) {
-        std::vector<scenes::OutputColor> layers;
-        for (const auto& layer : finished.result.frame.layers) {
-            layers.push_back({.color = layer.color,
-                              .depth = layer.depth,
-                              .premultiplied = finished.algorithm.premultiplied_layers,
-                              .space = options.run.scene_options.color_space,
-                              .attributes = attributes});
+        std::vector<scenes::OutputColor> layers = ordered_layers(finished);
+        for (scenes::OutputColor& layer : layers) {
+            layer.premultiplied = finished.algorithm.premultiplied_layers;
+            layer.space = options.run.scene_options.color_space;
+            layer.attributes = attributes;
         }
         if (layers.empty()) {  // nothing to peel: one layer without a fragment
             layers.push_back(
@@ -82,16 +99,18 @@ int layers(LayersOptions& options) {
 Command add_layers(CLI::App& root) {
     auto* app = root.add_subcommand("layers", "write the layers that an algorithm peels, and every fragment");
     const auto options = std::make_shared<LayersOptions>();
-    options->run.default_algorithm = "front_to_back";  // dual composites on the fly and keeps none
+    options->run.default_algorithm = "front_to_back";  // whose layers are in the order in which they are peeled
     add_picture_options(*app, options->run);
     add_execution_options(*app, options->run);
-    add_output_options(*app, options->run, "the layers, .exr: part layer.000 is the nearest");
+    add_output_options(*app, options->run,
+                       "the layers, .exr: part layer.000 is the nearest; of a dual peel front.000 and back.000");
     add_path(*app, options->deep,
              {"--deep", "FILE", "every fragment as a deep EXR, in submission order", "a file name"});
     app->footer(
         footer("  strata layers teapot --size 200x150 -o layers.exr\n"
                "  strata layers volume-beam:slices=4 --algorithm depth_units --size 64x64 -o beam.exr --deep "
-               "fragments.exr\n"));
+               "fragments.exr\n"
+               "  strata layers teapot --algorithm dual --size 64x64 -o dual.exr\n"));
     return {app, [options] { return layers(*options); }};
 }
 

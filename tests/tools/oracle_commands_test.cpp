@@ -1,0 +1,83 @@
+// Model: what other commands say of the same scene: digests of the picture, numbers of passes, fragments.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+TEST_CASE("passes writes a file a pass, whose last one has the picture's digest, and a list that says the same") {
+    const Folder folder;
+    const Ended render = run_strata(folder, {"render", "teapot", "--size", "40x30", "--stats", "-"});
+    const nlohmann::json stats = nlohmann::json::parse(render.out)[0];
+    const Ended ended = run_strata(folder, {"passes", "teapot", "--size", "40x30", "-o", "out"});
+    REQUIRE(ended.status == 0);
+    const nlohmann::json document = nlohmann::json::parse(content_of(folder / "out/passes.json"));
+    const nlohmann::json& passes = document["passes"];
+    int geometry = 0;
+    for (const nlohmann::json& pass : passes) {
+        geometry += pass["kind"] == "geometry" ? 1 : 0;
+        CHECK(std::filesystem::is_regular_file(folder / ("out/" + pass["file"].get<std::string>())));
+    }
+    CHECK(geometry == stats["geometry_passes"].get<int>());
+    CHECK(passes.back()["targets"][0]["digest"] == stats["digest"]["color"]);
+    CHECK(std::filesystem::is_regular_file(folder / "out/contact.png"));
+    const Ended digest = shell(folder, "strata digest --json out/" + passes.back()["file"].get<std::string>());
+    CHECK(nlohmann::json::parse(digest.out)[0]["digest"] == stats["digest"]["color"]);
+    CHECK(lines_of(ended.out).size() == passes.size() + 1);
+}
+
+TEST_CASE("passes of a refused algorithm are told as refused, and the others are written") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"passes", "teapot", "--size", "16x12", "--profile", "geforce3",
+                                            "--algorithm", "depth_units,dual", "-o", "out"});
+    CHECK(ended.status == 0);
+    CHECK(ended.err.find("strata: dual: profile geforce3 has no ") != std::string::npos);
+    CHECK(std::filesystem::is_regular_file(folder / "out/depth_units.passes.json"));
+    CHECK_FALSE(std::filesystem::exists(folder / "out/dual.passes.json"));
+    CHECK(run_strata(folder, {"passes", "teapot"}).err == "strata: -o: expected a folder for the files, found none\n");
+}
+
+TEST_CASE(
+    "layers of a dual peel come from both ends, near to far, and are those of a peel from the front where nothing "
+    "ties") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata layers planes --size 40x30 --algorithm dual -o dual.exr && "
+                  "strata layers planes --size 40x30 --algorithm front_to_back -o front.exr")
+                .status == 0);
+    const auto parts_of = [&](const std::string& file) {
+        std::vector<std::string> parts;
+        for (const nlohmann::json& target : nlohmann::json::parse(shell(folder, "strata digest --json " + file).out))
+            if (target["target"] == "color") parts.push_back(target["part"]);
+        return parts;
+    };
+    const auto dual = parts_of("dual.exr"), front = parts_of("front.exr");
+    CHECK(dual.size() == front.size());
+    const auto is_front = [](const std::string& part) { return part.starts_with("front."); };
+    CHECK(std::ranges::is_partitioned(dual, is_front));
+    CHECK(dual.front() == "front.000");
+    CHECK(dual.back() == "back.000");
+}
+
+TEST_CASE("explain tells a pixel in text and as JSON, and names the pixels that there are") {
+    const Folder folder;
+    const Ended text = run_strata(
+        folder, {"explain", "teapot", "--size", "40x30", "--pixel", "20,15", "--algorithm", "dual,front_to_back"});
+    CHECK(text.status == 0);
+    CHECK(text.out.starts_with("pixel 20,15 by dual on geforce8: "));
+    CHECK(text.out.find("pixel 20,15 by front_to_back on geforce8: ") != std::string::npos);
+    const Ended ended = run_strata(
+        folder, {"explain", "teapot", "--size", "40x30", "--pixel", "20,15", "--json", "--svg", "column.svg"});
+    const nlohmann::json document = nlohmann::json::parse(ended.out);
+    CHECK(document["histories"][0]["pixel"] == nlohmann::json({20, 15}));
+    CHECK(document["histories"][0]["fragments"].size() > 1);
+    CHECK(document["histories"][0]["fragments"][0]["depth"].size() == 6);
+    CHECK(content_of(folder / "column.svg").starts_with("<svg "));
+    CHECK(run_strata(folder, {"explain", "teapot", "--size", "40x30", "--pixel", "40,0"}).err ==
+          "strata: --pixel: expected a pixel from 0,0 to 39,29, found 40,0\n");
+    CHECK(run_strata(folder, {"explain", "teapot"}).err.find("found none") != std::string::npos);
+    CHECK(run_strata(folder, {"explain", "teapot", "--pixel", "4"}).err ==
+          "strata: --pixel: expected two whole numbers from 0 such as 320,200, found '4'\n");
+}

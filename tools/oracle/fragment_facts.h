@@ -1,0 +1,13 @@
+// tools/oracle/fragment_facts.h - what is known of a fragment from its triangle alone: whose it is, where in it, and its depth by every path.
+#pragma once
+#include <span>
+
+#include "tools/oracle/history.h"
+
+namespace strata::oracle {
+
+// Fills mesh, triangle, barycentric and path_codes of the facts of each history; `histories` are the rectangle's pixels row by row.
+void add_facts(const RunInput& input, const peeling::Algorithm& algorithm, const rasterizer::Rect& pixels,
+               std::span<History> histories);
+
+}  // namespace strata::oracle

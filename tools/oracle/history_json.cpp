@@ -1,0 +1,175 @@
+// tools/oracle/history_json.cpp - a history for programs: enough to do every line again.
+#include <fmt/format.h>
+
+#include <bit>
+#include <nlohmann/json.hpp>
+
+#include "tools/oracle/history_report.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 8> func_names{"never",   "less",     "equal",  "lequal",
+                                                     "greater", "notequal", "gequal", "always"};
+constexpr std::array<std::string_view, 8> stencil_names{"keep", "zero",   "replace",   "incr",
+                                                        "decr", "invert", "incr_wrap", "decr_wrap"};
+constexpr std::array<std::string_view, 7> equation_names{"add", "subtract",   "reverse_subtract",       "min",
+                                                         "max", "signed_add", "signed_reverse_subtract"};
+constexpr std::array<std::string_view, 15> factor_names{"zero",
+                                                        "one",
+                                                        "src_color",
+                                                        "one_minus_src_color",
+                                                        "dst_color",
+                                                        "one_minus_dst_color",
+                                                        "src_alpha",
+                                                        "one_minus_src_alpha",
+                                                        "dst_alpha",
+                                                        "one_minus_dst_alpha",
+                                                        "constant_color",
+                                                        "one_minus_constant_color",
+                                                        "constant_alpha",
+                                                        "one_minus_constant_alpha",
+                                                        "src_alpha_saturate"};
+
+template <class Enum, std::size_t count>
+std::string_view word(const std::array<std::string_view, count>& names, Enum value) {
+    return names.at(static_cast<std::size_t>(value));
+}
+
+std::string bits(float value) { return fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)); }
+
+ordered_json bits(const std::array<float, 4>& color) {
+    return {bits(color[0]), bits(color[1]), bits(color[2]), bits(color[3])};
+}
+
+ordered_json json_of_held(const Held& h) {
+    ordered_json document{{"target", h.target}, {"format", pipeline::info(h.format).name}, {"before", h.before}};
+    if (!h.after.empty()) document["after"] = h.after;
+    return document;
+}
+
+ordered_json all_held(const std::vector<Held>& list) {
+    ordered_json array = ordered_json::array();
+    for (const Held& h : list) array.push_back(json_of_held(h));
+    return array;
+}
+
+ordered_json json_of_term(const pipeline::BlendTerm& t) {
+    return {{"equation", word(equation_names, t.equation)},
+            {"src", word(factor_names, t.src)},
+            {"dst", word(factor_names, t.dst)}};
+}
+
+ordered_json json_of_blend(const pipeline::Blend& b) {
+    if (!b.enabled) return {{"enabled", false}, {"write_mask", b.write_mask}};
+    return {{"enabled", true},
+            {"color", json_of_term(b.color)},
+            {"alpha", json_of_term(b.alpha)},
+            {"write_mask", b.write_mask}};
+}
+
+ordered_json json_of_face(const pipeline::StencilFace& f) {
+    return {{"func", word(func_names, f.func)},
+            {"ref", f.ref},
+            {"func_mask", f.func_mask},
+            {"write_mask", f.write_mask},
+            {"fail", word(stencil_names, f.fail)},
+            {"depth_fail", word(stencil_names, f.depth_fail)},
+            {"pass", word(stencil_names, f.pass)}};
+}
+
+// The tests that the pass makes.
+ordered_json json_of_tests(const Line& line) {
+    ordered_json document = ordered_json::object();
+    const pipeline::PassState& state = line.state;
+    if (state.alpha.enabled)
+        document["alpha"] = {{"func", word(func_names, state.alpha.func)}, {"ref", bits(state.alpha.ref)}};
+    if (state.depth.enabled)
+        document["depth"] = {
+            {"target", line.depth_target}, {"func", word(func_names, state.depth.func)}, {"write", state.depth.write}};
+    if (state.stencil.enabled)
+        document["stencil"] = {{"target", line.stencil_target},
+                               {"two_sided", state.stencil.two_sided},
+                               {"front", json_of_face(state.stencil.front)},
+                               {"back", json_of_face(state.stencil.back)}};
+    return document;
+}
+
+void add_shaded(const Line& line, ordered_json& document) {
+    if (line.kind == LineKind::fragment) document["fragment"] = line.fragment;
+    document["fate"] = name(line.fate);
+    document["depth_code"] = line.depth_code;
+    document["reference_code"] = line.reference_code ? ordered_json(*line.reference_code) : ordered_json();
+    document["sample_mask"] = line.state.sample_mask;
+    document["tests"] = json_of_tests(line);
+    document["reads"] = all_held(line.reads);
+    document["outputs"] = ordered_json::array();
+    for (const Output& output : line.outputs)
+        document["outputs"].push_back(
+            {{"target", output.target}, {"color", bits(output.color)}, {"blend", json_of_blend(output.blend)}});
+}
+
+ordered_json json_of_line(const Line& line) {
+    ordered_json document{{"kind", name(line.kind)}, {"pass", line.pass}, {"iteration", line.iteration}};
+    switch (line.kind) {
+        case LineKind::copy: document["from"] = line.from; break;
+        case LineKind::fragment:
+        case LineKind::quad: add_shaded(line, document); break;
+        case LineKind::query:
+            document["count"] = line.count;
+            document["goes_on"] = line.goes_on;
+            return document;
+        case LineKind::taken:
+            document["end"] = line.side == pipeline::Side::back ? "far" : "near";
+            document["fragments"] = line.fragments;
+            return document;
+        case LineKind::clear:
+        case LineKind::published: break;
+    }
+    document["held"] = all_held(line.held);
+    return document;
+}
+
+ordered_json json_of_fragment(const FragmentFact& f) {
+    ordered_json document{{"primitive", f.primitive},
+                          {"mesh", f.triangle < 0 ? ordered_json() : ordered_json(f.mesh)},
+                          {"triangle", f.triangle < 0 ? ordered_json() : ordered_json(f.triangle)},
+                          {"barycentric", f.barycentric},
+                          {"color", bits(f.color)},
+                          {"z", bits(f.shader_z)},
+                          {"code", f.code},
+                          {"facing", f.front_facing ? "front" : "back"},
+                          {"masked", f.is_masked}};
+    for (std::size_t path = 0; path < depth_path_names.size(); ++path)
+        document["depth"][std::string(depth_path_names[path])] =
+            f.path_codes[path] ? ordered_json(fmt::format("{:08x}", *f.path_codes[path])) : ordered_json();
+    return document;
+}
+
+ordered_json of_history(const History& history) {
+    ordered_json document{{"pixel", {history.x, history.y}},
+                          {"algorithm", history.algorithm},
+                          {"profile", history.profile},
+                          {"depth_format", pipeline::info(pipeline::target_format(history.depth_format)).name},
+                          {"fragments", ordered_json::array()},
+                          {"lines", ordered_json::array()},
+                          {"composited", composited(history)}};
+    for (const FragmentFact& fragment : history.fragments) document["fragments"].push_back(json_of_fragment(fragment));
+    for (const Line& line : history.lines) document["lines"].push_back(json_of_line(line));
+    return document;
+}
+
+}  // namespace
+
+std::string to_json(const History& history) { return of_history(history).dump(); }
+
+std::string to_json(std::span<const History> histories) {
+    ordered_json document{{"histories", ordered_json::array()}, {"partings", partings(histories)}};
+    for (const History& history : histories) document["histories"].push_back(of_history(history));
+    return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace strata::oracle

@@ -1,0 +1,107 @@
+// tools/oracle/history_text.cpp - a history for people: a line a fragment, a line a step.
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "tools/oracle/history_report.h"
+
+namespace strata::oracle {
+
+namespace {
+
+std::string hex(const std::vector<std::uint32_t>& codes) {
+    std::string text;
+    for (const std::uint32_t code : codes) text += fmt::format("{}{:x}", text.empty() ? "" : " ", code);
+    return text;
+}
+
+std::string of_fragment(const FragmentFact& f, std::size_t number) {
+    std::string text = fmt::format(
+        "  #{} {} triangle {}, submitted as {}, {}-facing{}\n", number, f.mesh.empty() ? "mesh unknown" : f.mesh,
+        f.triangle, f.primitive, f.front_facing ? "front" : "back", f.is_masked ? ", cut by its material's alpha" : "");
+    text += fmt::format(
+        "     barycentric {:.6f} {:.6f} {:.6f}; colour {:.6f} {:.6f} {:.6f} {:.6f}; z {:.9g} ({:08x})\n     depth",
+        f.barycentric[0], f.barycentric[1], f.barycentric[2], f.color[0], f.color[1], f.color[2], f.color[3],
+        f.shader_z, std::bit_cast<std::uint32_t>(f.shader_z));
+    for (std::size_t path = 0; path < depth_path_names.size(); ++path)
+        text += fmt::format(" {} {}", depth_path_names[path],
+                            f.path_codes[path] ? fmt::format("{:08x}", *f.path_codes[path]) : "none");
+    return text + '\n';
+}
+
+std::string of_held(const std::vector<Held>& held) {
+    std::string text;
+    for (const Held& h : held) {
+        text += fmt::format("; {} {}", h.target, hex(h.before));
+        if (!h.after.empty()) text += h.after == h.before ? " stays" : " becomes " + hex(h.after);
+    }
+    return text;
+}
+
+std::string numbers(const std::vector<int>& fragments) {
+    std::string text;
+    for (const int f : fragments) text += fmt::format("{}#{}", text.empty() ? "" : " and ", f);
+    return text.empty() ? "nothing" : text;
+}
+
+std::string of_line(const Line& line) {
+    switch (line.kind) {
+        case LineKind::clear: return fmt::format("clear {} to {}", line.held[0].target, hex(line.held[0].after));
+        case LineKind::copy:
+            return fmt::format("copy {} to {}: {}", line.from, line.held[0].target, hex(line.held[0].after));
+        case LineKind::query:
+            return fmt::format("query: {} in the frame, {}", line.count, line.goes_on ? "go on" : "stop");
+        case LineKind::taken:
+            return fmt::format("takes {} at the {} end{}", numbers(line.fragments),
+                               line.side == pipeline::Side::back ? "far" : "near",
+                               line.fragments.size() > 1 ? ", merged" : "");
+        case LineKind::published: return fmt::format("the picture has {}", hex(line.held[0].before));
+        case LineKind::fragment:
+        case LineKind::quad: break;
+    }
+    std::string text = line.kind == LineKind::quad ? "quad " : fmt::format("fragment #{} ", line.fragment);
+    text += name(line.fate);
+    if (line.fate == Fate::depth_killed) text += fmt::format(" ({:x} against {})", line.depth_code, line.depth_target);
+    if (line.reference_code)
+        text += fmt::format("; stores {:08x}, compares {:08x}", line.depth_code, *line.reference_code);
+    for (const Held& read : line.reads) text += fmt::format("; reads {} {}", read.target, hex(read.before));
+    return text + of_held(line.held);
+}
+
+}  // namespace
+
+std::string to_text(const History& history) {
+    std::string text = fmt::format("pixel {},{} by {} on {}: {} fragments in submission order\n", history.x, history.y,
+                                   history.algorithm, history.profile, history.fragments.size());
+    for (std::size_t f = 0; f < history.fragments.size(); ++f) text += of_fragment(history.fragments[f], f);
+    for (const Line& line : history.lines) text += fmt::format("  pass {}: {}\n", line.pass, of_line(line));
+    return text;
+}
+
+std::vector<std::string> partings(std::span<const History> histories) {
+    std::vector<std::string> sentences;
+    const auto picture = [](const History& history) {
+        return history.lines.empty() ? std::vector<std::uint32_t>{} : history.lines.back().held.at(0).before;
+    };
+    for (const History& other : histories.subspan(histories.empty() ? 0 : 1)) {
+        const History& first = histories[0];
+        const auto mine = composited(first), theirs = composited(other);
+        std::size_t same = 0;
+        while (same < mine.size() && same < theirs.size() && mine[same] == theirs[same]) ++same;
+        const auto at = [&](const std::vector<std::vector<int>>& layers) {
+            return same < layers.size() ? numbers(layers[same]) : "no further layer";
+        };
+        std::string text =
+            same == mine.size() && same == theirs.size()
+                ? fmt::format("{} composites the same {} layers as {}", other.algorithm, same, first.algorithm)
+                : fmt::format("{} parts from {} at layer {}: {} against {}", other.algorithm, first.algorithm, same,
+                              at(theirs), at(mine));
+        text += picture(first) == picture(other)
+                    ? "; the picture has the same bits"
+                    : fmt::format("; the picture has {} against {}", hex(picture(other)), hex(picture(first)));
+        sentences.push_back(std::move(text));
+    }
+    return sentences;
+}
+
+}  // namespace strata::oracle

@@ -1,0 +1,88 @@
+// tools/strata/explain.cpp - strata explain: what happened at one pixel, in every pass of one or more algorithms.
+#include <memory>
+
+#include "scenes/files/atomic_file.h"
+#include "tools/oracle/history_report.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct Pixel {
+    int x = 0, y = 0;
+};
+
+// The command line.
+struct ExplainOptions {
+    RunOptions run;
+    std::optional<Pixel> pixel;
+    std::string svg;
+    bool json = false;
+};
+
+// "X,Y", from 0.
+std::optional<Pixel> to_pixel(std::string_view text) {
+    const auto parts = split(text, ',');
+    if (parts.size() != 2) return std::nullopt;
+    const auto x = to_int(parts[0]), y = to_int(parts[1]);
+    if (!x || !y || *x < 0 || *y < 0) return std::nullopt;
+    return Pixel{*x, *y};
+}
+
+int explain(ExplainOptions& options) {
+    complete(options.run);
+    check_outputs({{"--svg", options.svg, {".svg"}}});
+    const auto [x, y] = options.pixel.value_or(Pixel{});
+    const peeling::RenderOptions& render = options.run.render;
+    if (!options.pixel || x >= render.width || y >= render.height)
+        throw CLI::ValidationError("--pixel",
+                                   "expected a pixel from 0,0 to " + std::to_string(render.width - 1) + "," +
+                                       std::to_string(render.height - 1) + ", found " +
+                                       (options.pixel ? std::to_string(x) + "," + std::to_string(y) : "none"));
+    const Session session = open_session(options.run);
+    std::vector<oracle::History> histories;
+    for (const peeling::Algorithm* algorithm : options.run.algorithms)
+        histories.push_back(oracle::explain({session.scene.list, session.view, session.profile, options.run.render},
+                                            *algorithm, {x, y, x + 1, y + 1})
+                                .at(0));
+    if (!options.svg.empty()) scenes::write_file(options.svg, oracle::to_svg(histories));
+    if (options.json) {
+        print(oracle::to_json(histories));
+        return 0;
+    }
+    std::string text;
+    for (const oracle::History& history : histories) text += oracle::to_text(history);
+    for (const std::string& sentence : oracle::partings(histories)) text += sentence + '\n';
+    print(text);
+    return 0;
+}
+
+}  // namespace
+
+Command add_explain(CLI::App& root) {
+    auto* app =
+        root.add_subcommand("explain", "tell what happened at one pixel: its fragments, and what each pass did");
+    const auto options = std::make_shared<ExplainOptions>();
+    add_picture_options(*app, options->run);
+    add_option(*app, options->pixel,
+               {"--pixel", "X,Y", "the pixel, from the top left", "two whole numbers from 0 such as 320,200"},
+               [](std::string_view text) -> std::optional<std::optional<Pixel>> {
+                   const auto pixel = to_pixel(text);
+                   if (!pixel) return std::nullopt;
+                   return pixel;
+               });
+    add_path(*app, options->svg,
+             {"--svg", "FILE.svg", "the column of fragments, and which pass took which, as a drawing", "a file name"});
+    app->add_flag("--json", options->json, "one JSON document instead of text: enough to do every step again");
+    app->footer(
+        footer("  strata explain teapot --size 64x48 --pixel 32,24\n"
+               "  strata explain volume-beam:slices=4 --algorithm dual,front_to_back --size 32x32 --pixel 16,16 --json "
+               "--svg column.svg\n"));
+    return {app, [options] { return explain(*options); }};
+}
+
+}  // namespace strata::tools

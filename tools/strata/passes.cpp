@@ -1,0 +1,133 @@
+// tools/strata/passes.cpp - strata passes: every target of an algorithm after every pass.
+#include "tools/oracle/passes.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/device/check.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/image_io.h"
+#include "scenes/files/load_image_module.h"
+#include "tools/oracle/contact_sheet.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+    return text.empty() ? "-" : text;
+}
+
+ordered_json to_json(const oracle::PassShown& pass, const std::string& file) {
+    ordered_json document{{"number", pass.number},
+                          {"kind", oracle::name(pass.kind)},
+                          {"iteration", pass.iteration},
+                          {"before", pass.before},
+                          {"reads", pass.reads},
+                          {"writes", pass.writes},
+                          {"passed", pass.passed},
+                          {"tallied", pass.tallied},
+                          {"file", file}};
+    document["targets"] = ordered_json::array();
+    for (const oracle::NamedImage& target : pass.targets)
+        document["targets"].push_back({{"name", target.name},
+                                       {"format", pipeline::info(target.image.format).name},
+                                       {"samples", target.image.samples},
+                                       {"digest", pipeline::digest(target.image)}});
+    document["queries"] = ordered_json::array();
+    for (const oracle::Query& query : pass.queries)
+        document["queries"].push_back({{"count", query.count}, {"goes_on", query.goes_on}});
+    return document;
+}
+
+std::vector<std::string> to_row(const oracle::PassShown& pass) {
+    std::string queries;
+    for (const oracle::Query& query : pass.queries)
+        queries += fmt::format("{}{}: {}", queries.empty() ? "" : ", ", query.count, query.goes_on ? "on" : "stop");
+    return {std::to_string(pass.number),
+            std::string(oracle::name(pass.kind)),
+            std::to_string(pass.iteration),
+            joined(pass.reads),
+            joined(pass.writes),
+            std::to_string(pass.passed),
+            queries.empty() ? "-" : queries};
+}
+
+// One algorithm's files; their names begin with its own if there are several.
+void show(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm) {
+    const std::string prefix = options.algorithms.size() == 1 ? "" : algorithm.name + ".";
+    const auto path = [&](const std::string& name) {
+        return (std::filesystem::path(options.output) / (prefix + name)).string();
+    };
+    ordered_json document{{"command", canonical_command("passes", options, algorithm)},
+                          {"algorithm", algorithm.name},
+                          {"profile", session.profile.name},
+                          {"passes", ordered_json::array()}};
+    Table table{{{"pass", Align::right},
+                 {"kind"},
+                 {"iteration", Align::right},
+                 {"reads"},
+                 {"writes"},
+                 {"passed", Align::right},
+                 {"query"}},
+                {}};
+    oracle::ContactSheet sheet;
+    oracle::passes({session.scene.list, session.view, session.profile, options.render}, algorithm,
+                   [&](oracle::PassShown&& pass) {
+                       const std::string name = fmt::format("pass.{:03}.exr", pass.number);
+                       oracle::write_targets(path(name), pass.targets);
+                       sheet.add(pass);
+                       document["passes"].push_back(to_json(pass, prefix + name));
+                       table.rows.push_back(to_row(pass));
+                   });
+    scenes::write_image(path("contact.png"), {.color = sheet.image()});
+    scenes::write_file(path("passes.json"), document.dump(2) + '\n');
+    print((prefix.empty() ? "" : algorithm.name + ":\n") + to_text(table));
+}
+
+// A refused algorithm writes nothing; 2 if all of them are.
+int passes(RunOptions& options) {
+    complete(options);
+    if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the files, found none");
+    static_cast<void>(scenes::image_module());  // else it would be missed after the first pass
+    const Session session = open_session(options);
+    std::filesystem::create_directories(options.output);
+    int status = 2;
+    for (const peeling::Algorithm* algorithm : options.algorithms) try {
+            show(options, session, *algorithm);
+            status = 0;
+        } catch (const pipeline::Refused& refused) {
+            std::fprintf(stderr, "strata: %s: %s\n", algorithm->name.c_str(), refused.what());
+        }
+    return status;
+}
+
+}  // namespace
+
+Command add_passes(CLI::App& root) {
+    auto* app =
+        root.add_subcommand("passes", "write every target of an algorithm after every pass, and a contact sheet");
+    const auto options = std::make_shared<RunOptions>();
+    add_picture_options(*app, *options);
+    add_path(*app, options->output,
+             {"-o", "FOLDER",
+              "gets pass.000.exr ..., passes.json and contact.png; NAME.pass.000.exr with several algorithms",
+              "a folder's name"});
+    app->footer(footer(
+        "  strata passes teapot --size 64x48 -o dual\n"
+        "  strata passes volume-beam:slices=4 --algorithm front_to_back,weighted_average --size 32x32 -o beam\n"));
+    return {app, [options] { return passes(*options); }};
+}
+
+}  // namespace strata::tools
