@@ -3,7 +3,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "peeling/audit/region_trace.h"
 #include "peeling/registry.h"
+#include "peeling/render.h"
 
 namespace {
 

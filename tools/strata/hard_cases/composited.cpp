@@ -4,7 +4,9 @@
 #include <bit>
 #include <iterator>
 
+#include "peeling/audit/region_trace.h"
 #include "peeling/programs/programs.h"
+#include "peeling/render.h"
 #include "pipeline/formats/unorm8.h"
 
 namespace strata::tools {
@@ -91,7 +93,7 @@ void look_at_pixel(const std::vector<Known>& visible, const Sequence& sequence, 
 
 }  // namespace
 
-std::vector<Sequence> sequences(std::span<const peeling::RegionTrace> traces, int width, std::size_t pixels) {
+std::vector<Sequence> sequences(const std::vector<peeling::RegionTrace>& traces, int width, std::size_t pixels) {
     std::vector<Sequence> all(pixels), backs(pixels);
     for (const peeling::RegionTrace& region : traces) {
         const auto columns = static_cast<std::size_t>(region.rect.width());

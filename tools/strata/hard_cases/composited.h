@@ -7,13 +7,19 @@
 //          the two checks the other.
 // Tests    tests/tools/hard_cases/composited_test.cpp
 #pragma once
+#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "peeling/algorithms/algorithm.h"
-#include "peeling/audit/region_trace.h"
-#include "peeling/render.h"
+namespace strata::pipeline {
+struct CapturedFragment;
+struct TraceEntry;
+}  // namespace strata::pipeline
+namespace strata::peeling {
+struct Algorithm;
+struct FrameFragments;
+struct RegionTrace;
+}  // namespace strata::peeling
 
 namespace strata::tools {
 
@@ -34,7 +40,7 @@ struct ComposedFrame {
     int width = 0;
     bool tests_codes = true;  // the alpha test compares 8-bit codes
     const peeling::FrameFragments& fragments;
-    std::span<const peeling::RegionTrace> traces;
+    const std::vector<peeling::RegionTrace>& traces;
 };
 
 [[nodiscard]] Composited composited(const ComposedFrame& frame);
@@ -51,7 +57,7 @@ struct VisibleFragment {
 // What a pixel composited, near to far.
 using Sequence = std::vector<pipeline::TraceEntry>;
 // Of every pixel of the frame, row by row.
-[[nodiscard]] std::vector<Sequence> sequences(std::span<const peeling::RegionTrace> traces, int width,
+[[nodiscard]] std::vector<Sequence> sequences(const std::vector<peeling::RegionTrace>& traces, int width,
                                               std::size_t pixels);
 
 }  // namespace strata::tools

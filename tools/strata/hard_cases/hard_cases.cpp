@@ -7,7 +7,7 @@
 #include "scenes/files/profile_json.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "tools/strata/command.h"
-#include "tools/strata/hard_cases/hard_sweep.h"
+#include "tools/strata/hard_cases/hard_page.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/table.h"
@@ -93,6 +93,8 @@ int hard_cases_command(const HardOptions& options) {
     const HardSweep sweep = sweep_of(options);
     const Lines lines =
         options.merge > 0 ? merge_shards(sweep, static_cast<std::size_t>(options.merge)) : run_sweep(sweep);
+    // A shard's lines are a part of the page that --merge writes.
+    if (sweep.shard.count == 1) write_page(sweep, lines);
     print(options.json ? ordered_json(lines).dump(2) + '\n' : summary(sweep, lines));
     return has_failed(lines) ? 1 : 0;
 }
@@ -117,7 +119,8 @@ Command add_hard_cases(CLI::App& root) {
         "hard-cases", "run every algorithm on scenes that are hard for rasterizers and peels, and judge the outcome");
     const auto options = std::make_shared<HardOptions>();
     app->add_option("NAME", options->names, "hard cases (default all)")->type_name("");
-    add_path(*app, options->folder, {"-o,--output", "FOLDER", "a folder for results.jsonl", "a folder"});
+    add_path(*app, options->folder,
+             {"-o,--output", "FOLDER", "a folder: results.jsonl, RESULTS.md, pictures/", "a folder"});
     app->add_flag("--list", options->list, "name the cases and tell what is hard about each");
     app->add_flag("--json", options->json, "one JSON document instead of the table");
     std::vector<std::string> profiles;

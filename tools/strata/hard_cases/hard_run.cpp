@@ -5,7 +5,11 @@
 #include <cmath>
 
 #include "peeling/audit/image_error.h"
+#include "peeling/audit/region_trace.h"
+#include "peeling/registry.h"
+#include "peeling/render.h"
 #include "rasterizer/base/simd.h"
+#include "tools/strata/hard_cases/hard_truth.h"
 #include "tools/strata/options/choices.h"
 
 namespace strata::tools {
@@ -171,7 +175,7 @@ HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& prof
       profile_{profile},
       scene_{make_hard_case({}, hard)},
       options_{options_of(hard, depth)},
-      truth_{scene_, profile_, options_} {
+      truth_{std::make_unique<const HardTruth>(scene_, profile_, options_)} {
     for (auto& [name, options] : ways_of(options_))
         ways_.push_back({name, std::make_unique<peeling::Renderer>(scene_.list, *scene_.own_view, profile_, options)});
 }
@@ -213,7 +217,7 @@ HardRow HardMachine::run(const peeling::Algorithm& algorithm) {
     const ComposedFrame composed{algorithm, hard_.width, tests_codes, fragments, traces};
     row.found = composited(composed);
     row.diagnostics = result.frame.diagnostics;
-    const HardTruth::Difference difference = truth_.difference(composed, result.frame.color);
+    const HardTruth::Difference difference = truth_->difference(composed, result.frame.color);
     row.difference = difference.elsewhere;
     row.difference_at_ties = difference.at_ties;
     row.bound = renderer.color_format() == Format::rgba8 ? hard_.bound : 1;

@@ -20,11 +20,20 @@
 #include <string>
 #include <vector>
 
+#include "peeling/render_options.h"
 #include "pipeline/device/profile.h"
+#include "pipeline/frame/diagnostics.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
-#include "tools/strata/hard_cases/hard_truth.h"
+#include "tools/strata/hard_cases/composited.h"
+
+namespace strata::peeling {
+struct AuditResult;
+struct RenderResult;
+}  // namespace strata::peeling
 
 namespace strata::tools {
+
+class HardTruth;  // hard_truth.h
 
 enum class HardVerdict : std::uint8_t { refused, stable, degrades, breaks, failed };
 [[nodiscard]] std::string_view name_of(HardVerdict verdict) noexcept;
@@ -60,7 +69,7 @@ class HardMachine {
     pipeline::DeviceProfile profile_;
     scenes::Scene scene_;
     peeling::RenderOptions options_;
-    HardTruth truth_;
+    std::unique_ptr<const HardTruth> truth_;
     std::vector<Way> ways_;
 };
 

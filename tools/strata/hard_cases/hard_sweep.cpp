@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/options/choices.h"

@@ -5,6 +5,7 @@
 
 #include "peeling/audit/image_error.h"
 #include "peeling/registry.h"
+#include "peeling/render.h"
 
 namespace strata::tools {
 

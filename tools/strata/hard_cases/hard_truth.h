@@ -11,8 +11,16 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/formats/image.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "tools/strata/hard_cases/composited.h"
+
+namespace strata::pipeline {
+struct DeviceProfile;
+}
+namespace strata::peeling {
+struct RenderOptions;
+}
 
 namespace strata::tools {
 
