@@ -22,7 +22,8 @@ bool says(const std::string& err, const std::string& sentence) {
 TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what was wanted and what is near") {
     const auto wrong = GENERATE(values<Wrong>({
         {{"rendr", "teapot"},
-         "strata: expected a command (render, layers, bench, effects, invariance, reproduce, hardware-check, scene, "
+         "strata: expected a command (render, layers, bench, effects, invariance, reproduce, hard-cases, "
+         "hardware-check, scene, "
          "digest, algorithms, profiles or scenes), found 'rendr' "
          "(did you mean 'render'?)"},
         {{"render", "teapot", "--sise", "8x8"},

@@ -25,7 +25,7 @@ std::vector<std::string> examples_of(const std::string& help) {
 
 TEST_CASE("every example of every --help runs as printed") {
     const auto verb = GENERATE(as<std::string>{}, "render", "layers", "bench", "effects", "invariance", "reproduce",
-                               "scene", "digest", "algorithms", "profiles", "scenes");
+                               "hard-cases", "scene", "digest", "algorithms", "profiles", "scenes");
     const Folder folder;
     const Ended help = run_strata(folder, {verb, "--help"});
     CHECK(help.status == 0);
@@ -45,8 +45,8 @@ TEST_CASE("strata alone tells its commands, an example that runs, and where ther
     CHECK(ended.status == 0);
     CHECK(ended.err.empty());
     CHECK(lines_of(ended.out).size() < 20);
-    for (const char* verb : {"render", "layers", "bench", "effects", "invariance", "reproduce", "hardware-check",
-                             "scene", "digest", "algorithms", "profiles", "scenes"})
+    for (const char* verb : {"render", "layers", "bench", "effects", "invariance", "reproduce", "hard-cases",
+                             "hardware-check", "scene", "digest", "algorithms", "profiles", "scenes"})
         CHECK(ended.out.find(std::string{"\n  "} + verb + " ") != std::string::npos);
     const std::size_t example = ended.out.find("strata render");
     REQUIRE(example != std::string::npos);
