@@ -81,9 +81,23 @@ Body body_of(const Algorithm& algorithm) {
     };
 }
 
+// What may keep passes from seeing the depths that earlier ones stored.
+struct PassDepths {
+    bool is_invariant = true;  // every pass saw the same fragments and compared the depth that it stores
+    bool are_flushed = false;  // the whole depth range is denormal, and blending into float targets flushes it to zero
+};
+
+bool needs(const Algorithm& algorithm, Feature feature) {
+    return std::find(algorithm.features.begin(), algorithm.features.end(), feature) != algorithm.features.end();
+}
+
+bool flushes_depths(const DeviceProfile& profile, const rasterizer::RasterState& raster) noexcept {
+    return profile.denormals == DenormalRule::flush && std::max(raster.depth_near, raster.depth_far) < 0x1p-126f;
+}
+
 // Names the cause of order errors: the first that holds, in the order of keys-and-counts.md 7.3.
-void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const AuditResult& audit,
-                           std::vector<Diagnostic>& all) {
+void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const PassDepths& depths,
+                           const AuditResult& audit, std::vector<Diagnostic>& all) {
     const auto note = [&](Fault fault, const PixelCount& where, std::string detail) {
         merge(all, {fault, where.pixels, where.first_x, where.first_y, std::move(detail)});
     };
@@ -92,7 +106,8 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
         note(Fault::merged_ties, audit.ties,
              std::to_string(audit.lost_by_ties) +
                  (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
-    const bool orders = algorithm.exact || algorithm.order == ListOrder::objects;
+    const bool sorts = algorithm.order == ListOrder::objects || algorithm.order == ListOrder::back_to_front;
+    const bool orders = algorithm.exact || sorts || !depths.is_invariant;
     if (!orders || audit.order_errors.value_or(0) == 0) return;
     const bool limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed ||
                          options.termination.rule == TerminationRule::ratio;
@@ -105,6 +120,15 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
         note(Fault::out_of_order, audit.misordered, "the ordered set (--sorted) does not arrive front to back");
     else if (algorithm.order == ListOrder::objects && !algorithm.exact)
         note(Fault::out_of_order, audit.misordered, "objects or their own triangles overlap out of order");
+    else if (algorithm.order == ListOrder::back_to_front)
+        note(Fault::out_of_order, audit.misordered, "triangles sorted by their centroids overlap out of order");
+    else if (!depths.is_invariant)
+        note(Fault::unlike_depths, audit.misordered,
+             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced");
+    else if (needs(algorithm, Feature::float_targets) && depths.are_flushed)
+        note(
+            Fault::unlike_depths, audit.misordered,
+            std::to_string(*audit.order_errors) + " places lost or repeated: blending flushes denormal depths to zero");
     else if (options.termination.rule == TerminationRule::paper && algorithm.ties == TiePolicy::merged)
         note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
 }
@@ -131,6 +155,7 @@ struct Renderer::State {
     PreparedLists lists;
     std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
     std::optional<int> deepest{};                   // fragments of the deepest pixel, once somebody asked
+    bool was_invariant = true;                      // the last frame that ran
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
         // A tile that stops early does not know how many layers the others take from its two ends.
@@ -177,6 +202,15 @@ struct Renderer::State {
         return 2 * *deepest + 2;
     }
 
+    // A peel that keeps depths in float targets may never end where blending flushes them. A right one takes six passes
+    // an iteration at most, and an iteration a fragment of the deepest pixel.
+    [[nodiscard]] int own_pass_limit(const Algorithm& algorithm, const Frame& f) {
+        const bool may_stall = needs(algorithm, Feature::float_targets) && flushes_depths(profile, options.raster);
+        if (options.max_passes > 0 || !may_stall) return options.max_passes;
+        if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
+        return 6 * (*deepest + 1);
+    }
+
     // keys-and-counts.md 3.4. A limit that the user set is no fault, even if the peel reaches it.
     void note_endless(const Frame& f, FrameResult& result) const {
         if (options.max_passes > 0 || f.max_passes == 0 || result.passes.geometry < f.max_passes) return;
@@ -217,7 +251,7 @@ struct Renderer::State {
         f.trace_bytes = memory.trace_bytes();
         f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
         f.nearest_depth = options.nearest_depth;
-        f.max_passes = algorithm.compares_own_codes ? options.max_passes : pass_limit(f);
+        f.max_passes = algorithm.compares_own_codes ? own_pass_limit(algorithm, f) : pass_limit(f);
         f.average_count = options.average_count;
         return f;
     }
@@ -239,7 +273,7 @@ struct Renderer::State {
         return peeling::refusal(algorithm, profile);
     }
 
-    // Every pass of a peel sees the same fragments and compares what it stores.
+    // By the options alone: every pass of a peel sees the same fragments and compares what it stores.
     [[nodiscard]] bool is_invariant() const {
         const bool quantizes = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         return lists.second() == nullptr && quantizes && options.compare_epsilon == CompareEpsilon{} &&
@@ -250,6 +284,7 @@ struct Renderer::State {
     void run_frame(const Algorithm& algorithm, const std::function<void(double)>& progress,
                    const Instruments& instruments, std::vector<RegionTrace>* traces, RenderResult& result) {
         Frame f = frame(algorithm);
+        was_invariant = f.is_invariant();
         if (traces != nullptr) {
             f.trace = true;
             f.trace_bytes = ~std::uint64_t{0};
@@ -286,7 +321,8 @@ struct Renderer::State {
         }
         note_machine(algorithm, result.frame.diagnostics);
         if (options.audit && traces == nullptr)
-            add_audit_diagnostics(algorithm, options, result.audit, result.frame.diagnostics);
+            add_audit_diagnostics(algorithm, options, {was_invariant, flushes_depths(profile, options.raster)},
+                                  result.audit, result.frame.diagnostics);
         return result;
     }
 
@@ -299,13 +335,11 @@ struct Renderer::State {
         if (algorithm.run == find_algorithm("depth_units")->run)
             merge(all,
                   {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
-        const auto needs = [&](Feature f) {
-            return std::find(algorithm.features.begin(), algorithm.features.end(), f) != algorithm.features.end();
-        };
-        if (needs(Feature::ordered_rmw))
+        if (needs(algorithm, Feature::ordered_rmw))
             merge(all, {Fault::emulator_extension, 0, -1, -1,
                         "STRATA_ordered_rmw: no device's programs read what they write, in order"});
-        const bool compares_in_program = algorithm.key == DepthKey::stored_code && needs(Feature::fragment_programs) &&
+        const bool compares_in_program = algorithm.key == DepthKey::stored_code &&
+                                         needs(algorithm, Feature::fragment_programs) &&
                                          depth.format != DepthFormat::d32f;
         const bool quantises = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
         if (compares_in_program && (quantises || algorithm.compares_own_codes))

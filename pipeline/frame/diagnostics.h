@@ -20,7 +20,8 @@ enum class Fault : std::uint8_t {
     equal_at_bound,   // fragments of equal depth at the bound of a peel
     buffer_overflow,  // more fragments at a pixel than its k entries can hold or order
     as_published,     // a listing as printed lost, repeated or misplaced fragments
-    out_of_order,     // what an algorithm takes for sorted is not front to back
+    out_of_order,     // what an algorithm takes for sorted is not
+    unlike_depths,    // layers lost or repeated because the compared depths are not the stored ones
     emulator_extension,  // a feature no real device had (STRATA_depth_units ...)
 };
 
@@ -39,6 +40,7 @@ enum class Fault : std::uint8_t {
         case Fault::buffer_overflow: return "buffer_overflow";
         case Fault::as_published: return "as_published";
         case Fault::out_of_order: return "out_of_order";
+        case Fault::unlike_depths: return "unlike_depths";
         case Fault::emulator_extension: return "emulator_extension";
     }
     return "";  // unreachable: the enum is closed

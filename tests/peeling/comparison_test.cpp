@@ -75,6 +75,7 @@ TEST_CASE("window_z stored and r/q compared peels layers twice or loses them, an
                                    with_paths(DepthFormat::d24, DepthPath::window_z, DepthPath::perspective_rq));
     CHECK(wrong.audit.order_errors.value() > 0);
     CHECK(has_diagnostic(wrong, Fault::endless));
+    CHECK(diagnosed(wrong, Fault::unlike_depths) == wrong.audit.misordered.pixels);
     CHECK(wrong.frame.passes.geometry > right.frame.passes.geometry);
 }
 

@@ -1,0 +1,137 @@
+// The model: cases whose outcome is known from the algorithms' own rules, and an algorithm that is broken on purpose.
+#include "tools/strata/hard_cases/hard_run.h"
+
+#include <catch2/catch.hpp>
+
+#include "peeling/programs/programs.h"
+#include "peeling/registry.h"
+#include "pipeline/region/region.h"
+
+namespace {
+
+using namespace strata;
+using namespace strata::pipeline;
+using tools::HardMachine;
+using tools::HardRow;
+using tools::HardVerdict;
+
+HardRow run(const char* hard, const char* profile, DepthFormat format, const peeling::Algorithm& algorithm) {
+    return HardMachine{*scenes::find_hard_case(hard), *find_profile(profile), format}.run(algorithm);
+}
+HardRow run(const char* hard, const char* profile, DepthFormat format, const char* algorithm) {
+    return run(hard, profile, format, *peeling::find_algorithm(algorithm));
+}
+
+// Front to back with < where <= belongs: a fragment does not lie behind its own depth, so that the nearest layer is
+// found again and again. Four passes.
+void peel_by_less(peeling::Algorithm& algorithm) {
+    algorithm.name = "by-less";
+    algorithm.closed_form = nullptr;
+    algorithm.run = [](Region& region) {
+        const Target result = region.make_color();
+        Target peeled = region.make_depth(), nearest = region.make_depth();
+        region.copy(region.opaque_color(), result);
+        for (int number = 0; number < 4; ++number) {
+            region.begin_iteration();
+            region.copy(region.opaque_depth(), nearest);
+            PassState state;
+            state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+            state.depth_target = nearest;
+            if (number > 0) state.reads[0] = peeled;
+            static_cast<void>(region.draw(state, [number](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                for (std::size_t i = 0; number > 0 && i < peeling::lanes(in); ++i)
+                    if (in.code[i] < own.depth(0)[i]) out.discard(static_cast<int>(i));
+            }));
+            PassState show;
+            show.color[0] = result;
+            show.reads = {nearest, region.opaque_depth()};
+            static_cast<void>(region.full_screen(show, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                out.traced = true;
+                for (std::size_t i = 0; i < peeling::lanes(in); ++i) {
+                    out.side[i] = own.depth(0)[i] != own.depth(1)[i] ? Side::front : Side::none;
+                    out.key[i] = own.depth(0)[i];
+                }
+            }));
+            std::swap(peeled, nearest);
+        }
+        region.publish(result);
+    };
+}
+
+}  // namespace
+
+TEST_CASE("crossing planes are stable where the format keeps them apart, and break where two depths are one") {
+    const HardRow stable = run("crossing-between-rows", "geforce8", DepthFormat::d24, "front_to_back");
+    CHECK(stable.verdict == HardVerdict::stable);
+    CHECK(stable.reasons.empty());
+    CHECK(stable.found.visible == 2048);
+    const HardRow breaks = run("crossing-along-a-row", "geforce8", DepthFormat::d24, "front_to_back");
+    CHECK(breaks.verdict == HardVerdict::breaks);
+    CHECK(breaks.found.tied_pixels == 32);
+    CHECK(breaks.found.lost_by_ties == 32);
+    CHECK(run("crossing-along-a-row", "geforce8", DepthFormat::d24, "layer_peel").found.lost == 0);
+}
+
+TEST_CASE("sorted triangles break on a cyclic overlap, and their diagnostic names the pixels") {
+    const HardRow row = run("cyclic-overlap", "geforce3", DepthFormat::d24, "painter");
+    CHECK(row.verdict == HardVerdict::breaks);
+    CHECK(row.found.wrong_pixels > 0);
+    const auto named = std::find_if(row.diagnostics.begin(), row.diagnostics.end(),
+                                    [](const Diagnostic& d) { return d.fault == Fault::out_of_order; });
+    REQUIRE(named != row.diagnostics.end());
+    CHECK(named->pixels == row.found.wrong_pixels);
+}
+
+TEST_CASE("a strip of 1/256 pixel is not there on a grid of 1/16, which is a loss of geometry and not of layers") {
+    const HardRow coarse = run("sliver-1-256", "geforce3", DepthFormat::d24, "depth_units");
+    CHECK(coarse.verdict == HardVerdict::degrades);
+    CHECK(coarse.found.visible == 0);
+    CHECK(run("sliver-1-256", "geforce8", DepthFormat::d24, "depth_units").verdict == HardVerdict::stable);
+}
+
+// Dual peeling keeps depths in a float target by MAX, and G80 flushes what it blends there.
+TEST_CASE(
+    "denormal depths are lost to dual peeling where blending flushes them, and a diagnostic says at which pixels") {
+    const HardRow flushed = run("depth-denormal", "geforce8", DepthFormat::d32f, "dual");
+    CHECK(flushed.verdict == HardVerdict::breaks);
+    CHECK(flushed.found.wrong_pixels == 1024);
+    // The colour that keeps the depth before is flushed, too: this peel would go on for ever.
+    CHECK(run("depth-denormal", "geforce8", DepthFormat::d32f, "coherent_blend").verdict == HardVerdict::breaks);
+    CHECK(run("depth-denormal", "ideal", DepthFormat::d32f, "dual").verdict == HardVerdict::stable);
+    CHECK(run("depth-denormal", "geforce8", DepthFormat::d32f, "front_to_back").verdict == HardVerdict::stable);
+}
+
+TEST_CASE("a reversed depth range is refused by name") {
+    const HardRow row = run("reversed-range", "geforce8", DepthFormat::d24, "dual");
+    CHECK(row.verdict == HardVerdict::refused);
+    CHECK_THAT(row.refusal, Catch::Contains("reversed depth range"));
+}
+
+TEST_CASE("a peel that compares with < for <= is called failed, with the fragments that it repeats and loses") {
+    peeling::Algorithm broken = *peeling::find_algorithm("front_to_back");
+    peel_by_less(broken);
+    const HardRow row = run("crossing-between-rows", "geforce8", DepthFormat::d24, broken);
+    CHECK(row.verdict == HardVerdict::failed);
+    // Each of 1024 pixels shows its nearer layer four times and the farther one never.
+    CHECK(row.found.repeated == 3 * 1024);
+    CHECK(row.found.lost == 1024);
+    CHECK(row.found.wrong_pixels == 1024);
+}
+
+TEST_CASE("no algorithm fails on a choice of hard cases on any of four devices") {
+    int rows = 0;
+    std::string first;
+    for (const char* hard : {"planes-8-close", "cyclic-overlap", "three-through-a-point", "through-near-and-far",
+                             "alpha-half-a-code", "infinite-vertices", "frame-1x1"})
+        for (const char* profile : {"geforce3", "geforce8", "ideal", "llvmpipe"}) {
+            HardMachine machine{*scenes::find_hard_case(hard), *find_profile(profile), DepthFormat::d24};
+            for (const peeling::Algorithm& algorithm : peeling::algorithms()) {
+                const HardRow row = machine.run(algorithm);
+                if (row.verdict != HardVerdict::refused) ++rows;
+                if (row.verdict == HardVerdict::failed && first.empty())
+                    first = std::string{hard} + " " + profile + " " + algorithm.name + ": " + row.reasons.front();
+            }
+        }
+    CHECK(first == "");
+    CHECK(rows > 350);
+}

@@ -1,0 +1,120 @@
+#include "tools/strata/hard_cases/hard_page.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "peeling/registry.h"
+#include "peeling/render.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/image_io.h"
+
+namespace strata::tools {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::array page_verdicts{HardVerdict::stable, HardVerdict::degrades, HardVerdict::breaks, HardVerdict::failed,
+                                   HardVerdict::refused};
+
+// How often each verdict stands in some lines, in the order of page_verdicts.
+using VerdictCounts = std::array<int, page_verdicts.size()>;
+
+void count(const ordered_json& line, VerdictCounts& counts) {
+    for (std::size_t i = 0; i < page_verdicts.size(); ++i)
+        if (line["verdict"] == name_of(page_verdicts[i])) ++counts[i];
+}
+
+std::string page_row(const std::string& name, const VerdictCounts& counts) {
+    std::string row = "| " + name;
+    for (const int number : counts) row += fmt::format(" | {}", number);
+    return row + " |\n";
+}
+
+std::string page_head(const std::string& first) {
+    std::string head = "| " + first, rule = "\n|---";
+    for (const HardVerdict verdict : page_verdicts) {
+        head += fmt::format(" | {}", name_of(verdict));
+        rule += "|---:";
+    }
+    return head + " |" + rule + "|\n";
+}
+
+// The first reason of each kind of trouble that the case met, with where.
+std::string troubles(const std::vector<const ordered_json*>& lines) {
+    std::string text;
+    for (const HardVerdict verdict : {HardVerdict::failed, HardVerdict::breaks, HardVerdict::degrades}) {
+        for (const ordered_json* line : lines) {
+            if ((*line)["verdict"] != name_of(verdict)) continue;
+            text += fmt::format("- {}, for instance {} on {} at {}:", name_of(verdict),
+                                (*line)["algorithm"].get<std::string>(), (*line)["profile"].get<std::string>(),
+                                (*line)["depth"].get<std::string>());
+            for (const auto& reason : (*line)["reasons"]) text += " " + reason.get<std::string>() + ";";
+            text.back() = '.';
+            text += "\n";
+            break;
+        }
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+std::string section(const HardSweep& sweep, const scenes::HardCase& hard, bool has_picture,
+                    const std::vector<const ordered_json*>& lines) {
+    const scenes::HardAnswer& counts = hard.counts;
+    std::string text = fmt::format("\n## {}\n", hard.name);
+    if (has_picture) text += fmt::format("![{}](pictures/{}.png)\n\n", hard.name, hard.name);
+    text += fmt::format(
+        "{} Right answer: {} Exact geometry has {} visible fragments, {} at the deepest pixel, {} layers, "
+        "and ties at {} pixels of {} x {}.\n\n",
+        hard.hard, hard.answer, counts.fragments, counts.deepest, counts.layers, counts.tied_pixels, hard.width,
+        hard.height);
+    text += page_head("profile");
+    for (const auto& profile : sweep.profiles) {
+        VerdictCounts own{};
+        for (const ordered_json* line : lines)
+            if ((*line)["profile"] == profile.name) count(*line, own);
+        text += page_row(profile.name, own);
+    }
+    return text + troubles(lines);
+}
+
+std::string picture_file(const HardSweep& sweep, const scenes::HardCase& hard) {
+    return (std::filesystem::path(sweep.folder) / "pictures" / (std::string{hard.name} + ".png")).string();
+}
+
+bool is_refused(const scenes::HardCase& hard) { return hard.depth_near > hard.depth_far; }
+
+}  // namespace
+
+std::string page_of(const HardSweep& sweep, const Lines& lines) {
+    std::map<std::string, std::vector<const ordered_json*>> by_case;
+    VerdictCounts all{};
+    for (const ordered_json& line : lines) {
+        by_case[line["case"].get<std::string>()].push_back(&line);
+        count(line, all);
+    }
+    std::string text = fmt::format(
+        "# Hard cases\n"
+        "{} scenes by {} algorithms on {} devices at {} depth formats. Pictures are the exact A-buffer of the profile "
+        "ideal.\n\n",
+        sweep.cases.size(), sweep.algorithms.size(), sweep.profiles.size(), sweep.formats.size());
+    text += page_head("") + page_row("all", all);
+    for (const scenes::HardCase* hard : sweep.cases)
+        text += section(sweep, *hard, !is_refused(*hard), by_case[std::string{hard->name}]);
+    return text;
+}
+
+void write_page(const HardSweep& sweep, const Lines& lines) {
+    std::filesystem::create_directories(std::filesystem::path(sweep.folder) / "pictures");
+    for (const scenes::HardCase* hard : sweep.cases) {
+        if (is_refused(*hard)) continue;
+        const auto picture = picture_of(*hard, *pipeline::find_profile("ideal"), *peeling::find_algorithm("a_buffer"));
+        scenes::write_image(picture_file(sweep, *hard), {.color = picture.frame.color});
+    }
+    scenes::write_file((std::filesystem::path(sweep.folder) / "RESULTS.md").string(), page_of(sweep, lines));
+}
+
+}  // namespace strata::tools

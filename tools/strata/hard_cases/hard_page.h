@@ -1,0 +1,18 @@
+// tools/strata/hard_cases/hard_page.h - the lines of a sweep as a page for people, with a picture a case.
+//
+// Rule     FOLDER/RESULTS.md and FOLDER/pictures/NAME.png: the exact A-buffer of the profile ideal. The page follows from the lines
+//          alone; it holds no time and no place.
+// Tests    tests/tools/hard_cases/hard_page_test.cpp
+#pragma once
+#include <string>
+
+#include "tools/strata/hard_cases/hard_sweep.h"
+
+namespace strata::tools {
+
+[[nodiscard]] std::string page_of(const HardSweep& sweep, const Lines& lines);
+
+// Writes the page and its pictures. A case that even the oracle refuses has none.
+void write_page(const HardSweep& sweep, const Lines& lines);
+
+}  // namespace strata::tools

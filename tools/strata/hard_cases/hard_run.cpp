@@ -1,0 +1,238 @@
+#include "tools/strata/hard_cases/hard_run.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "peeling/audit/image_error.h"
+#include "peeling/audit/region_trace.h"
+#include "peeling/registry.h"
+#include "peeling/render.h"
+#include "rasterizer/base/simd.h"
+#include "tools/strata/hard_cases/hard_truth.h"
+#include "tools/strata/options/choices.h"
+
+namespace strata::tools {
+
+using namespace pipeline;
+
+std::string_view name_of(HardVerdict verdict) noexcept {
+    switch (verdict) {
+        case HardVerdict::refused: return "refused";
+        case HardVerdict::stable: return "stable";
+        case HardVerdict::degrades: return "degrades gracefully";
+        case HardVerdict::breaks: return "breaks as the hardware did";
+        case HardVerdict::failed: return "failed";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+// A renderer that no bit of the result may depend on.
+struct HardMachine::Way {
+    std::string name;
+    std::unique_ptr<peeling::Renderer> renderer;
+};
+
+namespace {
+
+peeling::RenderOptions options_of(const scenes::HardCase& hard, std::optional<DepthFormat> depth) {
+    peeling::RenderOptions options;
+    options.width = hard.width;
+    options.height = hard.height;
+    options.threads = 1;
+    options.depth = depth;
+    options.raster.depth_near = hard.depth_near;
+    options.raster.depth_far = hard.depth_far;
+    return options;
+}
+
+// Names and settings, the default way first.
+std::vector<std::pair<std::string, peeling::RenderOptions>> ways_of(const peeling::RenderOptions& options) {
+    std::vector<std::pair<std::string, peeling::RenderOptions>> ways{{"default", options}};
+    const auto add = [&](std::string name) -> peeling::RenderOptions& {
+        return ways.emplace_back(std::move(name), options).second;
+    };
+    add("literal").execution = Execution::literal;
+    peeling::RenderOptions& threads = add("threads=2");
+    threads.threads = 2;
+    threads.tile_size = 8;
+    add("effects=all").effects = Effects::all;
+    for (const Simd simd : available_simd()) add("simd=" + std::string{name_of(simds, simd)}).simd = simd;
+    return ways;
+}
+
+std::uint64_t nan_values(const Image& image) {
+    std::uint64_t found = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < image.channels(); ++c)
+                if (std::isnan(peeling::channel_value(image, x, y, c))) ++found;
+    return found;
+}
+
+bool is_alike(const peeling::RenderResult& a, const peeling::RenderResult& b) {
+    return a.frame.color == b.frame.color && a.frame.depth == b.frame.depth && a.audit == b.audit &&
+           a.frame.diagnostics == b.frame.diagnostics && a.frame.passes.geometry == b.frame.passes.geometry;
+}
+
+bool has(const std::vector<Diagnostic>& all, Fault fault) {
+    return std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) { return d.fault == fault; });
+}
+
+// Whether a diagnostic that explains fragments in wrong places names exactly so many pixels.
+bool is_named(const std::vector<Diagnostic>& all, std::uint64_t pixels) {
+    return std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) {
+        switch (d.fault) {
+            case Fault::endless:
+            case Fault::early_end:
+            case Fault::truncated:
+            case Fault::as_published:
+            case Fault::buffer_overflow:
+            case Fault::stencil_saturated:
+            case Fault::unlike_depths:
+            case Fault::out_of_order: return d.pixels == pixels;
+            case Fault::half_saturated:
+            case Fault::merged_ties:
+            case Fault::depth_quantized:
+            case Fault::non_finite_vertices:
+            case Fault::count_limit:
+            case Fault::equal_at_bound:
+            case Fault::emulator_extension: return false;
+        }
+        return false;  // unreachable: the enum is closed
+    });
+}
+
+// The verdict only rises.
+void say(HardRow& row, HardVerdict verdict, std::string reason) {
+    row.verdict = std::max(row.verdict, verdict);
+    row.reasons.push_back(std::move(reason));
+}
+
+void judge_sequence(HardRow& row, const peeling::Algorithm& algorithm, const peeling::AuditResult& audit) {
+    const Composited& found = row.found;
+    if (found.wrong_pixels > 0)
+        say(row, is_named(row.diagnostics, found.wrong_pixels) ? HardVerdict::breaks : HardVerdict::failed,
+            fmt::format("{} lost, {} repeated, {} misplaced at {} pixels", found.lost, found.repeated, found.misplaced,
+                        found.wrong_pixels));
+    const bool is_ordered = algorithm.ties != peeling::TiePolicy::none;
+    if (is_ordered && audit.order_errors.value_or(0) == 0 && found.wrong_pixels > 0)
+        say(row, HardVerdict::failed, "the audit found no order error");
+    const bool drops = algorithm.ties == peeling::TiePolicy::unique || algorithm.ties == peeling::TiePolicy::merged;
+    if (!drops) return;
+    const auto named = std::find_if(row.diagnostics.begin(), row.diagnostics.end(),
+                                    [](const Diagnostic& d) { return d.fault == Fault::merged_ties; });
+    const std::uint64_t pixels = named == row.diagnostics.end() ? 0 : named->pixels;
+    if (pixels != found.tied_pixels)
+        say(row, HardVerdict::failed,
+            fmt::format("{} pixels with ties, and merged_ties says {}", found.tied_pixels, pixels));
+    if (found.lost_by_ties > 0)
+        say(row, HardVerdict::breaks,
+            fmt::format("{} fragments lost by ties at {} pixels", found.lost_by_ties, found.tied_pixels));
+}
+
+// Exact algorithms must keep the bound. Others may leave it, if a fault or their own nature says so.
+void judge_picture(HardRow& row, const scenes::HardCase& hard, const peeling::Algorithm& algorithm) {
+    const bool saturated =
+        has(row.diagnostics, Fault::half_saturated) || has(row.diagnostics, Fault::stencil_saturated);
+    if (row.nan_values > 0 && !hard.is_non_finite)
+        say(row, saturated ? HardVerdict::breaks : HardVerdict::failed,
+            fmt::format("{} values of the picture are NaN", row.nan_values));
+    if (row.difference_at_ties > row.bound && algorithm.ties != peeling::TiePolicy::unique &&
+        algorithm.ties != peeling::TiePolicy::merged)
+        say(row, HardVerdict::degrades,
+            fmt::format("{:.1f}/255 from the truth where keys are equal", row.difference_at_ties));
+    if (row.difference <= row.bound) return;
+    const std::string reason = fmt::format("{:.1f}/255 from the truth", row.difference);
+    if (saturated || row.found.wrong_pixels > 0)
+        say(row, HardVerdict::breaks, reason);
+    else
+        say(row, algorithm.exact ? HardVerdict::failed : HardVerdict::degrades, reason);
+}
+
+void judge_geometry(HardRow& row, const scenes::HardCase& hard, const peeling::Algorithm& algorithm) {
+    // What an alpha test keeps from being a layer is no loss of geometry.
+    if (row.found.visible != hard.counts.fragments && !algorithm.kills_alpha_zero)
+        say(row, HardVerdict::degrades,
+            fmt::format("{} fragments, exact geometry has {}", row.found.visible, hard.counts.fragments));
+    if (row.found.layers != hard.counts.layers && !algorithm.kills_alpha_zero)
+        say(row, HardVerdict::degrades,
+            fmt::format("{} layers, exact geometry has {}", row.found.layers, hard.counts.layers));
+}
+
+}  // namespace
+
+void judge(HardRow& row, const scenes::HardCase& hard, const peeling::Algorithm& algorithm,
+           const peeling::AuditResult& audit) {
+    for (const std::string& way : row.unlike) say(row, HardVerdict::failed, "other bits with " + way);
+    judge_sequence(row, algorithm, audit);
+    judge_picture(row, hard, algorithm);
+    judge_geometry(row, hard, algorithm);
+}
+
+HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& profile, DepthFormat depth)
+    : hard_{hard},
+      profile_{profile},
+      scene_{make_hard_case({}, hard)},
+      options_{options_of(hard, depth)},
+      truth_{std::make_unique<const HardTruth>(scene_, profile_, options_)} {
+    for (auto& [name, options] : ways_of(options_))
+        ways_.push_back({name, std::make_unique<peeling::Renderer>(scene_.list, *scene_.own_view, profile_, options)});
+}
+
+HardMachine::~HardMachine() = default;
+
+bool HardMachine::is_run(const Way& way, const peeling::Algorithm& algorithm) const {
+    constexpr std::size_t many = std::size_t{1} << 20;
+    const std::size_t triangles = scene_.list.meshes[0].indices.size() / 3;
+    if (triangles * static_cast<std::size_t>(hard_.counts.layers) <= many) return true;
+    if (algorithm.whole_frame) return false;
+    const bool rasterizes_every_pass = way.name == "literal" || way.name == "effects=all";
+    return !rasterizes_every_pass || algorithm.closed_form != nullptr;
+}
+
+std::vector<std::string> HardMachine::unlike_ways(const peeling::Algorithm& algorithm,
+                                                  const peeling::RenderResult& first) {
+    std::vector<std::string> unlike;
+    for (std::size_t i = 1; i < ways_.size(); ++i)
+        if (is_run(ways_[i], algorithm) && !is_alike(first, ways_[i].renderer->render(algorithm)))
+            unlike.push_back(ways_[i].name);
+    return unlike;
+}
+
+HardRow HardMachine::run(const peeling::Algorithm& algorithm) {
+    peeling::Renderer& renderer = *ways_.front().renderer;
+    const peeling::RenderResult result = renderer.render(algorithm);
+    HardRow row;
+    if (result.refusal) {
+        row.refusal = result.refusal->sentence(profile_);
+        row.verdict = HardVerdict::refused;
+        return row;
+    }
+    std::vector<peeling::RegionTrace> traces;
+    static_cast<void>(renderer.render_traced(algorithm, traces));
+    const peeling::FrameFragments fragments = renderer.fragments(algorithm);
+    const bool tests_codes =
+        profile_.alpha_test == AlphaTestPrecision::unorm8 || renderer.color_format() == Format::rgba8;
+    const ComposedFrame composed{algorithm, hard_.width, tests_codes, fragments, traces};
+    row.found = composited(composed);
+    row.diagnostics = result.frame.diagnostics;
+    const HardTruth::Difference difference = truth_->difference(composed, result.frame.color);
+    row.difference = difference.elsewhere;
+    row.difference_at_ties = difference.at_ties;
+    row.bound = renderer.color_format() == Format::rgba8 ? hard_.bound : 1;
+    row.nan_values = nan_values(result.frame.color);
+    row.unlike = unlike_ways(algorithm, result);
+    row.digest = digest(result.frame.color);
+    judge(row, hard_, algorithm, result.audit);
+    return row;
+}
+
+peeling::RenderResult picture_of(const scenes::HardCase& hard, const DeviceProfile& profile,
+                                 const peeling::Algorithm& algorithm) {
+    const scenes::Scene scene = make_hard_case({}, hard);
+    peeling::Renderer renderer{scene.list, *scene.own_view, profile, options_of(hard, {})};
+    return renderer.render(algorithm);
+}
+
+}  // namespace strata::tools
