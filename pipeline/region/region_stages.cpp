@@ -6,6 +6,7 @@
 #include "pipeline/formats/convert.h"
 #include "pipeline/formats/narrow.h"
 #include "pipeline/formats/unorm8.h"
+#include "pipeline/formats/unorm8_product.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/check_pass.h"
@@ -165,7 +166,11 @@ void Region::load_target(TargetStorage& from, std::size_t read, const FragmentBa
     const FormatInfo format = info(from.format());
     from.gather(batch.pixel, batch.count, 0, scratch_->codes);
     for (std::size_t c = 0; c < 4; ++c) {
-        if (c < static_cast<std::size_t>(format.channels))
+        if (c < static_cast<std::size_t>(format.channels) && format.type == ChannelType::unorm8 &&
+            profile().unorm_rounding == UnormRounding::product_even)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                scratch_->loads.color_[read][c][i] = unorm8_product(scratch_->codes[c][i]);
+        else if (c < static_cast<std::size_t>(format.channels))
             decode(format.type, scratch_->codes[c], scratch_->loads.color_[read][c], batch.count);
         else
             std::fill_n(scratch_->loads.color_[read][c].begin(), batch.count, c == 3 ? 1.0f : 0.0f);

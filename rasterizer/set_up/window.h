@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "rasterizer/base/exact_sum.h"
+#include "rasterizer/base/fused.h"
 #include "rasterizer/base/nv20_arithmetic.h"
 #include "rasterizer/set_up/geometry.h"
 #include "rasterizer/set_up/plain_vertices.h"
@@ -31,15 +31,6 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
 // The number of vertex z units in depth 1.0: the depth buffer's own, or 1.
 [[nodiscard]] constexpr double z_units(const RasterState& state, const RasterRules& rules) noexcept {
     return rules.window_z == WindowZ::buffer_units ? buffer_units(state.depth_format) : 1.0;
-}
-
-// a * b + c rounded once to binary32.
-[[nodiscard]] constexpr float fused_multiply_add(float a, float b, float c) noexcept {
-    const TwoTerms sum = two_sum(double{a} * b, double{c});
-    auto bits = std::bit_cast<std::uint64_t>(sum.high);
-    if (sum.low != 0.0 && (bits & 1) == 0)
-        bits += (sum.low > 0.0) == (sum.high > 0.0) ? 1 : ~std::uint64_t{0};  // to odd
-    return static_cast<float>(std::bit_cast<double>(bits));
 }
 
 // v in subpixels; |v| * 2^n < 2^30.

@@ -12,9 +12,9 @@
 #include <array>
 #include <cstdint>
 
+#include "rasterizer/base/fused.h"
 #include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/set_up/geometry.h"
-#include "rasterizer/set_up/window.h"
 
 namespace strata::rasterizer {
 inline namespace strict {

@@ -1,7 +1,5 @@
 // rasterizer/values/float_values.cpp - depth and attributes of a batch by the binary32 planes of float_planes.h.
 // Tests: tests/rasterizer/values/float_planes_test.cpp
-#include <algorithm>
-
 #include "rasterizer/values/float_planes.h"
 #include "rasterizer/values/fragment_values.h"
 
@@ -17,10 +15,8 @@ void FragmentValues::fill_float_z(const SetupTriangle& t, const DrawnTriangle& t
                                   FragmentBatch& batch) const noexcept {
     std::array<float, 3> z;
     for (std::size_t i = 0; i < 3; ++i) z[i] = static_cast<float>(t.z[i]) / static_cast<float>(z_units_);
-    float* const out = &batch.shader_z[static_cast<std::size_t>(first)];
     const FloatPlanes planes = float_planes(triangle.geometry, triangle.record);
-    fill_plane(planes.plane(z), first, batch, out);
-    for (int i = 0; i < batch.count - first; ++i) out[i] = std::min(out[i] > 0.0f ? out[i] : 0.0f, 1.0f);
+    fill_plane(planes.plane(z), first, batch, &batch.shader_z[static_cast<std::size_t>(first)]);
 }
 
 void FragmentValues::fill_float_attributes(const DrawnTriangle& triangle, int first,

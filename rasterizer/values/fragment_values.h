@@ -4,9 +4,10 @@
 //          clamped to the depth range. Attributes: u (1/w) rounded to binary32 at the vertex, its exact plane rounded
 //          once, divided by the plane of 1/w rounded once, the quotient correctly rounded; three vertex values of the
 //          same bits are that constant [A]. PlaneOrigin::unsnapped: the planes start at the unsnapped positions,
-//          evaluated in binary64 and rounded once. Another PlaneRule: planes of float_planes.h, shader_z clamped to
-//          [0,1]; PerspectiveDivide::reciprocal multiplies by the rounded reciprocal of the plane of 1/w. Colours by 8-bit weights, coordinates by cut weights: color_weights.h,
-//          cut_coordinates.h. depth_replace drops a fragment whose depth is outside the depth
+//          evaluated in binary64 and rounded once. Another PlaneRule: planes of float_planes.h;
+//          PerspectiveDivide::reciprocal multiplies by the rounded reciprocal of the plane of 1/w. Colours by 8-bit
+//          weights, coordinates by cut weights: color_weights.h, cut_coordinates.h.
+//          depth_replace drops a fragment whose depth is outside the depth
 //          range (with depth clamp: clamps it), after the clip of window z. The reference is another depth of the same
 //          fragment.
 // Source   depth.md 3 and 4; attributes.md 1 to 3.

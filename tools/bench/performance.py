@@ -29,7 +29,8 @@ class Scene:
         described = side_by_side.SCENES[name]
         camera = pathlib.Path(folder) / f"{name}.json"
         camera.write_text(json.dumps(described["camera"]))
-        self.name, self.spec, self.options = name, spec, ["--camera", str(camera)]
+        self.name, self.spec = name, spec
+        self.options = ["--camera", str(camera), "--profile", side_by_side.timed_profile(folder)]
         if described["alpha"]:
             self.options += ["--alpha", described["alpha"]]
 
@@ -73,7 +74,7 @@ def bench(options, scene, *, small=False, execution="replay", memory="256M", sim
     """The jobs of one run of strata bench, which is done once a turn. `small`: where the slow ways can be waited for."""
     spec = f"volume-beam:slices={options.slices // 4}" if small and scene.name == "planes" else scene.spec
     command = [options.strata, "bench", spec, *scene.options, "--size", options.small if small else options.size,
-               "--profile", "llvmpipe", "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--fragment-memory", memory, "--simd", simd,
+               "--algorithm", ",".join(ALGORITHMS), "--execution", execution, "--fragment-memory", memory, "--simd", simd,
                "--effects", effects, "--threads", str(threads), "--repeat", str(options.repeat), "--json", "-"]
     line = " ".join(command)
     if (line, turn) not in MEASURED:
@@ -264,7 +265,7 @@ def memory_section(options, scenes):
         own = peak_mib([options.strata, "scene", scene.spec])
         bound = 1.5 * (own + targets + fragment_memory)
         for algorithm in ALGORITHMS:
-            peak = peak_mib([options.strata, "bench", scene.spec, *scene.options, "--size", options.size, "--profile", "llvmpipe",
+            peak = peak_mib([options.strata, "bench", scene.spec, *scene.options, "--size", options.size,
                              "--algorithm", algorithm, "--threads", "2", "--repeat", "1"])
             rows.append([scene.name, algorithm, f"{peak:.0f}", f"{own:.0f}", f"{targets:.0f}", fragment_memory, f"{bound:.0f}",
                          "yes" if peak <= bound else "**no**"])

@@ -313,6 +313,35 @@ TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
     CHECK(m.books.records.front().passes.copies == 1);
 }
 
+TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient, or a binary32 product with 1/255") {
+    for (const char* profile : {"geforce8", "llvmpipe"}) {
+        Machine m{FragmentScene{16, 16}, profile};
+        const Target codes = m.region.make(Format::rgba8), values = m.region.make(Format::rgba32f);
+        for (std::uint32_t k = 0; k < 256; ++k) {
+            const float value = static_cast<float>(k) / 255.0f;
+            strata::pipeline::RegionShortcuts{m.region}.store_pixel(codes, k, {value, value, value, value});
+        }
+        PassState state;
+        state.color[0] = values;
+        state.reads = {codes};
+        static_cast<void>(m.region.full_screen(
+            state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
+        const auto found = m.region.image(values).codes;
+        // A binary32 times a code has 32 bits at most: binary64 holds the product, and the cast rounds it once.
+        int wrong = 0, unlike_quotient = 0;
+        for (std::uint32_t k = 0; k < 256; ++k) {
+            const float quotient = static_cast<float>(k) / 255.0f;
+            const auto product = static_cast<float>(static_cast<double>(k) * double{1.0f / 255.0f});
+            const float expected = profile == std::string_view{"llvmpipe"} ? product : quotient;
+            for (std::size_t c = 0; c < 4; ++c)
+                wrong += found[4 * k + c] == std::bit_cast<std::uint32_t>(expected) ? 0 : 1;
+            unlike_quotient += product == quotient ? 0 : 1;
+        }
+        CHECK(wrong == 0);
+        CHECK(unlike_quotient == 126);
+    }
+}
+
 TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {
     FragmentScene scene{2, 1};
     scene.pixels[1].opaque = GivenFragment{0.25f, {1, 0, 1, 0}};

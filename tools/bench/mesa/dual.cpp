@@ -14,13 +14,17 @@ namespace {
 // below any depth and means empty.
 constexpr std::array<float, 4> zero{}, empty_min_max{-1, -1, 0, 0};
 
-// The first pass: each fragment's depth as both ends.
+// The first pass: each fragment's depth as both ends. A depth of 1 is dropped, as by a test LESS against a cleared opaque depth, which
+// Strata's passes make.
 constexpr auto min_max_text = R"(
 layout(location = 0) out vec2 min_max;
-void main() { min_max = vec2(-gl_FragCoord.z, gl_FragCoord.z); }
+void main() {
+    if (gl_FragCoord.z >= 1.0) discard;
+    min_max = vec2(-gl_FragCoord.z, gl_FragCoord.z);
+}
 )";
 
-// Nothing is discarded: the front colour survives MAX by passing through (E13).
+// Nothing else is discarded: the front colour survives MAX by passing through (E13).
 constexpr auto dual_text = R"(
 layout(binding = 0) uniform sampler2D last_min_max;
 layout(binding = 1) uniform sampler2D last_front;
@@ -30,6 +34,7 @@ layout(location = 2) out vec4 back;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float z = gl_FragCoord.z;
+    if (z >= 1.0) discard;
     vec2 range = texelFetch(last_min_max, pixel, 0).rg;
     float near = -range.x, far = range.y;
     min_max = vec2(-1.0);

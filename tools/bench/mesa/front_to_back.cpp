@@ -22,14 +22,13 @@ void main() {
 }
 )";
 
-// Fixed-point depths are compared as codes, by the driver's own rule of a depth write: raw, a fragment would lie behind
-// itself and the peel would never end.
-constexpr auto float_depth_text = "float code(float z) { return z; }\n";
-constexpr auto d16_text = "float code(float z) { return roundEven(z * 65535.0); }\n";
-constexpr auto d24_text = "float code(float z) { return roundEven(z * 16777215.0); }\n";
-
-std::string code_text(pipeline::Format depth) {
-    return depth == pipeline::Format::d16 ? d16_text : depth == pipeline::Format::d24 ? d24_text : float_depth_text;
+// A depth as the driver stores and reads it back: code times the binary32 reciprocal of the greatest code, which for d24 is another
+// float than the quotient. Compared raw, a fragment would lie behind itself and the peel would never end.
+std::string stored_text(pipeline::Format depth) {
+    const std::string greatest = depth == pipeline::Format::d16 ? "65535.0" : "16777215.0";
+    const std::string stored =
+        depth == pipeline::Format::d32f ? "z" : "roundEven(z * " + greatest + ") * (1.0 / " + greatest + ")";
+    return "float stored(float z) { return " + stored + "; }\n";
 }
 
 // As the first pass, but without what is not behind the depth peeled before. Equal depths are one
@@ -38,7 +37,7 @@ constexpr auto peel_next_text = R"(
 layout(binding = 0) uniform sampler2D peeled;
 layout(location = 0) out vec4 layer;
 void main() {
-    if (code(gl_FragCoord.z) <= code(texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).r)) discard;
+    if (stored(gl_FragCoord.z) <= texelFetch(peeled, ivec2(gl_FragCoord.xy), 0).r) discard;
     vec4 color = shade();
     layer = vec4(color.rgb * color.a, color.a);
 }
@@ -72,7 +71,7 @@ struct PeelTargets {
           finish{make_framebuffer({result.name()})},
           query{make_query()},
           first_program{scene.make_program(peel_first_text)},
-          next_program{scene.make_program(code_text(formats.depth) + peel_next_text)},
+          next_program{scene.make_program(stored_text(formats.depth) + peel_next_text)},
           under_program{make_full_screen_program(copy_text)},
           finish_program{make_full_screen_program(opaque_copy_text)} {
         for (std::size_t i = 0; i < 2; ++i) peel[i] = make_framebuffer({layer.name()}, depth[i].name());

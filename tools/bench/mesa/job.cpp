@@ -17,7 +17,8 @@ const std::vector<Maker>& makers() {
     static const std::vector<Maker> all{{"depth", depth_job},
                                         {"front_to_back", front_to_back_job},
                                         {"dual", dual_job},
-                                        {"weighted_average", weighted_average_job}};
+                                        {"weighted_average", weighted_average_job},
+                                        {"sums", sums_job}};
     return all;
 }
 

@@ -24,7 +24,7 @@ struct Job {
     std::function<int(std::vector<std::uint32_t>& pixels, int max_passes)> draw;
 };
 
-// depth, front_to_back, dual, weighted_average.
+// depth, front_to_back, dual, weighted_average, and the sums that the last one makes its colours of.
 [[nodiscard]] const std::vector<std::string>& job_names();
 
 // Makes all targets and programs of the algorithm, which keeps a reference to `scene`. Throws
@@ -35,6 +35,7 @@ struct Job {
 // answers the fragments of every pixel, without depth test.
 [[nodiscard]] Job depth_job(const GpuScene& scene, Size size, const TargetFormats& formats);
 [[nodiscard]] Job weighted_average_job(const GpuScene& scene, Size size, const TargetFormats& formats);
+[[nodiscard]] Job sums_job(const GpuScene& scene, Size size, const TargetFormats& formats);
 [[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size);
 
 [[nodiscard]] Job front_to_back_job(const GpuScene& scene, Size size,

@@ -88,6 +88,17 @@ std::size_t pixels_that_differ(const pipeline::Image& a, const pipeline::Image& 
     return differ;
 }
 
+// Where the two pictures differ first, and the codes of either.
+ordered_json first_difference(const pipeline::Image& theirs, const pipeline::Image& ours, Size size) {
+    const auto channels = static_cast<std::size_t>(ours.channels()), width = static_cast<std::size_t>(size.width);
+    const auto [their, our] = std::ranges::mismatch(theirs.codes, ours.codes);
+    const std::size_t pixel = static_cast<std::size_t>(our - ours.codes.begin()) / channels;
+    const auto codes = [&](const pipeline::Image& image) {
+        return std::vector(&image.codes[pixel * channels], &image.codes[pixel * channels] + channels);
+    };
+    return {{"x", pixel % width}, {"y", pixel / width}, {"mesa", codes(theirs)}, {"strata", codes(ours)}};
+}
+
 // Wall-clock seconds of one run. Reading the pixels back ends it, so nothing is left in llvmpipe's
 // queues.
 double seconds_of(const Job& job, std::vector<std::uint32_t>& pixels, int most_passes, int& passes) {
@@ -137,6 +148,7 @@ void run(const Job& job, const Options& options, const Subject& subject, const p
         line["strata"] = {{"geometry_passes", ours.geometry_passes},
                           {"differ", pixels_that_differ(image, ours.image)},
                           {"largest_difference", largest_difference(image, ours.image)}};
+        if (line["strata"]["differ"] != 0) line["strata"]["first"] = first_difference(image, ours.image, subject.size);
     }
     if (options.each_pass > 0)
         line["each_pass"] = compare_each_pass(job, options, subject, profile, line["geometry_passes"].get<int>());
@@ -196,7 +208,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--alpha", o.alpha, "every material transparent, its alpha times this");
     app.add_option("--size", o.size, "WIDTHxHEIGHT (default 1024x1024)");
     app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
-    app.add_option("--algorithm", o.algorithms, "of depth, front_to_back, dual, weighted_average, with commas between")
+    app.add_option("--algorithm", o.algorithms,
+                   "of depth, front_to_back, dual, weighted_average, sums, with commas between")
         ->delimiter(',')
         ->check(CLI::IsMember(job_names()));
     app.add_option("--repeat", o.repeat, "times of each (default 3)")->check(CLI::PositiveNumber);

@@ -5,6 +5,7 @@
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "pipeline/stages/blend.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/walk/tile_rasterizer.h"
@@ -50,8 +51,41 @@ FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipel
     return {std::move(counts), geometry.counters.clipped};
 }
 
+namespace {
+
+// Premultiplied colours added up as a blend on the target would, in submission order.
+Rendered sums(const Subject& subject, const pipeline::DeviceProfile& profile, pipeline::Format format) {
+    rasterizer::RasterState state;
+    state.viewport = {0, 0, subject.size.width, subject.size.height};
+    const rasterizer::Geometry geometry = rasterizer::set_up(clip_vertices(subject), state, profile.raster, 0);
+    std::vector<std::uint32_t> triangles(geometry.triangles.size());
+    std::iota(triangles.begin(), triangles.end(), 0u);
+    pipeline::Image image(format, subject.size.width, subject.size.height);
+    std::array<rasterizer::Lanes<float>, 4> source;
+    std::array<rasterizer::Lanes<std::uint32_t>, 4> codes;
+    auto add = [&](const rasterizer::FragmentBatch& batch) {
+        const auto count = static_cast<std::size_t>(batch.count);
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < count; ++i) {
+                source[c][i] = c == 3 ? batch.color[3][i] : batch.color[c][i] * batch.color[3][i];
+                codes[c][i] = image.codes[4 * std::size_t{batch.pixel[i]} + c];
+            }
+        pipeline::blend(pipeline::blend_mode::sum, pipeline::info(format).type, profile, 4, source, codes, batch.count);
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < count; ++i) image.codes[4 * std::size_t{batch.pixel[i]} + c] = codes[c][i];
+    };
+    rasterizer::TileRasterizer(state.viewport)
+        .draw(geometry, triangles, {}, {.shader_z = false, .code = false}, rasterizer::BatchSink{add});
+    return {std::move(image), 1};
+}
+
+}  // namespace
+
 Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
                 const TargetFormats& formats, int max_passes) {
+    if (job == "sums")
+        return sums(subject, profile,
+                    formats.color == pipeline::Format::rgba32f ? formats.color : pipeline::Format::rgba16f);
     const bool depth = job == "depth";
     peeling::RenderOptions options;
     options.width = subject.size.width;

@@ -108,6 +108,18 @@ Job weighted_average_job(const GpuScene& scene, Size size, const TargetFormats& 
             }};
 }
 
+// The sums themselves, before the driver's own pow makes a colour of them.
+Job sums_job(const GpuScene& scene, Size size, const TargetFormats& formats) {
+    const pipeline::Format sums =
+        formats.color == pipeline::Format::rgba32f ? pipeline::Format::rgba32f : pipeline::Format::rgba16f;
+    const auto t = std::make_shared<AverageTargets>(scene, size, formats.color);
+    return {"sums", sums, [&scene, size, t, sums](std::vector<std::uint32_t>& pixels, int) {
+                accumulate(scene, *t);
+                read_color(t->accumulate, size, sums, pixels);
+                return 1;
+            }};
+}
+
 std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size) {
     // A binary32 count is exact up to 2^24 fragments a pixel.
     const Handle count = make_texture(GL_R32F, size), framebuffer = make_framebuffer({count.name()});
