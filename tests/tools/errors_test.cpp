@@ -203,3 +203,19 @@ TEST_CASE("standard output on a full disk is exit status 3") {
     CHECK(ended.status == 3);
     CHECK(ended.err.starts_with("strata: standard output: "));
 }
+
+TEST_CASE("a viewport that the profile lacks is refused by bench's depth pass as by render") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"bench", "teapot", "--size", "16384x8", "--profile", "geforce8",
+                                            "--algorithm", "depth", "--repeat", "1", "--warm-up", "0"});
+    CHECK(ended.status == 2);
+    CHECK(ended.out.find("refused: depth: profile geforce8 has no viewport of 16384 x 8 pixels") != std::string::npos);
+}
+
+TEST_CASE("a camera that is a link to itself is bad input") {
+    const Folder folder;
+    std::filesystem::create_symlink("loop", folder / "loop");
+    const Ended ended = run_strata(folder, {"render", "teapot", "--camera", "loop"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err == "strata: --camera: expected a .json file (the scene has no camera), found 'loop'\n");
+}
