@@ -394,7 +394,8 @@ RenderResult Renderer::render_traced(const Algorithm& algorithm, std::vector<Reg
 RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, const Instruments& instruments) {
     const SimdScope kernels{state_->options.simd};
     RenderResult result;
-    result.refusal = check_depth(state_->profile, state_->depth);
+    result.refusal = check_size(state_->profile, state_->options.width, state_->options.height);
+    if (!result.refusal) result.refusal = check_depth(state_->profile, state_->depth);
     if (!result.refusal) result.refusal = check(state_->profile, state_->color_format);
     if (result.refusal) {
         result.outcome = Outcome::refused;

@@ -1,8 +1,5 @@
 #include "rasterizer/base/parallel.h"
 
-#include <map>
-#include <optional>
-
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/simd.h"
 
@@ -11,51 +8,125 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <optional>
+#else
+#include <algorithm>
+#include <thread>
 #endif
+
+#include "rasterizer/base/thread_loop.h"
 
 namespace strata {
-
-int thread_count(int threads) noexcept {
-#ifdef STRATA_HAS_TBB
-    return threads > 0 ? threads : tbb::info::default_concurrency();
-#else
-    static_cast<void>(threads);
-    // The core-only build has the plain loop alone.
-    return 1;
-#endif
-}
 
 #ifdef STRATA_HAS_TBB
 namespace {
 
+// oneTBB starts its threads when a loop needs them, and cannot live with one that it does not get: the process aborts, or
+// hangs at its end. So threads are asked of the system first. What it refused once is not asked for again, and oneTBB is
+// kept at what there was.
+class Supply {
+  public:
+    // At most `threads`, the caller included; at least 1.
+    int threads(int threads) {
+        if (threads <= proven_.load(std::memory_order_acquire)) return threads;
+        const std::lock_guard held{mutex_};
+        if (!refused_ && threads > proven_) ask(threads);
+        return std::min<int>(threads, proven_);
+    }
+
+    ThreadShortage shortage() {
+        const std::lock_guard held{mutex_};
+        return refused_ ? ThreadShortage{asked_, proven_} : ThreadShortage{};
+    }
+
+  private:
+    void ask(int threads) {
+        const std::size_t stack = tbb::global_control::active_value(tbb::global_control::thread_stack_size);
+        const int workers = threads_to_be_had(threads - 1, stack);
+        if (workers == threads - 1) return proven_.store(threads, std::memory_order_release);
+        // One less than there was: oneTBB needs memory of its own beside the stacks.
+        const int had = std::max<int>(proven_, std::max(workers - 1, 0) + 1);
+        asked_ = threads;
+        refused_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(had));
+        proven_.store(had, std::memory_order_release);
+    }
+
+    std::mutex mutex_;
+    std::atomic<int> proven_ = 1;
+    int asked_ = 0;
+    std::optional<tbb::global_control> refused_;
+};
+
+Supply& supply() {
+    static Supply& all = *new Supply;  // never destroyed: threads may outlive static objects
+    return all;
+}
+
+int threads_of(int threads) { return supply().threads(threads); }
+
 // Kept by every thread that asks: when an arena goes, its workers fall asleep, and one takes 50 microseconds to come back.
 tbb::task_arena& arena_of(int threads) {
     thread_local std::map<int, tbb::task_arena> arenas;
-    const int slots = threads > 0 ? threads : tbb::task_arena::automatic;
-    return arenas.try_emplace(threads, slots).first->second;
+    return arenas.try_emplace(threads, threads).first->second;
+}
+
+void loop(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
+    // oneTBB limits itself to the number of processors, and warns on standard error where more threads are asked
+    // for; this raises the limit for the call.
+    std::optional<tbb::global_control> allowed;
+    if (threads > tbb::info::default_concurrency())
+        allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    arena_of(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
 }
 
 }  // namespace
+
+int thread_count(int threads) noexcept { return threads > 0 ? threads : tbb::info::default_concurrency(); }
+
+ThreadShortage thread_shortage() noexcept { return supply().shortage(); }
+
+#else
+
+namespace {
+
+// The thread sanitizer does not see through oneTBB; the core alone has the plain loop.
+constexpr bool has_threads =
+#ifdef STRATA_HAS_THREADS
+    true;
+#else
+    false;
+#endif
+
+int threads_of(int threads) { return has_threads ? threads : 1; }
+
+void loop(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
+    thread_loop(count, threads, body);
+}
+
+}  // namespace
+
+int thread_count(int threads) noexcept {
+    if (!has_threads) return 1;
+    return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+ThreadShortage thread_shortage() noexcept { return {}; }
+
 #endif
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
-    const auto call = [&, simd = chosen_simd()](std::size_t i) {
+    const std::function<void(std::size_t)> call = [&, simd = chosen_simd()](std::size_t i) {
         const FloatEnvironment ours;
         const SimdScope same{simd};
         body(i);
     };
-#ifdef STRATA_HAS_TBB
-    if (threads != 1 && count > 1) {
-        // oneTBB limits itself to the number of processors, and warns on standard error where more threads are asked
-        // for; this raises the limit for the call.
-        std::optional<tbb::global_control> allowed;
-        if (threads > tbb::info::default_concurrency())
-            allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-        arena_of(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, call); });
-        return;
-    }
-#endif
-    static_cast<void>(threads);
+    if (threads != 1 && count > 1)
+        if (const int had = threads_of(thread_count(threads)); had > 1) return loop(count, had, call);
     for (std::size_t i = 0; i < count; ++i) call(i);
 }
 

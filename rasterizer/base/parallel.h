@@ -14,4 +14,10 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 // How many threads `threads` stands for.
 [[nodiscard]] int thread_count(int threads) noexcept;
 
+// The system refused threads: loops of this process run on `had` from then on. Equal while it has refused none.
+struct ThreadShortage {
+    int asked = 0, had = 0;
+};
+[[nodiscard]] ThreadShortage thread_shortage() noexcept;
+
 }  // namespace strata

@@ -15,6 +15,7 @@
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/vector_arithmetic.h"
 #include "scenes/camera.h"
+#include "scenes/files/strict_json.h"
 #include "scenes/files/text_file.h"
 #include "scenes/nearest_name.h"
 
@@ -62,6 +63,9 @@ std::optional<double> parse_hex_float(std::string_view text) {
     return negative ? -magnitude : magnitude;
 }
 
+// Beyond 2^64 squares and products leave binary32, below 2^-64 so do quotients: no scene needs either.
+constexpr double largest = 0x1p64, smallest = 0x1p-64;
+
 // Every number of a camera file passes here: an infinity or a NaN would spread through both matrices.
 double number(const Place& place) {
     std::optional<double> value;
@@ -69,6 +73,7 @@ double number(const Place& place) {
     if (place.value.is_string()) value = parse_hex_float(place.value.get_ref<const std::string&>());
     if (!value || !std::isfinite(*value))
         place.fail("a finite number, or a hexadecimal float in a string such as \"0x1.8p+1\"");
+    if (std::fabs(*value) > largest) place.fail("a number from -2^64 to 2^64");
     return *value;
 }
 
@@ -84,7 +89,7 @@ std::array<double, count> numbers(const Place& place) {
     return result;
 }
 
-// Each wanted key once and no other; JSON repeats of a key are the parser's to merge, the last one wins.
+// Each wanted key and no other.
 void check_keys(const Place& camera, std::span<const std::string_view> wanted) {
     for (const auto& [key, value] : camera.value.items()) {
         if (std::ranges::find(wanted, key) == wanted.end())
@@ -120,7 +125,9 @@ LookAt parse_look_at(const Place& camera) {
                         .far = number(camera["far"])};
     if (!(result.fovy_degrees > 0 && result.fovy_degrees < 180))
         camera["fovy_degrees"].fail("degrees between 0 and 180");
+    if (result.fovy_degrees < smallest) camera["fovy_degrees"].fail("at least 2^-64 degrees");
     if (!(result.near > 0)) camera["near"].fail("a distance above 0");
+    if (result.near < smallest) camera["near"].fail("a distance of at least 2^-64");
     if (!(result.near < result.far)) camera["far"].fail(fmt::format("a distance beyond near, {}", result.near));
     if (result.eye == result.center) camera["center"].fail("a point that is not the eye");
     // The bound is 10^-12 for the sine itself: below it the cross product is rounding noise and the picture
@@ -130,15 +137,28 @@ LookAt parse_look_at(const Place& camera) {
     return result;
 }
 
-// The library's own words are left out: they name no file and differ between its versions.
-json parse_json(const std::string& text, const std::string& name) {
-    try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
-        throw InputError(name, "byte " + std::to_string(error.byte), "a camera in JSON", "a syntax error");
-    } catch (const json::exception&) {
-        throw InputError(name, "/", "a camera in JSON", "a number out of range");
+// Whether the matrix maps all of space to less than space. Elimination in binary64: a matrix that is singular but for its
+// roundings passes.
+bool is_singular(std::array<double, 16> rows) {
+    const auto at = [&](std::size_t row, std::size_t column) -> double& { return rows[4 * row + column]; };
+    for (std::size_t k = 0; k < 4; ++k) {
+        std::size_t pivot = k;
+        for (std::size_t row = k + 1; row < 4; ++row)
+            if (std::fabs(at(row, k)) > std::fabs(at(pivot, k))) pivot = row;
+        if (at(pivot, k) == 0) return true;
+        for (std::size_t column = 0; column < 4; ++column) std::swap(at(k, column), at(pivot, column));
+        for (std::size_t row = k + 1; row < 4; ++row) {
+            const double factor = at(row, k) / at(k, k);
+            for (std::size_t column = k; column < 4; ++column) at(row, column) -= factor * at(k, column);
+        }
     }
+    return false;
+}
+
+pipeline::Matrix matrix(const Place& place) {
+    const auto entries = numbers<16>(place);
+    if (is_singular(entries)) place.fail("a matrix that can be inverted", "one that cannot");
+    return matrix_of(entries);
 }
 
 // std::to_chars writes the shortest hexadecimal digits that give the same bits back, without 0x; the sign goes
@@ -160,7 +180,7 @@ std::string to_json(const pipeline::Matrix& matrix) {
 
 pipeline::View parse_camera(const std::string& text, const std::string& name, double aspect) {
     const FloatEnvironment environment;
-    const json document = parse_json(text, name);
+    const json document = parse_strict_json(text, name, "a camera in JSON");
     const Place camera{name, "", document};
     if (!document.is_object()) camera.fail("an object", document.type_name());
     for (const auto& [key, value] : document.items()) {  // a misspelt key must not choose the form
@@ -172,7 +192,7 @@ pipeline::View parse_camera(const std::string& text, const std::string& name, do
     // refuses those of the first.
     if (!document.contains("view") && !document.contains("projection")) return look_at(parse_look_at(camera), aspect);
     check_keys(camera, matrix_keys);
-    return {matrix_of(numbers<16>(camera["view"])), matrix_of(numbers<16>(camera["projection"]))};
+    return {matrix(camera["view"]), matrix(camera["projection"])};
 }
 
 pipeline::View load_camera(const std::string& path, double aspect) {

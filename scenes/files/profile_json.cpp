@@ -13,6 +13,7 @@
 
 #include "pipeline/device/profile_fields.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/strict_json.h"
 #include "scenes/files/text_file.h"
 #include "scenes/nearest_name.h"
 
@@ -127,17 +128,6 @@ std::string found_text(const ProfileField& field, const json& value) {
     return shown(value);
 }
 
-// The library's own words are left out: they name no file and differ between its versions.
-json parse_json(const std::string& document, const std::string& file) {
-    try {
-        return json::parse(document);
-    } catch (const json::parse_error& error) {
-        throw InputError(file, "byte " + std::to_string(error.byte), "a profile in JSON", "a syntax error");
-    } catch (const json::exception&) {
-        throw InputError(file, "/", "a profile in JSON", "a number out of range");
-    }
-}
-
 // The built-in profile that the file starts from; empty if it says everything itself.
 const DeviceProfile* base_of(const json& document, const std::string& file) {
     if (!document.contains("base")) return nullptr;
@@ -185,7 +175,7 @@ std::string to_json(const DeviceProfile& profile) {
 }
 
 DeviceProfile parse_profile(const std::string& document_text, const std::string& file) {
-    const json document = parse_json(document_text, file);
+    const json document = parse_strict_json(document_text, file, "a profile in JSON");
     check_keys(document, keys(false), file, "/");
     // A document without `raster` is one whose raster fields are all left out.
     const json none = json::object();

@@ -75,16 +75,24 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --vertex-path: expected one or two of separate, fused, reassociated, double, toward_zero or nv20, "
          "found 'fused,double,nv20'"},
         {{"render", "teapot", "--polygon-offset", "1"},
-         "strata: --polygon-offset: expected two numbers such as 1,1, found '1'"},
+         "strata: --polygon-offset: expected two numbers such as 1,1, each from -16777216 to 16777216, found '1'"},
         {{"bench", "teapot", "--execution", "replay,tile"},
          "strata: --execution: expected literal, replay or all, found 'tile'"},
         {{"bench", "teapot", "--execution", "replay,tiled"},
          "strata: --execution: expected replay once, found it beside 'tiled', which is replay with --fragment-memory "
          "0"},
         {{"bench", "teapot", "--repeat", "0"}, "strata: --repeat: expected a whole number from 1, found '0'"},
-        {{"bench", "teapot", "--warm-up", "-1"}, "strata: --warm-up: expected seconds, from 0, found '-1'"},
+        {{"bench", "teapot", "--warm-up", "-1"}, "strata: --warm-up: expected seconds from 0 to 3600, found '-1'"},
+        {{"bench", "teapot", "--warm-up=1e308"}, "strata: --warm-up: expected seconds from 0 to 3600, found '1e308'"},
         {{"bench", "teapot", "--baseline", "none.json"}, "strata: none.json: ..."},
-        {{"render", "teapot", "--threads", "-1"}, "strata: --threads: expected a whole number from 0, found '-1'"},
+        {{"render", "teapot", "--threads", "-1"},
+         "strata: --threads: expected a whole number from 0 to 1024, found '-1'"},
+        {{"render", "teapot", "--threads=-0"}, "strata: --threads: expected a whole number from 0 to 1024, found '-0'"},
+        {{"render", "teapot", "--threads=1025"},
+         "strata: --threads: expected a whole number from 0 to 1024, found '1025'"},
+        {{"render", "teapot", "--polygon-offset=18446744073709551616,0"},
+         "strata: --polygon-offset: expected two numbers such as 1,1, each from -16777216 to 16777216, found "
+         "'18446744073709551616,0'"},
         {{"render", "teapot", "--alpha", "1,5"}, "strata: --alpha: expected a number from 0 to 1, found '1,5'"},
         {{"render", "teapot", "--alpha", "nan"}, "strata: --alpha: expected a number from 0 to 1, found 'nan'"},
         {{"render", "teapot", "--background", "0,0"},
@@ -202,4 +210,20 @@ TEST_CASE("standard output on a full disk is exit status 3") {
     const Ended ended = run_strata(folder, {verb, "--json"}, {.out = "/dev/full"});
     CHECK(ended.status == 3);
     CHECK(ended.err.starts_with("strata: standard output: "));
+}
+
+TEST_CASE("a viewport that the profile lacks is refused by bench's depth pass as by render") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"bench", "teapot", "--size", "16384x8", "--profile", "geforce8",
+                                            "--algorithm", "depth", "--repeat", "1", "--warm-up", "0"});
+    CHECK(ended.status == 2);
+    CHECK(ended.out.find("refused: depth: profile geforce8 has no viewport of 16384 x 8 pixels") != std::string::npos);
+}
+
+TEST_CASE("a camera that is a link to itself is bad input") {
+    const Folder folder;
+    std::filesystem::create_symlink("loop", folder / "loop");
+    const Ended ended = run_strata(folder, {"render", "teapot", "--camera", "loop"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err == "strata: --camera: expected a .json file (the scene has no camera), found 'loop'\n");
 }

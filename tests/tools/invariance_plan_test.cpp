@@ -87,7 +87,7 @@ TEST_CASE("a plan takes every value that the option of the same meaning takes, u
 }
 
 TEST_CASE("every fault of a plan is one sentence with its place") {
-    CHECK_THAT(message("{"), Catch::StartsWith("p.json: byte 2: expected JSON"));
+    CHECK_THAT(message("{"), Catch::StartsWith("p.json: byte 2: expected a plan in JSON, found a syntax error"));
     CHECK(message("[]") == "p.json: /: expected an object with \"grids\", found []");
     CHECK(message(R"({"grid": []})") ==
           "p.json: /: expected keys about, common or grids, found 'grid' (did you mean 'grids'?)");

@@ -101,3 +101,55 @@ TEST_CASE("a folder with another plan's results is refused, and so is a shard th
     CHECK(other.err.find("out/results.1of2.jsonl: line 1: scene: expected \"teapot\", as the plan has it") !=
           std::string::npos);
 }
+
+TEST_CASE("lines that were changed, emptied or taken out are measured again, and the finished bytes are the same") {
+    const Folder folder;
+    REQUIRE(sweep(folder, "whole", {"--no-images"}).status == 0);
+    const Results expected = results_in(folder, "whole");
+    auto lines = lines_of(expected.lines);
+    REQUIRE(lines.size() == 13);
+    const auto again = [&](const std::vector<std::string>& left) {
+        std::string text;
+        for (const std::string& line : left) text += line + "\n";
+        write(folder / "whole/results.jsonl", text);
+        const Ended ended = sweep(folder, "whole", {"--no-images"});
+        CHECK(ended.status == 0);
+        CHECK(results_in(folder, "whole") == expected);
+        return ended.err;
+    };
+    const std::string dropped = " is not what was written; it is dropped, and its cell measured again\n";
+    auto left = lines;
+    left[3].replace(left[3].find("\"passes\":") + 9, 1, "9");  // a digit of a finished line
+    CHECK(again(left) == "strata: warning: whole/results.jsonl: line 4" + dropped);
+    left = lines;
+    left[12] = std::string(500, '\0');  // a power loss
+    CHECK(again(left) == "strata: warning: whole/results.jsonl: line 13" + dropped);
+    left = lines;
+    left[5] = left[5].substr(0, left[5].find(",\"outcome\"")) + "}";  // without its findings
+    left[6].clear();
+    CHECK(lines_of(again(left)).size() == 2);
+    left = lines;
+    left.erase(left.begin() + 2, left.begin() + 5);  // cells between others
+    std::swap(left[0], left[7]);
+    left.push_back(left[1]);  // a cell twice
+    CHECK(again(left) == "strata: warning: whole/results.jsonl: line 11" + dropped);
+}
+
+TEST_CASE("a scene whose name is no UTF-8 is measured and taken up again") {
+    const Folder folder;
+    const std::string name = "b\xff.gltf";
+    write(folder / name, R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[]}]})");
+    const std::vector<std::string> words{
+        "invariance", name,  "--algorithm", "front_to_back", "--pair",    "float32:exact",
+        "--size",     "8x8", "--profile",   "ideal",         "--threads", "1",
+        "-o",         "out"};
+    const Ended first = run_strata(folder, words), second = run_strata(folder, words);
+    CHECK(first.status == 0);
+    CHECK(second.status == 0);
+    CHECK(first.out == second.out);
+    const Ended bench = run_strata(folder, {"bench", name, "--size", "8x8", "--algorithm", "dual", "--repeat", "1",
+                                            "--warm-up", "0", "--threads", "1", "--json", "-"});
+    CHECK(bench.status == 0);
+    CHECK(ordered_json::parse(bench.out).at("jobs").size() == 1);
+    CHECK(ordered_json::parse(run_strata(folder, {"scene", name, "--json"}).out).at("name") == "b\xef\xbf\xbd.gltf");
+}

@@ -72,64 +72,104 @@ TEST_CASE("a journal is read line by line, and a last line without its end is to
     const Folder folder;
     CHECK(read_journal(folder / "missing.jsonl").lines.empty());
     CHECK_FALSE(read_journal(folder / "missing.jsonl").torn);
-    const std::string whole = "{\"cell\":0}\n{\"cell\":1,\"x\":[2]}\n";
+    const std::string first = line_text({{"cell", 0}}), whole = first + line_text({{"cell", 1}, {"x", {2}}});
     for (std::size_t bytes = 0; bytes <= whole.size(); ++bytes) {
         const Found found = read_journal(with_bytes(folder, whole.substr(0, bytes)));
-        const std::size_t lines = bytes < 11 ? 0 : bytes < whole.size() ? 1 : 2;
+        const std::size_t lines = bytes < first.size() ? 0 : bytes < whole.size() ? 1 : 2;
         INFO(bytes << " bytes");
         CHECK(found.lines.size() == lines);
-        CHECK(found.torn == (bytes != 0 && bytes != 11 && bytes != whole.size()));
-        CHECK(found.whole_bytes == (lines == 0 ? 0 : lines == 1 ? 11 : whole.size()));
+        CHECK(found.changed.empty());
+        CHECK(found.torn == (bytes != 0 && bytes != first.size() && bytes != whole.size()));
+        CHECK(found.whole_bytes == (lines == 0 ? 0 : lines == 1 ? first.size() : whole.size()));
         if (lines == 2) CHECK(found.lines[1] == ordered_json{{"cell", 1}, {"x", {2}}});
     }
 }
 
-TEST_CASE("a whole line that is no object is refused with its number and its beginning") {
+TEST_CASE("a line ends with the digest of its text, typed out") {
+    // XXH3-128 of "line", a zero byte, and the codes of {"cell":0 as u32, little endian.
+    CHECK(line_text({{"cell", 0}}) == "{\"cell\":0,\"line_digest\":\"c79cdea5087fa8d85b7cd0c81e74f515\"}\n");
+    CHECK(line_text({{"name", "b\xff"}}).starts_with("{\"name\":\"b\xef\xbf\xbd\",\"line_digest\""));
+}
+
+TEST_CASE("a line with any byte changed, taken away or put in counts for nothing, and its neighbours stay") {
     const Folder folder;
-    const std::pair<std::string, std::string> faults[] = {
-        {"\n", "line 1: expected one JSON object, found ''"},
-        {"{}\n7\n", "line 2: expected one JSON object, found '7'"},
-        {"{}\n{}\n[1]\n", "line 3: expected one JSON object, found '[1]'"},
-        {"{\"cell\":\n", "line 1: expected one JSON object, found '{\"cell\":'"},
-        {std::string(100, 'x') + "\n", "line 1: expected one JSON object, found '" + std::string(40, 'x') + "'"}};
-    for (const auto& [bytes, sentence] : faults) {
-        const std::string path = with_bytes(folder, bytes);
-        CHECK(sentence_of([&] { static_cast<void>(read_journal(path)); }) == path + ": " + sentence);
+    const std::string before = line_text({{"cell", 0}}), line = line_text({{"cell", 1}, {"rmse", 0.25}}),
+                      after = line_text({{"cell", 2}});
+    std::string wrong;
+    const auto try_it = [&](const std::string& changed, const std::string& what) {
+        const Found found = read_journal(with_bytes(folder, before + changed + after));
+        if (found.changed != std::vector<std::size_t>{2} || found.numbers != std::vector<std::size_t>{1, 3})
+            wrong += what + " ";
+    };
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        std::string other = line;
+        other[i] = static_cast<char>(other[i] ^ 1);
+        if (other[i] != '\n') try_it(other, "changed " + std::to_string(i));
+        try_it(line.substr(0, i) + line.substr(i + 1), "without " + std::to_string(i));
+        try_it(line.substr(0, i) + "0" + line.substr(i), "more at " + std::to_string(i));
     }
-    CHECK(read_journal(with_bytes(folder, "{}\n7")).torn);  // not whole: it counts for nothing
+    CHECK(wrong == "");
+    for (const std::string& bytes : {std::string("\n"), std::string("{}\n"), std::string("{\"cell\":1}\n"),
+                                     std::string(200, '\0') + "\n", std::string(300, 'x') + "\n"})
+        try_it(bytes, bytes);
+    CHECK(wrong == "");
 }
 
-TEST_CASE("lines are those of a plan if they begin with their cells' descriptions, and there are no more of them") {
-    const Lines expected{{{"cell", 0}, {"scene", "a"}}, {{"cell", 1}, {"scene", "b"}}};
-    const auto said = [&](const Lines& lines) { return sentence_of([&] { check_journal("f", lines, expected); }); };
-    CHECK(said({}) == "");
-    CHECK(said({{{"cell", 0}, {"scene", "a"}, {"found", 3}}}) == "");
-    CHECK(said({expected[0], expected[1]}) == "");
-    CHECK(said({{{"cell", 0}, {"scene", "z"}}}) ==
-          "f: line 1: scene: expected \"a\", as the plan has it (another plan needs another folder), found \"z\"");
-    CHECK(said({expected[0], {{"cell", 1}}}) ==
-          "f: line 2: scene: expected \"b\", as the plan has it (another plan needs another folder), found nothing");
-    CHECK(said({expected[0], expected[1], expected[0]}) ==
-          "f: line 3: expected no further line: the plan has no such cell, found one (another plan needs another "
-          "folder)");
-    CHECK(said({{{"cell", 0.0}, {"scene", "a"}}}).starts_with("f: line 1: cell: expected 0, "));  // its text is another
+TEST_CASE("lines go to the places of their cells; repeated ones and those of other keys count for nothing") {
+    const Expected expected{.cells = {1, 4, 7},
+                            .described = {{{"cell", 1}, {"scene", "a"}}, {{"cell", 4}, {"scene", "b"}}, {{"cell", 7}}},
+                            .keys = {"cell", "found"}};
+    Found found{.lines = {{{"cell", 7}, {"found", 3}},
+                          {{"cell", 1}, {"scene", "a"}, {"found", 1}},
+                          {{"cell", 4}, {"scene", "b"}},
+                          {{"cell", 1}, {"scene", "a"}, {"found", 2}}},
+                .numbers = {1, 2, 5, 6},
+                .changed = {3, 4}};
+    const Lines lines = lines_of_cells("f", found, expected);
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[0]["found"] == 1);
+    CHECK(lines[1].is_null());
+    CHECK(lines[2]["found"] == 3);
+    CHECK(found.changed == std::vector<std::size_t>{3, 4, 5, 6});
 }
 
-TEST_CASE("a journal cuts off what was torn, appends whole lines, and each is on disk at once") {
+TEST_CASE("a line of another plan is refused with its number and the key that differs") {
+    const Expected expected{
+        .cells = {0, 1}, .described = {{{"cell", 0}, {"scene", "a"}}, {{"cell", 1}, {"scene", "b"}}}, .keys = {"cell"}};
+    const auto said = [&](const ordered_json& line) {
+        return sentence_of([&] {
+            Found found{.lines = {line}, .numbers = {9}};
+            static_cast<void>(lines_of_cells("f", found, expected));
+        });
+    };
+    CHECK(said({{"cell", 0}, {"scene", "a"}, {"found", 3}}) == "");
+    CHECK(said({{"cell", 0}, {"scene", "z"}}) ==
+          "f: line 9: scene: expected \"a\", as the plan has it (another plan needs another folder), found \"z\"");
+    CHECK(said({{"cell", 1}}) ==
+          "f: line 9: scene: expected \"b\", as the plan has it (another plan needs another folder), found nothing");
+    CHECK(said({{"cell", 2}, {"scene", "a"}}) ==
+          "f: line 9: cell: expected a cell of the plan (another plan needs another folder), found 2");
+    CHECK(said({{"cell", 0.0}, {"scene", "a"}}).starts_with("f: line 9: cell: "));  // its text is another
+    CHECK(said({{"cell", -1}}).starts_with("f: line 9: cell: "));
+    CHECK(said({{"scene", "a"}}).ends_with("found null"));
+}
+
+TEST_CASE("a journal cuts off what was torn, appends whole lines, and each is in the file at once") {
     const Folder folder;
-    const std::string path = with_bytes(folder, "{\"cell\":0}\n{\"cel");
+    const std::string first = line_text({{"cell", 0}});
+    const std::string path = with_bytes(folder, first + "{\"cel");
     const Found found = read_journal(path);
     {
         Journal journal(path, found.whole_bytes);
-        CHECK(strata::test::content_of(path) == "{\"cell\":0}\n");
+        CHECK(strata::test::content_of(path) == first);
         journal.append({{"cell", 1}, {"a", nullptr}});
-        CHECK(strata::test::content_of(path) == "{\"cell\":0}\n{\"cell\":1,\"a\":null}\n");
+        CHECK(strata::test::content_of(path) == first + line_text({{"cell", 1}, {"a", nullptr}}));
         journal.append({{"z", 1}, {"a", 2}});  // keys as they come
     }
-    CHECK(strata::test::content_of(path) == "{\"cell\":0}\n{\"cell\":1,\"a\":null}\n{\"z\":1,\"a\":2}\n");
+    CHECK(read_journal(path).lines == Lines{{{"cell", 0}}, {{"cell", 1}, {"a", nullptr}}, {{"z", 1}, {"a", 2}}});
     CHECK_FALSE(read_journal(path).torn);
     const std::string fresh = folder / "fresh.jsonl";
-    { Journal journal(fresh, 0); }
+    { const Journal journal(fresh, 0); }
     CHECK(strata::test::content_of(fresh).empty());
     CHECK_THROWS_WITH(Journal(folder / "no/such/folder.jsonl", 0), Catch::Contains("folder.jsonl"));
 }

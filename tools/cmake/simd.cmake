@@ -10,6 +10,11 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   else()
     target_compile_definitions(PkgConfig::HIGHWAY INTERFACE HWY_BASELINE_TARGETS=HWY_SSE4)
   endif()
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  # Our batches hold vectors in arrays, which SVE's vectors without a size cannot be; NEON's target of Highway asks for AES.
+  target_compile_options(PkgConfig::HIGHWAY INTERFACE -march=armv8-a+crypto)
+  target_compile_definitions(PkgConfig::HIGHWAY INTERFACE
+    "HWY_DISABLED_TARGETS=(HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128)")
 endif()
 # strata_kernels_of_many_forms(SOURCE...): kernels that stand in dozens of forms, one for each choice of formats and tests. An
 # optimizer that is to carry sanitizers through all of them takes half a minute a source; without it they take two seconds.

@@ -9,6 +9,7 @@
 
 #include "pipeline/device/check.h"
 #include "rasterizer/base/input_error.h"
+#include "rasterizer/base/parallel.h"
 #include "scenes/files/unfinished_files.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/names.h"
@@ -24,6 +25,14 @@ enum Exit : int { bad_input = 2, system_failed = 3 };
 int fail(const std::string& sentence, Exit status) {
     std::fprintf(stderr, "strata: %s\n", sentence.c_str());
     return status;
+}
+
+// Told at the end: which loop needs how many threads is known when it runs.
+void warn_of_threads() {
+    const ThreadShortage threads = thread_shortage();
+    if (threads.had < threads.asked)
+        std::fprintf(stderr, "strata: warning: --threads: the system refused %d threads; %d worked\n", threads.asked,
+                     threads.had);
 }
 
 std::vector<std::string> names_of(const std::vector<Command>& commands) {
@@ -127,7 +136,9 @@ int main(int count, char** words) {
     using namespace strata::tools;
     strata::scenes::remove_unfinished_files_when_interrupted();
     try {
-        return run(count, words);
+        const int status = run(count, words);
+        warn_of_threads();
+        return status;
     } catch (const strata::InputError& error) {
         return fail(error.what(), bad_input);
     } catch (const strata::pipeline::Refused& error) {

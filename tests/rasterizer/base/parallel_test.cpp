@@ -10,6 +10,7 @@
 
 #include "rasterizer/base/exact_sum.h"
 #include "rasterizer/base/input_error.h"
+#include "rasterizer/base/thread_loop.h"
 #include "rasterizer/base/uninitialized.h"
 
 TEST_CASE("a parallel loop visits every index once, for any count and number of threads") {
@@ -52,6 +53,30 @@ TEST_CASE("a number of threads stands for itself, and 0 for what the machine has
     // A build without threads has one, whatever is asked for.
     const bool is_serial = strata::thread_count(2) == 1;
     for (const int n : {2, 3, 64}) CHECK(strata::thread_count(n) == (is_serial ? 1 : n));
+}
+
+TEST_CASE("a loop on threads of the system visits every index once, and its first exception reaches the caller") {
+    std::size_t wrong = 0;
+    for (const int threads : {1, 2, 5})
+        for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{1000}}) {
+            std::vector<int> visits(count, 0);
+            strata::thread_loop(count, threads, [&](std::size_t i) { ++visits[i]; });
+            for (const int n : visits) wrong += n != 1 ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+    for (const int threads : {1, 3})
+        CHECK_THROWS_WITH(strata::thread_loop(100, threads,
+                                              [](std::size_t i) {
+                                                  if (i == 42) throw std::runtime_error{"index 42"};
+                                              }),
+                          "index 42");
+}
+
+TEST_CASE("threads to be had are those that were asked for where the system has them, and fewer where it has not") {
+    CHECK(strata::threads_to_be_had(0, 1 << 20) == 0);
+    CHECK(strata::threads_to_be_had(3, 1 << 20) == 3);
+    // A stack of 2^62 bytes fits into no address space.
+    CHECK(strata::threads_to_be_had(3, std::size_t{1} << 62) == 0);
 }
 
 TEST_CASE("an input error is one sentence: file, place, what was expected, what was found") {

@@ -86,7 +86,8 @@ int bench(BenchOptions& options) {
     const Baseline baseline = options.baseline.empty() ? Baseline{} : load_baseline(options.baseline);
     const std::vector<BenchScene> scenes = open_scenes(options);
     const auto results = measure(jobs_of(options, scenes), options.repetitions);
-    const std::string document = to_json(results, baseline).dump(2) + '\n';
+    const std::string document =
+        to_json(results, baseline).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
     if (options.json == "-") {
         print(document);
     } else {
@@ -122,7 +123,7 @@ Command add_bench(CLI::App& root) {
     add_option(*app, options->repetitions.timed,
                {"--repeat", "N", "runs of each job (default 5)", "a whole number from 1"}, to_positive);
     add_option(*app, options->repetitions.warm_up,
-               {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds, from 0"},
+               {"--warm-up", "S", "how long a job runs before it is timed (default 0.3)", "seconds from 0 to 3600"},
                to_seconds);
     add_path(*app, options->json,
              {"--json", "FILE|-", "the times as JSON; - is standard output instead of the table", "a file name or -"});

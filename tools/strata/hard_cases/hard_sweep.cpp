@@ -12,6 +12,7 @@
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/progress.h"
+#include "tools/strata/sweep/lock.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -46,21 +47,30 @@ std::vector<std::size_t> lines_of(const HardSweep& sweep, const Shard& shard) {
 
 ordered_json hard_description(const HardSweep& sweep, std::size_t number) {
     const HardGroup group = group_of(sweep, number / sweep.algorithms.size());
-    return {{"line", number},
+    return {{"cell", number},
             {"case", group.hard->name},
             {"profile", group.profile->name},
             {"depth", name_of(depth_formats, group.format)},
             {"algorithm", sweep.algorithms[number % sweep.algorithms.size()]->name}};
 }
 
-Found checked_lines(const HardSweep& sweep, const Shard& shard) {
+// A journal's lines at the places of the shard's combinations, null where one is missing.
+struct HardLines {
+    Found found;
+    Lines lines;
+};
+
+HardLines checked_lines(const HardSweep& sweep, const Shard& shard) {
     const std::string path = shard_file(sweep.folder, "results", shard);
-    Lines expected;
-    for (const std::size_t number : lines_of(sweep, shard)) expected.push_back(hard_description(sweep, number));
-    Found found = read_journal(path);
-    check_journal(path, found.lines, expected);
-    return found;
+    Expected expected{.cells = lines_of(sweep, shard), .described = {}, .keys = {"verdict"}};
+    for (const std::size_t number : expected.cells) expected.described.push_back(hard_description(sweep, number));
+    HardLines checked{read_journal(path), {}};
+    checked.lines = lines_of_cells(path, checked.found, expected);
+    warn_of(path, checked.found);
+    return checked;
 }
+
+std::ptrdiff_t missing_of(const Lines& lines) { return std::count(lines.begin(), lines.end(), nullptr); }
 
 ordered_json counts_of(const Composited& found) {
     return {
@@ -94,16 +104,20 @@ ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& 
 
 Lines run_sweep(const HardSweep& sweep) {
     std::filesystem::create_directories(sweep.folder);
-    Found found = checked_lines(sweep, sweep.shard);
+    const std::string path = shard_file(sweep.folder, "results", sweep.shard);
+    const Lock lock(path);
+    auto [found, lines] = checked_lines(sweep, sweep.shard);
     const std::vector<std::size_t> numbers = lines_of(sweep, sweep.shard);
-    if (found.lines.size() == numbers.size()) return found.lines;
-    Journal journal(shard_file(sweep.folder, "results", sweep.shard), found.whole_bytes);
+    const std::ptrdiff_t missing = missing_of(lines);
+    if (missing == 0 && found.changed.empty()) return lines;
+    Journal journal = journal_behind(path, found, lines);
     Progress progress("hard cases", Remaining::shown);
     std::optional<HardMachine> machine;
     std::size_t group = ~std::size_t{0};
-    const std::size_t before = found.lines.size();
-    for (std::size_t i = before; i < numbers.size(); ++i) {
-        progress.show(static_cast<double>(i - before) / static_cast<double>(numbers.size() - before));
+    std::ptrdiff_t done = 0;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (!lines[i].is_null()) continue;
+        progress.show(static_cast<double>(done++) / static_cast<double>(missing));
         const std::size_t own = numbers[i] / sweep.algorithms.size();
         if (own != group) {
             const HardGroup is = group_of(sweep, own);
@@ -111,26 +125,27 @@ Lines run_sweep(const HardSweep& sweep) {
             group = own;
         }
         const HardRow row = machine->run(*sweep.algorithms[numbers[i] % sweep.algorithms.size()]);
-        journal.append(found.lines.emplace_back(to_line(sweep, numbers[i], row)));
+        journal.append(lines[i] = to_line(sweep, numbers[i], row));
     }
-    return found.lines;
+    // Combinations between others may have been missing: the finished file has all in order.
+    scenes::write_file(path, text_of(lines));
+    return lines;
 }
 
 Lines merge_shards(const HardSweep& sweep, std::size_t shards) {
+    const Lock lock(shard_file(sweep.folder, "results", {}));
     Lines all(groups(sweep) * sweep.algorithms.size());
     for (std::size_t index = 1; index <= shards; ++index) {
         const Shard shard{index, shards};
         const std::vector<std::size_t> numbers = lines_of(sweep, shard);
-        Found found = checked_lines(sweep, shard);
-        if (found.lines.size() != numbers.size())
+        Lines lines = checked_lines(sweep, shard).lines;
+        if (const std::ptrdiff_t missing = missing_of(lines); missing > 0)
             throw InputError(shard_file(sweep.folder, "results", shard), "lines",
                              std::to_string(numbers.size()) + ", one a combination of the shard",
-                             std::to_string(found.lines.size()));
-        for (std::size_t i = 0; i < numbers.size(); ++i) all[numbers[i]] = std::move(found.lines[i]);
+                             std::to_string(numbers.size() - static_cast<std::size_t>(missing)));
+        for (std::size_t i = 0; i < numbers.size(); ++i) all[numbers[i]] = std::move(lines[i]);
     }
-    std::string text;
-    for (const ordered_json& line : all) text += line.dump() + '\n';
-    scenes::write_file(shard_file(sweep.folder, "results", {}), text);
+    scenes::write_file(shard_file(sweep.folder, "results", {}), text_of(all));
     return all;
 }
 

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "tools/strata/hard_cases/hard_run.h"
-#include "tools/strata/invariance/invariance_journal.h"
+#include "tools/strata/sweep/journal.h"
+#include "tools/strata/sweep/shard.h"
 
 namespace strata::tools {
 

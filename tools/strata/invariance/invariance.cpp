@@ -85,6 +85,7 @@ Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, C
     return {.name = "invariance",
             .cells = cells.size(),
             .description = described,
+            .keys = line_keys(),
             .measure = [&, image_folder = options.images && !options.dry_run ? folder : ""](
                            std::size_t i) { return measured(i, cells[i], runner, image_folder); },
             .csv = csv_of,
@@ -92,8 +93,7 @@ Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, C
             .alike =
                 [described](std::size_t i) {
                     const nlohmann::ordered_json line = described(i);
-                    return line["scene"].dump() + line["width"].dump() + line["height"].dump() +
-                           line["algorithm"].dump();
+                    return json_text({line["scene"], line["width"], line["height"], line["algorithm"]});
                 }};
 }
 

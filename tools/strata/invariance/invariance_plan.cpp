@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/strict_json.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/parse.h"
 
@@ -109,12 +110,7 @@ void require_scene(const KeyValues& grid, const Source& source, const std::strin
 
 std::vector<Cell> parse_plan(const std::string& text, const std::string& file, const KeyValues& options) {
     const Source source{file};
-    json plan;
-    try {
-        plan = json::parse(text);
-    } catch (const json::parse_error& error) {
-        source.fail(fmt::format("byte {}", error.byte), "JSON", "something else");
-    }
+    const json plan = scenes::parse_strict_json(text, file, "a plan in JSON");
     if (!plan.is_object()) source.fail("/", "an object with \"grids\"", plan.dump());
     for (const auto& [name, value] : plan.items())
         if (name != "common" && name != "grids" && name != "about")

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "peeling/algorithms/algorithm.h"
+#include "peeling/registry.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/table.h"
 
@@ -171,6 +172,15 @@ ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& res
     line["refusal"] = result.refusal;
     add_findings(line, cell, result.measured);
     return line;
+}
+
+std::vector<std::string> line_keys() {
+    Cell cell;
+    cell.algorithm = peeling::find_algorithm("dual");  // any that has a name
+    std::vector<std::string> keys;
+    const ordered_json line = to_line(0, cell, {.view = {}, .measured = {}, .refusal = "none"});
+    for (const auto& [key, value] : line.items()) keys.push_back(key);
+    return keys;
 }
 
 std::string csv_header() { return fmt::format("{}\n", fmt::join(columns, ",")); }

@@ -20,6 +20,9 @@ namespace strata::tools {
 // The whole line, without its end.
 [[nodiscard]] nlohmann::ordered_json to_line(std::size_t number, const Cell& cell, const CellResult& result);
 
+// All keys of a whole line, in its order.
+[[nodiscard]] std::vector<std::string> line_keys();
+
 // results.csv of these lines.
 [[nodiscard]] std::string csv_of(const Lines& lines);
 

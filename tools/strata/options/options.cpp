@@ -75,11 +75,17 @@ std::optional<std::uint64_t> to_bytes(std::string_view text) {
     return *count << shift;
 }
 
-// FACTOR,UNITS: an offset that is given is on, even with two zeros.
+// FACTOR,UNITS: an offset that is given is on, even with two zeros. 2^24 units are the whole range of a D24 buffer.
 std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text) {
     const auto values = to_numbers<float>(text, 2);
-    if (!values) return std::nullopt;
+    if (!values || std::fabs((*values)[0]) > 0x1p24f || std::fabs((*values)[1]) > 0x1p24f) return std::nullopt;
     return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
+}
+
+// As many as a renderer takes.
+std::optional<int> to_threads(std::string_view text) {
+    const auto value = to_count(text);
+    return value && *value <= 1024 ? value : std::nullopt;
 }
 
 // The algorithms of a list of names, in its order, none twice; `all` stands for every algorithm of
@@ -145,7 +151,7 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                [](std::string_view text) { return to_vertex_paths(text, ','); });
     add_option(app, options.raster.polygon_offset,
                {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
-                "two numbers such as 1,1"},
+                "two numbers such as 1,1, each from -16777216 to 16777216"},
                to_polygon_offset);
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
@@ -273,10 +279,10 @@ void add_resource_options(CLI::App& app, RunOptions& options) {
     add_choice(app, options.render.tile_size, "--tile", tile_sizes,
                "side of a tile in pixels; same bits (default 64; 32 where a peel runs pass by pass, 128 in large "
                "frames of one pass)");
-    add_option(
-        app, options.render.threads,
-        {"--threads", "N", "threads at most; same bits (default 0: all that there are)", "a whole number from 0"},
-        to_count);
+    add_option(app, options.render.threads,
+               {"--threads", "N", "threads at most; same bits (default 0: all that there are)",
+                "a whole number from 0 to 1024"},
+               to_threads);
 }
 
 void check_simd(Simd simd) {

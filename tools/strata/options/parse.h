@@ -11,12 +11,13 @@
 
 namespace strata::tools {
 
-// A whole decimal number that T can hold; nothing for any other text, a sign + or a space included.
+// A whole decimal number that T can hold; nothing for any other text, a sign + or a space or -0 included.
 template <std::integral T = int>
 [[nodiscard]] std::optional<T> to_int(std::string_view text) {
     T value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    if (value == 0 && text.starts_with('-')) return std::nullopt;
     return value;
 }
 
@@ -35,10 +36,10 @@ template <std::floating_point T>
     return value;
 }
 
-// From 0.
+// From 0 to an hour.
 [[nodiscard]] inline std::optional<double> to_seconds(std::string_view text) {
     const auto value = to_number<double>(text);
-    return value && *value >= 0 ? value : std::nullopt;
+    return value && *value >= 0 && *value <= 3600 ? value : std::nullopt;
 }
 
 // "a,b," is three parts, the last one empty.

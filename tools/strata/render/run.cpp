@@ -33,7 +33,8 @@ pipeline::View find_view(const RunOptions& options, const scenes::Scene& scene) 
         if (camera.name == options.camera) return scenes::camera_view(camera, aspect);
         names.push_back(camera.name);
     }
-    const bool is_file = options.camera.ends_with(".json") || std::filesystem::exists(options.camera);
+    std::error_code unreadable;  // such as a link to itself: no file
+    const bool is_file = options.camera.ends_with(".json") || std::filesystem::exists(options.camera, unreadable);
     if (is_file) return scenes::load_camera(options.camera, aspect);
     const std::string cameras =
         names.empty() ? "a .json file (the scene has no camera)" : one_of(names) + ", or a .json file";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -9,6 +10,8 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/progress.h"
+#include "tools/strata/sweep/leftovers.h"
+#include "tools/strata/sweep/lock.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -17,11 +20,10 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// The beginning that each line of the shard must have.
-Lines descriptions(const Work& work, const Shard& shard) {
-    Lines lines;
-    for (const std::size_t cell : shard.cells(work.cells)) lines.push_back(work.description(cell));
-    return lines;
+Expected expected_of(const Work& work, const Shard& shard) {
+    Expected expected{.cells = shard.cells(work.cells), .described = {}, .keys = work.keys};
+    for (const std::size_t cell : expected.cells) expected.described.push_back(work.description(cell));
+    return expected;
 }
 
 std::string path_in(const std::string& folder, const char* name) {
@@ -36,27 +38,35 @@ int exit_status(const Lines& lines) {
     return 2;
 }
 
-// The journal of an earlier run, held against the plan: a folder belongs to one plan.
-Found checked(const std::string& path, const Lines& expected) {
-    Found found = read_journal(path);
-    check_journal(path, found.lines, expected);
-    return found;
-}
+// The line as the next run reads it, so that results.csv is the same from both.
+ordered_json as_read(const ordered_json& line) { return ordered_json::parse(json_text(line)); }
 
-// Measures the cells of the shard that have no line yet, and adds their lines to `found`.
-void measure_missing(const Work& work, const std::string& folder, const Shard& shard, Found& found) {
+// Measures the cells of the shard whose line is null.
+void measure_missing(const Work& work, const std::string& folder, const Expected& expected, const Shard& shard,
+                     const Found& found, Lines& lines) {
     const std::string results = shard_file(folder, "results", shard), timings = shard_file(folder, "timings", shard);
-    Journal journal(results, found.whole_bytes), clock(timings, read_journal(timings).whole_bytes);
+    const auto missing = std::count(lines.begin(), lines.end(), nullptr);
+    if (missing == 0 && found.changed.empty()) return;
+    const Found timed = read_journal(timings);
+    Journal journal = journal_behind(results, found, lines), clock = journal_behind(timings, timed, timed.lines);
     Progress progress(work.name, Remaining::shown);
-    const auto mine = shard.cells(work.cells);
-    const std::size_t before = found.lines.size();
-    for (std::size_t i = before; i < mine.size(); ++i) {
-        progress.show(static_cast<double>(i - before) / static_cast<double>(mine.size() - before));
-        Measured measured = work.measure(mine[i]);
+    std::ptrdiff_t done = 0;
+    bool in_order = true;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (!lines[i].is_null()) {
+            in_order = in_order && done == 0;
+            continue;
+        }
+        progress.show(static_cast<double>(done) / static_cast<double>(missing));
+        const Measured measured = work.measure(expected.cells[i]);
         // Pictures and the time are written first: a line in the journal means that its cell is complete.
         clock.append(measured.timing);
-        journal.append(found.lines.emplace_back(std::move(measured.line)));
+        journal.append(measured.line);
+        lines[i] = as_read(measured.line);
+        ++done;
     }
+    // Cells between others were missing, so their lines stand at the end: the finished file has all in order.
+    if (!in_order) scenes::write_file(results, text_of(lines));
 }
 
 }  // namespace
@@ -64,44 +74,44 @@ void measure_missing(const Work& work, const std::string& folder, const Shard& s
 int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
     std::filesystem::create_directories(folder);
     const std::string results = shard_file(folder, "results", shard);
-    const Lines expected = descriptions(work, shard);
-    Found found = checked(results, expected);
-    if (found.torn)
-        std::fprintf(stderr, "strata: warning: %s: the last line was torn; its cell is measured again\n",
-                     results.c_str());
-    // A finished sweep writes nothing but its CSV.
-    if (found.lines.size() < expected.size()) measure_missing(work, folder, shard, found);
+    const Lock lock(results);
+    remove_leftovers(folder, shard);
+    const Expected expected = expected_of(work, shard);
+    Found found = read_journal(results);
+    Lines lines = lines_of_cells(results, found, expected);
+    warn_of(results, found);
+    measure_missing(work, folder, expected, shard, found, lines);
     if (shard.count > 1) {  // what it found is told when the shards are merged
-        print(fmt::format("{}: {} cells; --merge {} puts the shards together\n", results, found.lines.size(),
-                          shard.count));
+        print(fmt::format("{}: {} cells; --merge {} puts the shards together\n", results, lines.size(), shard.count));
         return 0;
     }
     // results.csv is made anew from all lines; only the journal grows.
-    scenes::write_file(path_in(folder, "results.csv"), work.csv(found.lines));
-    print(work.summary(found.lines));
-    return exit_status(found.lines);
+    scenes::write_file(path_in(folder, "results.csv"), work.csv(lines));
+    print(work.summary(lines));
+    return exit_status(lines);
 }
 
 // Lines go to the places of their cells, so the merged files are those of a sweep in one shard.
 int merge_shards(const Work& work, const std::string& folder, std::size_t shards) {
+    const Lock lock(shard_file(folder, "results", {}));
     Lines results(work.cells);
     std::string timings;
     for (std::size_t index = 1; index <= shards; ++index) {
         const Shard shard{index, shards};
         const std::string path = shard_file(folder, "results", shard);
-        const auto cells = shard.cells(work.cells);
-        Found found = checked(path, descriptions(work, shard));
-        if (found.lines.size() != cells.size())
-            throw InputError(path, "lines", std::to_string(cells.size()) + ", one a cell of the shard",
-                             std::to_string(found.lines.size()));
-        for (std::size_t i = 0; i < cells.size(); ++i) results[cells[i]] = std::move(found.lines[i]);
+        const Expected expected = expected_of(work, shard);
+        Found found = read_journal(path);
+        Lines lines = lines_of_cells(path, found, expected);
+        warn_of(path, found);
+        const auto missing = static_cast<std::size_t>(std::count(lines.begin(), lines.end(), nullptr));
+        if (missing > 0)
+            throw InputError(path, "lines", std::to_string(lines.size()) + ", one a cell of the shard",
+                             std::to_string(lines.size() - missing));
+        for (std::size_t i = 0; i < lines.size(); ++i) results[expected.cells[i]] = std::move(lines[i]);
         // Times are joined shard by shard; each line names its cell.
-        for (const ordered_json& line : read_journal(shard_file(folder, "timings", shard)).lines)
-            timings += line.dump() + '\n';
+        timings += text_of(read_journal(shard_file(folder, "timings", shard)).lines);
     }
-    std::string text;
-    for (const ordered_json& line : results) text += line.dump() + '\n';
-    scenes::write_file(path_in(folder, "results.jsonl"), text);
+    scenes::write_file(path_in(folder, "results.jsonl"), text_of(results));
     scenes::write_file(path_in(folder, "results.csv"), work.csv(results));
     scenes::write_file(path_in(folder, "timings.jsonl"), timings);
     print(work.summary(results));
@@ -116,7 +126,7 @@ void dry_run(const Work& work, const Shard& shard) {
         const std::string like = work.alike(cell);
         if (!measured.contains(like)) measured[like] = work.measure(cell).seconds;
         total += measured[like];
-        print(work.description(cell).dump() + '\n');
+        print(json_text(work.description(cell)) + '\n');
     }
     print(fmt::format("{} cells, about {:.0f} s on this machine\n", mine.size(), total));
 }

@@ -1,7 +1,7 @@
 // tools/strata/sweep/sweep.h - runs the cells of a sweep in order, keeps what was measured before, merges shards.
 //
 // Rule     results.jsonl and results.csv depend on the plan alone: not on threads, shards, interruptions or time.
-//          What a cell took stands in timings.jsonl and nowhere else.
+//          What a cell took stands in timings.jsonl and nowhere else. One run at a time writes to a shard's files.
 // Tests    tests/tools/invariance_test.cpp
 #pragma once
 #include <functional>
@@ -25,6 +25,8 @@ struct Work {
     std::size_t cells = 0;
     // All keys that are known before the cell runs, `cell` first.
     std::function<nlohmann::ordered_json(std::size_t cell)> description;
+    // The keys of a whole line.
+    std::vector<std::string> keys;
     // Runs a cell, and writes its pictures if it has any.
     std::function<Measured(std::size_t cell)> measure;
     // The whole results.csv, and what people are told at the end, of all lines in the order of the cells.

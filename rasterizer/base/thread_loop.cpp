@@ -1,0 +1,66 @@
+#include "rasterizer/base/thread_loop.h"
+
+#include <pthread.h>
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace strata {
+
+namespace {
+
+// Threads wait for the gate, so that all of them are there at once.
+void* wait_at(void* gate) {
+    const std::lock_guard held{*static_cast<std::mutex*>(gate)};
+    return nullptr;
+}
+
+}  // namespace
+
+int threads_to_be_had(int wanted, std::size_t stack_bytes) noexcept try {
+    std::vector<pthread_t> threads;
+    threads.reserve(static_cast<std::size_t>(wanted));
+    pthread_attr_t attributes;
+    if (pthread_attr_init(&attributes) != 0) return 0;
+    pthread_attr_setstacksize(&attributes, stack_bytes);
+    std::mutex gate;
+    {
+        const std::lock_guard shut{gate};
+        for (pthread_t one{}; static_cast<int>(threads.size()) < wanted; threads.push_back(one))
+            if (pthread_create(&one, &attributes, wait_at, &gate) != 0) break;
+    }
+    for (const pthread_t thread : threads) pthread_join(thread, nullptr);
+    pthread_attr_destroy(&attributes);
+    return static_cast<int>(threads.size());
+} catch (const std::exception&) {  // no memory for their list
+    return 0;
+}
+
+void thread_loop(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
+    std::atomic<std::size_t> next = 0;
+    std::mutex mutex;
+    std::exception_ptr failure;
+    const auto work = [&] {
+        try {
+            for (std::size_t i = next++; i < count; i = next++) body(i);
+        } catch (...) {
+            const std::lock_guard held{mutex};
+            if (!failure) failure = std::current_exception();
+            next = count;
+        }
+    };
+    std::vector<std::thread> others;
+    try {
+        for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i) others.emplace_back(work);
+    } catch (const std::system_error&) {  // there are no more to be had
+    }
+    work();
+    for (std::thread& other : others) other.join();
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace strata

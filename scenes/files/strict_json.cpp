@@ -1,0 +1,69 @@
+#include "scenes/files/strict_json.h"
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+#include "rasterizer/base/input_error.h"
+
+namespace strata::scenes {
+namespace {
+
+using nlohmann::json;
+
+constexpr int most_levels = 64;
+
+// What the parser tells of the objects that it is in.
+class Keys {
+  public:
+    explicit Keys(const std::string& file) : file_{file} {}
+
+    // False would leave a value out: every one is kept.
+    bool operator()(int depth, json::parse_event_t event, const json& parsed) {
+        if (depth > most_levels) throw InputError(file_, place(), "at most 64 levels of arrays and objects", "more");
+        using enum json::parse_event_t;
+        if (event == object_start) levels_.emplace_back();
+        if (event == object_end) levels_.pop_back();
+        if (event == key) enter(parsed.get<std::string>());
+        return true;
+    }
+
+  private:
+    struct Level {
+        std::set<std::string> names;
+        std::string last;
+    };
+
+    void enter(const std::string& name) {
+        Level& level = levels_.back();
+        level.last = name;
+        if (!level.names.insert(name).second) throw InputError(file_, place(), "each key once", "this one twice");
+    }
+
+    // The keys of the objects around; the positions in arrays are not known here.
+    [[nodiscard]] std::string place() const {
+        std::string text;
+        for (const Level& level : levels_) text += "/" + level.last;
+        return text.empty() ? "/" : text;
+    }
+
+    const std::string& file_;
+    std::vector<Level> levels_;
+};
+
+}  // namespace
+
+// The library's own words are left out: they name no file and differ between its versions.
+json parse_strict_json(const std::string& text, const std::string& file, const std::string& what) {
+    Keys keys{file};
+    try {
+        return json::parse(text, std::ref(keys));
+    } catch (const json::parse_error& error) {
+        throw InputError(file, "byte " + std::to_string(error.byte), what, "a syntax error");
+    } catch (const json::exception&) {
+        throw InputError(file, "/", what, "a number out of range");
+    }
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,174 @@
+// Model: a folder's listing, and the bytes of the same command without a fault. Calls of the system fail one after the
+// other by a library that stands before the C library.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cerrno>
+#include <fstream>
+#include <map>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+namespace {
+
+using Files = std::map<std::string, std::string>;
+
+// All files under the folder by their names, with their bytes.
+Files files_under(const Folder& folder) {
+    Files files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
+        if (entry.is_regular_file())
+            files[std::filesystem::relative(entry.path(), folder.path()).string()] = content_of(entry.path().string());
+    return files;
+}
+
+Ended run_failing(const Folder& folder, const std::vector<std::string>& words, const std::string& fault) {
+    return run_strata(folder, words, {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_FAIL", fault}}});
+}
+
+// The counted calls of a command that does not fail, in their order.
+std::vector<std::string> calls_of(const Folder& folder, const std::vector<std::string>& words) {
+    const Folder log;
+    const Ended ended = run_strata(
+        folder, words, {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_CALLS", log / "calls"}}});
+    REQUIRE(ended.status == 0);
+    return lines_of(content_of(log / "calls"));
+}
+
+std::string fault_of(const std::string& call, std::ptrdiff_t number, int error) {
+    return call + ":" + std::to_string(number) + ":" + std::to_string(error);
+}
+
+// What a run with a fault may leave: each file as it was before, or as the command makes it.
+bool is_old_or_new(const Files& found, const Files& whole) {
+    return std::all_of(found.begin(), found.end(), [&](const auto& file) {
+        return whole.contains(file.first) && (file.second == "old" || file.second == whole.at(file.first));
+    });
+}
+
+struct Writing {
+    std::vector<std::string> words, outputs;
+};
+
+}  // namespace
+
+TEST_CASE("whichever call of the system fails, a command says so and leaves each file old or new, never half") {
+    const auto writing = GENERATE(values<Writing>({
+        {{"render", "planes:count=2", "--size", "24x16", "--no-audit", "-o", "out.png"}, {"out.png"}},
+        {{"render", "planes:count=2", "--size", "24x16", "--no-audit", "-o", "out.exr"}, {"out.exr"}},
+        {{"layers", "planes:count=2", "--size", "24x16", "--no-audit", "-o", "l.exr", "--deep", "d.exr", "--stats",
+          "s.json"},
+         {"l.exr", "d.exr"}},
+        {{"bench", "planes:count=2", "--size", "24x16", "--algorithm", "depth", "--repeat", "1", "--warm-up", "0",
+          "--json", "times.json"},
+         {}},
+    }));
+    const Folder clean;
+    auto words = writing.words;
+    words.insert(words.end(), {"--threads", "1"});
+    const auto calls = calls_of(clean, words);
+    const Files whole = files_under(clean);
+    std::string wrong;
+    int told = 0;
+    for (const std::string call : {"open", "write", "fsync", "rename", "close"})
+        for (std::ptrdiff_t n = 1; n <= std::count(calls.begin(), calls.end(), call); ++n) {
+            const Folder folder;
+            for (const std::string& output : writing.outputs) std::ofstream(folder / output) << "old";
+            // A full disk stays full.
+            const std::string fault =
+                call == "write" ? "write:" + std::to_string(n) + "+:" + std::to_string(ENOSPC) : fault_of(call, n, EIO);
+            const Ended ended = run_failing(folder, words, fault);
+            // Files with times in them cannot be compared.
+            Files found = files_under(folder);
+            found.erase("times.json");
+            found.erase("s.json");
+            const bool says_it = ended.status == 3 && lines_of(ended.err).size() == 1;
+            told += says_it ? 1 : 0;
+            // What other libraries write to sockets and pipes of their own, and a close after the bytes are safe, may
+            // fail unnoticed: then all is there.
+            Files finished = whole;
+            finished.erase("times.json");
+            finished.erase("s.json");
+            const bool may_pass = ended.status == 0 && (call == "close" || call == "write") && found == finished;
+            if (!may_pass && !(says_it && is_old_or_new(found, whole)))
+                wrong += call + " " + std::to_string(n) + ": " + std::to_string(ended.status) + " " + ended.err + "; ";
+        }
+    CHECK(wrong == "");
+    CHECK(told >= 6);  // open, write, two fsyncs, rename, close
+}
+
+TEST_CASE("a sweep whose calls of the system fail goes on where it stopped, and ends with the same bytes") {
+    const std::vector<std::string> words{"invariance",
+                                         "planes:gap=64,count=3",
+                                         "--size",
+                                         "16x12",
+                                         "--profile",
+                                         "ideal",
+                                         "--algorithm",
+                                         "front_to_back",
+                                         "--pair",
+                                         "float32:exact",
+                                         "--remedy",
+                                         "none",
+                                         "--depth-format",
+                                         "d24",
+                                         "--no-images",
+                                         "--threads",
+                                         "1",
+                                         "-o",
+                                         "out"};
+    const Folder clean;
+    const auto calls = calls_of(clean, words);
+    Files whole = files_under(clean);
+    whole.erase("out/timings.jsonl");
+    std::string wrong;
+    int told = 0;
+    for (const std::string call : {"open", "write", "fsync", "rename"})
+        for (std::ptrdiff_t n = 1; n <= std::count(calls.begin(), calls.end(), call); ++n) {
+            const Folder folder;
+            const Ended ended = run_failing(folder, words, fault_of(call, n, ENOSPC));
+            told += ended.status == 3 ? 1 : 0;
+            const bool is_wrong = ended.status != 3 || run_strata(folder, words).status != 0;
+            Files found = files_under(folder);
+            found.erase("out/timings.jsonl");
+            if (is_wrong || found != whole) wrong += call + " " + std::to_string(n) + ": " + ended.err + "; ";
+        }
+    CHECK(wrong == "");
+    CHECK(told >= 8);
+}
+
+TEST_CASE("bytes are on the disk before their name, and the name before the command ends") {
+    const Folder folder;
+    const auto calls = calls_of(
+        folder, {"render", "planes:count=2", "--size", "24x16", "--no-audit", "--threads", "1", "--stats", "out.json"});
+    std::vector<std::string> order;
+    for (const std::string& call : calls)
+        if (call == "write" || call == "fsync" || call == "rename") order.push_back(call);
+    CHECK(order == std::vector<std::string>{"write", "fsync", "rename", "fsync"});
+}
+
+TEST_CASE("threads that the system refuses are fewer threads, a warning and the same picture") {
+    const std::vector<std::string> words{
+        "render", "random:triangles=300", "--size", "200x150", "--no-audit", "--threads", "4", "--stats", "-"};
+    const auto digest_in = [](const Ended& ended) {
+        const auto begin = ended.out.find("\"digest\"");
+        return begin == std::string::npos ? "none" : ended.out.substr(begin, ended.out.find('}', begin) - begin);
+    };
+    const Folder folder;
+    const Ended plain = run_strata(folder, words);
+    REQUIRE(plain.status == 0);
+    REQUIRE(plain.err == "");
+    REQUIRE(digest_in(plain).size() > 64);
+    for (int most = 0; most <= 3; ++most) {
+        const Ended ended = run_strata(
+            folder, words,
+            {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_MOST_THREADS", std::to_string(most)}}});
+        INFO(most << " threads beside the first: " << ended.err);
+        CHECK(ended.status == 0);
+        const std::string warning = "strata: warning: --threads: the system refused 4 threads; " +
+                                    std::to_string(std::max(1, most)) + " worked\n";
+        CHECK(ended.err == (most == 3 ? "" : warning));
+        CHECK(digest_in(ended) == digest_in(plain));
+    }
+}
