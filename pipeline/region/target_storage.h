@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/format.h"
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/image.h"

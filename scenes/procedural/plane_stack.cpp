@@ -3,14 +3,11 @@
 
 #include "rasterizer/base/numerics.h"
 #include "scenes/bounds.h"
-#include "scenes/numbers/elementary.h"
 #include "scenes/numbers/srgb_encode.h"
+#include "scenes/procedural/wave.h"
 
 namespace strata::scenes {
 namespace {
-
-// 0.5 + 0.5 cos(2 pi (t - shift))
-float wave(double t, double shift) noexcept { return static_cast<float>(0.5 + 0.5 * cos(2 * pi * (t - shift))); }
 
 // Appends plane i. The grid has cells + i squares a side, so two planes share no edge: where they nearly
 // coincide, their depths come from different triangles and round differently, which is the point of the scene.

@@ -5,8 +5,8 @@
 
 #include "rasterizer/base/numerics.h"
 #include "scenes/bounds.h"
-#include "scenes/numbers/elementary.h"
 #include "scenes/numbers/srgb_encode.h"
+#include "scenes/procedural/wave.h"
 
 namespace strata::scenes {
 namespace {
@@ -15,9 +15,6 @@ namespace {
 pipeline::Vec3 rounded(double x, double y, double z) noexcept {
     return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
 }
-
-// 0.5 + 0.5 cos(2 pi (t - shift))
-float wave(double t, double shift) noexcept { return static_cast<float>(0.5 + 0.5 * cos(2 * pi * (t - shift))); }
 
 // Appends slice i of the stack; 0 is the one farthest from a viewer on +z, at the middle of its share of [-1,
 // 1].

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "pipeline/frame/captured_fragment.h"
 #include "tests/support/random_numbers.h"
 
 using namespace strata::peeling;

@@ -117,6 +117,7 @@ struct CostSweep {
     return {.name = "cost",
             .cells = sweep.cells.size(),
             .description = described,
+            .keys = cost_keys(),
             .measure = [&](std::size_t i) { return measured(sweep, i, options.rounds); },
             .csv = cost_csv,
             .summary = [folder = options.run.output](const Lines& lines) { return report(lines, folder); },

@@ -89,6 +89,8 @@ void relate_spread(std::vector<CostRow>& rows, std::optional<TimeSpread> CostRow
 
 }  // namespace
 
+std::vector<std::string> cost_keys() { return {cost_columns.begin(), cost_columns.end()}; }
+
 ordered_json cost_description(std::size_t number, const CostScene& scene, const CostCell& cell) {
     const peeling::ChainScene asked{scene.session.scene.list, scene.session.view, cell.profile, cell.options};
     const bool has_limit = cell.options.termination.rule == pipeline::TerminationRule::fixed;

@@ -18,6 +18,8 @@ struct CostCell;    // tools/strata/cost/cost_plan.h
 struct CostResult;  // tools/strata/cost/cost_run.h
 struct CostTimes;
 
+// All keys of a whole line.
+[[nodiscard]] std::vector<std::string> cost_keys();
 [[nodiscard]] nlohmann::ordered_json cost_description(std::size_t number, const CostScene& scene, const CostCell& cell);
 [[nodiscard]] nlohmann::ordered_json cost_line(std::size_t number, const CostScene& scene, const CostCell& cell,
                                                const CostResult& result);
