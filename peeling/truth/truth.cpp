@@ -154,6 +154,13 @@ RealImage real_image(const Image& image) {
 
 RealImage render_chain(const ChainScene& scene, const Chain& chain) {
     if (scene.list.light) throw InputError("scene", "light", "no light that casts shadows", "one");
+    // The chain's machine has the exact planes and the snapped edges of NVIDIA's profiles alone.
+    const rasterizer::RasterRules& rules = scene.profile.raster;
+    if (rules.plane_rule != rasterizer::PlaneRule::exact || rules.coverage != rasterizer::CoverageRule::snapped_edges ||
+        rules.clip != rasterizer::ClipVolume::guard_band)
+        throw InputError("profile", "raster",
+                         "exact planes, snapped edges and a guard band (the chain of links knows no others)",
+                         "those of " + scene.profile.name);
     const FloatEnvironment ours;
     const SimdScope kernels{scene.options.simd};
     const ChainList transparent{scene, chain, scene.options.alpha ? Selection::all : Selection::transparent};

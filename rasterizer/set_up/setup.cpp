@@ -182,8 +182,8 @@ TriangleSetup::Fate TriangleSetup::add_clipped(const SourceTriangle& triangle, s
             {first, last - 1, last}, {&corner[0], &corner[i - 1], &corner[i]}, marks[0] | marks[i - 1] | marks[i]};
         // The view volume's fan names its common corner last (coverage.md 2.8).
         if (rules_.clip == ClipVolume::view_volume) {
-            std::ranges::rotate(fan.vertex, fan.vertex.begin() + 1);
-            std::ranges::rotate(fan.corner, fan.corner.begin() + 1);
+            std::rotate(fan.vertex.begin(), fan.vertex.begin() + 1, fan.vertex.end());
+            std::rotate(fan.corner.begin(), fan.corner.begin() + 1, fan.corner.end());
         }
         const Fate piece = add_piece(fan, triangle, out);
         any_kept |= piece == Fate::kept;

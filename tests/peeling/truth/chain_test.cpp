@@ -57,13 +57,21 @@ Both both(const DrawList& list, const std::string& profile, const RenderOptions&
 }  // namespace
 
 TEST_CASE("a chain without an exact link has the picture of sequential depth units, to the bit", "[slow]") {
-    for (const char* profile : {"geforce3", "geforce8", "ideal", "llvmpipe"})
+    for (const char* profile : {"geforce3", "geforce8", "ideal"})
         for (std::uint64_t seed = 0; seed < 4; ++seed) {
             INFO(profile << ", seed " << seed);
             const DrawList list = random_chain_list(seed, parts_of(seed));
             const Both seen = both(list, profile, chain_options(), machine_chain, "depth_units");
             CHECK(seen.chain == seen.machine);
         }
+}
+
+TEST_CASE("a chain refuses a device whose planes are stepped or whose spans are floats") {
+    const DrawList list = random_chain_list(0, parts_of(0));
+    for (const char* profile : {"llvmpipe", "llvmpipe_sse", "softpipe"})
+        CHECK_THROWS_WITH(
+            render_chain({list, chain_view, *find_profile(profile), chain_options()}, machine_chain),
+            Catch::Contains("expected exact planes, snapped edges and a guard band") && Catch::Contains(profile));
 }
 
 TEST_CASE("a chain without an exact link follows every depth path and format, colour format and snapping grid",

@@ -31,12 +31,12 @@ using namespace strata::rasterizer;
                             .clip = ClipVolume::view_volume,
                             .plane_origin = PlaneOrigin::unsnapped,
                             .plane_rule = PlaneRule::least_corner};
-    return {{mesa_like, {DepthPath::float32, DepthFormat::d32f}},
-            {spans, {DepthPath::float32, DepthFormat::d32f}},
-            {{}, {DepthPath::float32, DepthFormat::d32f}},
+    return {{{}, {DepthPath::float32, DepthFormat::d32f}},
             {{.subpixel_bits = 12}, {DepthPath::exact, DepthFormat::d24}},
             {unsnapped, {DepthPath::float32, DepthFormat::d24}},
-            {geforce3_like, {DepthPath::window_z, DepthFormat::d24}}};
+            {geforce3_like, {DepthPath::window_z, DepthFormat::d24}},
+            {mesa_like, {DepthPath::float32, DepthFormat::d32f}},
+            {spans, {DepthPath::float32, DepthFormat::d32f}}};
 }
 
 [[nodiscard]] Geometry geometry_of(const TriangleSoup& soup, const Device& device, int width, int height,

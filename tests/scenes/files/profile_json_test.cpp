@@ -99,7 +99,8 @@ TEST_CASE("text that is no JSON object is refused with its place") {
     CHECK(error_of("{\"name\": }") == "my.json: byte 10: expected a profile in JSON, found a syntax error");
     CHECK(error_of("[1]") == "my.json: /: expected an object, found array");
     CHECK(error_of("{\"name\": 1e999}") == "my.json: /: expected a profile in JSON, found a number out of range");
-    CHECK(error_of(std::string(100000, '[')).starts_with("my.json: byte "));
+    CHECK(error_of(std::string(100000, '[')) ==
+          "my.json: /: expected at most 64 levels of arrays and objects, found more");
 }
 
 TEST_CASE("a profile is loaded by name or from a file, and a name that is neither suggests the nearest") {

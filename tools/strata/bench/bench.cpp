@@ -131,7 +131,8 @@ Command add_bench(CLI::App& root) {
              {"--baseline", "FILE", "what --json wrote before: also print old/new", "a file name"});
     app->footer(
         footer("  strata bench teapot --size 200x150 --algorithm depth,dual --execution all --repeat 3\n"
-               "  strata bench volume-beam:slices=4 random:triangles=300 --size 64x64 --warm-up 0 --repeat 1 --json times.json\n"));
+               "  strata bench volume-beam:slices=4 random:triangles=300 --size 64x64 --warm-up 0 --repeat 1 --json "
+               "times.json\n"));
     return {app, [options] { return bench(*options); }};
 }
 

@@ -44,6 +44,7 @@ struct HardRow {
     std::vector<pipeline::Diagnostic> diagnostics;
     // From hard_truth.h, in 1/255: where no two fragments have one key, and where some have.
     double difference = 0, difference_at_ties = 0;
+    bool steps_planes = false;         // the device rounds its planes step by step; the truth does not
     double bound = 0;                  // of it
     std::uint64_t nan_values = 0;      // of the picture
     std::vector<std::string> unlike;   // ways of running that gave other bits

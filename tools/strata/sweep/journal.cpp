@@ -155,11 +155,16 @@ std::string text_of(const Lines& lines) {
 }
 
 void warn_of(const std::string& path, const Found& found) {
-    for (const std::size_t number : found.changed)
+    constexpr std::size_t most_named = 8;
+    const std::size_t named = std::min(found.changed.size(), most_named);
+    for (std::size_t i = 0; i < named; ++i)
         std::fprintf(
             stderr,
             "strata: warning: %s: line %zu is not what was written; it is dropped, and its cell measured again\n",
-            path.c_str(), number);
+            path.c_str(), found.changed[i]);
+    if (found.changed.size() > named)
+        std::fprintf(stderr, "strata: warning: %s: the same of %zu further lines\n", path.c_str(),
+                     found.changed.size() - named);
     if (found.torn)
         std::fprintf(stderr, "strata: warning: %s: the last line was torn; its cell is measured again\n", path.c_str());
 }
