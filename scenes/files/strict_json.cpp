@@ -22,10 +22,9 @@ class Keys {
     // False would leave a value out: every one is kept.
     bool operator()(int depth, json::parse_event_t event, const json& parsed) {
         if (depth > most_levels) throw InputError(file_, place(), "at most 64 levels of arrays and objects", "more");
-        using enum json::parse_event_t;
-        if (event == object_start) levels_.emplace_back();
-        if (event == object_end) levels_.pop_back();
-        if (event == key) enter(parsed.get<std::string>());
+        if (event == json::parse_event_t::object_start) levels_.emplace_back();
+        if (event == json::parse_event_t::object_end) levels_.pop_back();
+        if (event == json::parse_event_t::key) enter(parsed.get<std::string>());
         return true;
     }
 
