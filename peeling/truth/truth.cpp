@@ -156,8 +156,10 @@ RealImage render_chain(const ChainScene& scene, const Chain& chain) {
     if (scene.list.light) throw InputError("scene", "light", "no light that casts shadows", "one");
     // The chain's machine has the exact planes and the snapped edges of NVIDIA's profiles alone.
     const rasterizer::RasterRules& rules = scene.profile.raster;
-    if (rules.plane_rule != rasterizer::PlaneRule::exact || rules.coverage != rasterizer::CoverageRule::snapped_edges ||
-        rules.clip != rasterizer::ClipVolume::guard_band)
+    const bool is_known = rules.plane_rule == rasterizer::PlaneRule::exact &&
+                          rules.coverage == rasterizer::CoverageRule::snapped_edges &&
+                          rules.clip == rasterizer::ClipVolume::guard_band;
+    if (chain != exact_chain && !is_known)
         throw InputError("profile", "raster",
                          "exact planes, snapped edges and a guard band (the chain of links knows no others)",
                          "those of " + scene.profile.name);
