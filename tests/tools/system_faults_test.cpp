@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "tests/tools/program.h"
 
@@ -176,4 +177,33 @@ TEST_CASE("threads that the system refuses are fewer threads, a warning and the 
         CHECK(ended.err == (most == 3 ? "" : warning));
         CHECK(digest_in(ended) == digest_in(plain));
     }
+}
+
+TEST_CASE("however few threads the system gives, a picture is written whole, or the command says what it lacks") {
+    const std::string output = GENERATE("out.png", "out.exr");
+    const int threads = GENERATE(1, 4);
+    const Folder clean;
+    const std::vector<std::string> words{
+        "render", "planes:count=2", "--size", "24x16", "--no-audit", "--threads", "1", "-o", output};
+    REQUIRE(run_strata(clean, words).status == 0);
+    const std::string whole = content_of(clean / output);
+    auto asked = words;
+    asked[6] = std::to_string(threads);
+    int written = 0, refused = 0;
+    const int most_of_all = 8 + static_cast<int>(std::thread::hardware_concurrency());
+    for (int most = 0; most <= most_of_all; ++most) {
+        const Folder folder;
+        const Ended ended = run_strata(
+            folder, asked,
+            {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_MOST_THREADS", std::to_string(most)}}});
+        INFO(most << " threads beside the first: " << ended.status << " " << ended.err);
+        const bool is_written = ended.status == 0;
+        CHECK((is_written || ended.status == 3));
+        CHECK(std::filesystem::exists(folder / output) == is_written);
+        if (is_written) CHECK(content_of(folder / output) == whole);
+        if (!is_written) CHECK(ended.err.find("threads for the image library") != std::string::npos);
+        ++(is_written ? written : refused);
+    }
+    CHECK(written > 0);
+    CHECK(refused > 0);
 }
