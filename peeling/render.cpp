@@ -76,6 +76,7 @@ std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfi
 
 // A closed form where the algorithm offers one, its passes elsewhere.
 Body body_of(const Algorithm& algorithm) {
+    if (algorithm.body) return algorithm.body;
     return [&](Region& region) {
         if (algorithm.closed_form == nullptr || !algorithm.closed_form(region)) algorithm.run(region);
     };
@@ -257,6 +258,8 @@ struct Renderer::State {
     }
 
     [[nodiscard]] Verdict refusal(const Algorithm& algorithm) const {
+        if (algorithm.run == nullptr && !algorithm.body)
+            throw InputError("algorithm '" + algorithm.name + "'", "run", "a function, or one in body", "neither");
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
         if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
         if (auto lacking = check(profile, color_format)) return lacking;
@@ -332,7 +335,7 @@ struct Renderer::State {
             merge(all, {Fault::non_finite_vertices, 0, -1, -1,
                         std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
                             std::to_string(counters.first_non_finite)});
-        if (algorithm.run == find_algorithm("depth_units")->run)
+        if (algorithm.run == find_algorithm("depth_units")->run && !algorithm.body)
             merge(all,
                   {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
         if (needs(algorithm, Feature::ordered_rmw))

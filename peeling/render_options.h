@@ -32,29 +32,29 @@ struct VertexPaths {
 // keep_layers and nearest_depth add results without changing the picture.
 struct RenderOptions {
     int width = 1024, height = 1024;
-    std::optional<pipeline::DepthFormat> depth;       // default: d32f where the profile has it, else d24
-    std::optional<rasterizer::DepthPath> depth_path;  // default: the profile's
+    std::optional<pipeline::DepthFormat> depth{};       // default: d32f where the profile has it, else d24
+    std::optional<rasterizer::DepthPath> depth_path{};  // default: the profile's
     std::optional<rasterizer::DepthPath>
-        reference_path;                        // the depth that passes compare; default: the one that they store
-    pipeline::CompareEpsilon compare_epsilon;  // added to a stored depth before it is compared
+        reference_path{};                        // the depth that passes compare; default: the one that they store
+    pipeline::CompareEpsilon compare_epsilon{};  // added to a stored depth before it is compared
     bool quantize_reference =
         true;  // false: compare a depth that is not rounded like the stored one; true: as the profile
-    VertexPaths vertex_paths;
+    VertexPaths vertex_paths{};
     const pipeline::DrawList* second_list = nullptr;  // the same surfaces split otherwise, for all passes but the first
-    std::optional<bool> second_depth_clamp;           // and their depth clamp
-    std::optional<pipeline::Format> color_format;     // default: rgba8; rgba32f on a profile with exact depth ("ideal")
-    std::optional<float> alpha;                       // draws everything as transparent, its own alpha times this
+    std::optional<bool> second_depth_clamp{};         // and their depth clamp
+    std::optional<pipeline::Format> color_format{};   // default: rgba8; rgba32f on a profile with exact depth ("ideal")
+    std::optional<float> alpha{};                     // draws everything as transparent, its own alpha times this
     pipeline::Rgba background{0, 0, 0, 1};
-    pipeline::Termination termination;
+    pipeline::Termination termination{};
     pipeline::Formulation formulation = pipeline::Formulation::resolved;
-    Sort sort;  // the order in which triangles are submitted
+    Sort sort{};  // the order in which triangles are submitted
     std::vector<std::string>
-        sorted;  // meshes or materials that arrive front to back, for hybrid; beside those that the scene names
+        sorted{};  // meshes or materials that arrive front to back, for hybrid; beside those that the scene names
     int max_passes = 0;
     pipeline::Execution execution = pipeline::Execution::replay;
     // Bytes that replay may hold in captured fragments; and the audit as many, but no fewer than least_audit_memory.
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
-    std::optional<int> tile_size;  // pixels; default: tile_size_of
+    std::optional<int> tile_size{};  // pixels; default: tile_size_of
     int threads = 0;
     Simd simd = Simd::best;  // of all kernels of this renderer
     pipeline::Effects effects = pipeline::Effects::needed;
@@ -65,7 +65,7 @@ struct RenderOptions {
     // The viewport's corner on its surface, in pixels; positions move with it exactly.
     std::array<int, 2> window_origin{0, 0};
     // Conventions; the viewport is set from width, height and window_origin.
-    rasterizer::RasterState raster;
+    rasterizer::RasterState raster{};
 };
 
 // The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all and the frame has many

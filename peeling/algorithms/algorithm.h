@@ -1,5 +1,6 @@
 // peeling/algorithms/algorithm.h - an algorithm as a value: its paper, its needs, its tie policy and its pass formula.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ struct Algorithm {
     bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide
     void (*run)(pipeline::Region&) = nullptr;
+    // In place of `run`: an algorithm that carries values of its own. Regions run on several threads at once, and some of them twice.
+    std::function<void(pipeline::Region&)> body{};
     bool (*closed_form)(pipeline::Region&) = nullptr;  // peeling/closed/closed_form.h; null if it has none
     // All values of fragments that its geometry passes look at: replay captures these. Empty: one pass, so nothing is
     // replayed.

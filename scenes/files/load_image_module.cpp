@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 
 #include <filesystem>
+#include <vector>
 
 #include "rasterizer/base/parallel.h"
 #include "rasterizer/base/thread_loop.h"
@@ -27,14 +28,35 @@ ImageModuleEntry entry_in(void* library) {
     return reinterpret_cast<ImageModuleEntry>(::dlsym(library, image_module_symbol));
 }
 
-// In this order: an entry that the program already holds (tests link the module), the program's own folder (a
-// build), the folder beside it where an installation puts it. The current folder and the search path are left
-// out, so that no stray library is run.
+// Of the shared library that this code is a part of; empty if that is not known. A program is known by the name that it was called
+// by, which may be relative to another folder: only whole paths count.
+std::filesystem::path folder_of_this_code() {
+    Dl_info info{};
+    if (::dladdr(reinterpret_cast<const void*>(&entry_in), &info) == 0 || info.dli_fname == nullptr) return {};
+    if (info.dli_fname[0] != '/') return {};
+    std::error_code ignored;
+    return std::filesystem::canonical(info.dli_fname, ignored).parent_path();
+}
+
+// Where the module may be. The current folder and the search path are left out, so that no stray library is run.
+std::vector<std::filesystem::path> places() {
+    std::error_code ignored;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
+    std::vector<std::filesystem::path> places{program / file_name, program / installed_folder / file_name};
+    const auto library = folder_of_this_code();
+    if (library.empty() || library == program) return places;
+    places.push_back(library / file_name);
+    places.push_back(library / "strata" / file_name);
+    return places;
+}
+
+// An entry that the program already holds (tests link the module) comes first.
 ImageModuleEntry find_entry() {
     if (const ImageModuleEntry linked = entry_in(RTLD_DEFAULT)) return linked;
     std::error_code ignored;
-    const auto folder = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path();
-    for (const auto& path : {folder / file_name, folder / installed_folder / file_name}) {
+    std::string looked_in;
+    for (const auto& path : places()) {
+        looked_in += (looked_in.empty() ? "" : " or ") + path.parent_path().lexically_normal().string();
         if (!std::filesystem::exists(path, ignored)) continue;
         void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);  // for as long as the process lives
         const ImageModuleEntry entry = library != nullptr ? entry_in(library) : nullptr;
@@ -43,9 +65,7 @@ ImageModuleEntry find_entry() {
         return entry;
     }
     throw SystemError(file_name, "load the image module",
-                      "expected in " + folder.string() + " or " +
-                          (folder / installed_folder).lexically_normal().string() +
-                          ", found in neither; image files need it");
+                      "expected in " + looked_in + ", found in neither; image files need it");
 }
 
 // OpenImageIO's libraries start threads as they are loaded, and the process aborts or hangs where one is refused: four of

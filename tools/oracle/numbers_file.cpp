@@ -119,15 +119,19 @@ Target read_npy(const std::string& path) {
     return target;
 }
 
-Target read_raw(const std::string& path, const RawLayout& layout) {
+Target raw_target(std::string_view bytes, const std::string& thing, const RawLayout& layout) {
     Target target{.name = layout.meaning == Meaning::depth ? "depth" : "color",
                   .meaning = layout.meaning,
                   .code = layout.code,
                   .width = layout.width,
                   .height = layout.height,
                   .channels = layout.channels};
-    take(scenes::read_text_file(path, max_bytes), path, layout.bottom_up, target);
+    take(bytes, thing, layout.bottom_up, target);
     return target;
+}
+
+Target read_raw(const std::string& path, const RawLayout& layout) {
+    return raw_target(scenes::read_text_file(path, max_bytes), path, layout);
 }
 
 std::optional<RawLayout> raw_layout(std::string_view text) {

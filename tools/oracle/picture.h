@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/formats/image.h"
 #include "tools/oracle/codes.h"
 
 namespace strata::oracle {
@@ -53,6 +54,9 @@ struct RawLayout {
 // "640x480:rgba8", "640x480:d24:bottom-up"; formats r, rg, rgb and rgba with 8, 16, 16f or 32f, and d16, d24 (in 32-bit words), d32f.
 // Nothing for any other text.
 [[nodiscard]] std::optional<RawLayout> raw_layout(std::string_view text);
+
+// A finished target as it is, without a part.
+[[nodiscard]] Target as_target(const pipeline::Image& image, std::string name);
 
 // By the ending of the name: .exr, .png, .npy; all else is raw and needs a layout. InputError names file and place.
 [[nodiscard]] Picture read_picture(const std::string& path, const std::optional<RawLayout>& layout = {});

@@ -1,0 +1,89 @@
+// Model: pictures of 4 x 2 pixels by hand; the files of a folder.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+
+#include "strata/catch2.h"
+#include "tests/tools/oracle/own_file.h"
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+// STRATA_PICTURES names a folder that is not there yet, and goes with the test.
+class PictureFolder {
+  public:
+    PictureFolder() { setenv("STRATA_PICTURES", folder_.path().c_str(), 1); }
+    PictureFolder(const PictureFolder&) = delete;
+    PictureFolder& operator=(const PictureFolder&) = delete;
+    ~PictureFolder() {
+        unsetenv("STRATA_PICTURES");
+        std::filesystem::remove_all(folder_.path());
+    }
+    [[nodiscard]] std::filesystem::path path() const { return folder_.path(); }
+
+  private:
+    strata::test::OwnFile folder_{""};
+};
+
+// Red codes of row 1 from the left; alpha 255.
+strata::Picture row_of_reds(const std::array<unsigned char, 4>& reds) {
+    std::array<unsigned char, 4 * 2 * 4> bytes{};
+    for (std::size_t i = 0; i < 8; ++i) bytes[4 * i + 3] = 255;
+    for (std::size_t x = 0; x < 4; ++x) bytes[4 * (4 + x)] = reds[x];
+    return strata::from_memory(bytes.data(), bytes.size(), "4x2:rgba8");
+}
+
+const strata::Reference& reds() {
+    static const strata::Reference reference{row_of_reds({10, 20, 30, 40}), "some/red row.exr"};
+    return reference;
+}
+
+}  // namespace
+
+TEST_CASE("an equal picture matches and leaves nothing behind") {
+    const PictureFolder folder;
+    CHECK_THAT(row_of_reds({10, 20, 30, 40}), strata::MatchesReference(reds()));
+    CHECK_FALSE(std::filesystem::exists(folder.path()));
+}
+
+TEST_CASE("a failure's message says the kind, the number and the first pixel, and where the pictures are") {
+    const PictureFolder folder;
+    const strata::MatchesReference matcher{reds()};
+    CHECK_FALSE(matcher.match(row_of_reds({10, 20, 31, 44})));
+    const std::string side = (folder.path() / "red_row.exr.side.png").string();
+    CHECK_THAT(matcher.describe(), Contains("color at 2 pixels, first at (2, 1)"));
+    CHECK_THAT(matcher.describe(), Contains("some/red row.exr") && Contains(side));
+    const strata::Picture left = strata::read_picture(side);
+    CHECK(left.targets[0].width > 3 * 4);  // three pictures with a line between
+}
+
+TEST_CASE("a tolerance forgives as many codes as it says, and no more") {
+    const PictureFolder folder;
+    strata::Tolerances two;
+    two.color_codes = 2;
+    CHECK_THAT(row_of_reds({12, 18, 30, 40}), strata::MatchesReference(reds(), two));
+    CHECK_THAT(row_of_reds({13, 20, 30, 40}), !strata::MatchesReference(reds(), two));
+}
+
+TEST_CASE("pictures of unequal size are a failure with a message, not an error") {
+    const std::array<unsigned char, 4> one{1, 2, 3, 4};
+    const auto checked = strata::check(strata::from_memory(one.data(), one.size(), "1x1:rgba8"), reds());
+    CHECK_FALSE(checked.is_accepted);
+    CHECK_THAT(checked.message, Contains("cannot be compared") && Contains("4x2") && Contains("1x1"));
+}
+
+TEST_CASE("pictures that cannot be written leave the difference told") {
+    const strata::test::OwnFile file{"", "not a folder"};
+    setenv("STRATA_PICTURES", file.path().c_str(), 1);
+    const auto checked = strata::check(row_of_reds({11, 20, 30, 40}), reds());
+    unsetenv("STRATA_PICTURES");
+    CHECK_FALSE(checked.is_accepted);
+    CHECK_THAT(checked.message, Contains("color at 1 pixels, first at (0, 1)") && Contains("no picture could be left"));
+}
+
+TEST_CASE("a reference file is read by its name") {
+    const strata::test::OwnFile missing{".exr"};
+    CHECK_THROWS_WITH(strata::Reference{missing.path()}, Contains(missing.path()));
+}

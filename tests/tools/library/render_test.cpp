@@ -1,0 +1,120 @@
+// Model: OVER of full-screen triangles worked out by hand; what the same call says through the floors below.
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "peeling/registry.h"
+#include "strata/strata.h"
+
+using namespace strata;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// Two triangles over the whole frame: white far and black near, both of alpha 0.5, over black.
+Scene far_white_near_black() {
+    const float far[] = {-1, -1, 0.5f, 3, -1, 0.5f, -1, 3, 0.5f};
+    const float near[] = {-1, -1, -0.5f, 3, -1, -0.5f, -1, 3, -0.5f};
+    Scene scene;
+    scene.add({.name = "near", .positions = {near, 3}, .color = {0, 0, 0, 0.5f}});
+    scene.add({.name = "far", .positions = {far, 3}, .color = {1, 1, 1, 0.5f}});
+    return scene;
+}
+
+const RenderOptions small{.width = 6, .height = 5, .color_format = pipeline::Format::rgba32f};
+
+}  // namespace
+
+TEST_CASE("a picture, its layers and its fragments are those of the scene") {
+    const Scene scene = far_white_near_black();
+    const Rendering picture = render(scene, algorithm("front_to_back"), profile("ideal"), small);
+    REQUIRE_FALSE(picture.is_refused());
+    CHECK(picture.refusal().empty());
+    CHECK(picture.color().codes[0] == 0x3e800000u);  // 0.25
+    CHECK(picture.geometry_passes() == 3);
+    CHECK(picture.audit().layers_max == 2);
+    CHECK(picture.picture().targets.size() == 2);
+    for (const char* name : {"front_to_back", "dual"}) {
+        const auto taken = layers(scene, algorithm(name), profile("ideal"), small);
+        REQUIRE(taken.size() == 2);
+        CHECK(taken[0].color.codes[0] == 0);
+        CHECK(taken[0].depth.codes[0] < taken[1].depth.codes[0]);
+        CHECK(taken[1].is_from_behind == (std::string{name} == "dual"));
+    }
+    const auto all = fragments(scene, algorithm("a_buffer"), profile("ideal"), small);
+    CHECK(all.size() == 2u * 30);
+    CHECK(all[0].color[3] == 0.5f);
+}
+
+TEST_CASE("a pixel's history has the fragments of that pixel, and passes end in the picture") {
+    const Scene scene = far_white_near_black();
+    const auto history = explain(scene, 5, 4, algorithm("dual"), profile("ideal"), small);
+    REQUIRE(history.fragments.size() == 2);
+    CHECK(history.fragments[0].mesh == "near");
+    CHECK_THAT(oracle::to_text(history), Contains("near") && Contains("far"));
+    const auto shown = passes(scene, algorithm("dual"), profile("ideal"), small);
+    REQUIRE_FALSE(shown.empty());
+    CHECK(shown.back().kind == oracle::PassKind::published);
+}
+
+TEST_CASE("every algorithm on every device gives a picture or cannot be mistaken for one") {
+    const Scene scene = far_white_near_black();
+    const RenderOptions options{.width = 6, .height = 5};
+    int drawn = 0, refused = 0;
+    for (const DeviceProfile& device : pipeline::builtin_profiles())
+        for (const Algorithm& each : peeling::algorithms()) {
+            INFO(device.name << " " << each.name);
+            const Rendering picture = render(scene, each, device, options);
+            if (!picture.is_refused()) {
+                ++drawn;
+                CHECK(compare(picture.picture(), picture.picture()).equal);
+                continue;
+            }
+            ++refused;
+            CHECK_THAT(picture.refusal(), Contains("profile " + device.name + " has no "));
+            CHECK_THROWS_AS(picture.color(), Refused);
+            CHECK_THROWS_AS(picture.depth(), Refused);
+            CHECK_THROWS_AS(picture.picture(), Refused);
+            CHECK_THROWS_AS(picture.digest(), Refused);
+            CHECK_THROWS_AS(picture.audit(), Refused);
+            CHECK_THROWS_AS(passes(scene, each, device, options), Refused);
+            CHECK_THROWS_AS(explain(scene, 0, 0, each, device, options), Refused);
+            CHECK_THROWS_AS(layers(scene, each, device, options), Refused);
+        }
+    CHECK(drawn > 40);
+    CHECK(refused > 10);
+}
+
+TEST_CASE("options and pixels that cannot be are named") {
+    const Scene scene = far_white_near_black();
+    const auto with = [&](const RenderOptions& options) {
+        return render(scene, algorithm("dual"), profile("ideal"), options).digest();
+    };
+    CHECK_THROWS_WITH(with({.width = 0}), Contains("width: expected 1 to 16384, found 0"));
+    CHECK_THROWS_WITH(with({.width = 4, .height = 20000}), Contains("height: expected 1 to 16384"));
+    CHECK_THROWS_WITH(with({.width = 4, .height = 4, .tile_size = 7}), Contains("tile_size"));
+    CHECK_THROWS_WITH(explain(scene, 6, 0, algorithm("dual"), profile("ideal"), small),
+                      Contains("pixel: x: expected 0 to 5, found 6"));
+    CHECK_THROWS_WITH(explain(scene, 0, -1, algorithm("dual"), profile("ideal"), small),
+                      Contains("pixel: y: expected 0 to 4, found -1"));
+    CHECK_THROWS_WITH(render(Scene{}.add({}), algorithm("dual"), profile("ideal"), small), Contains("positions.count"));
+}
+
+TEST_CASE("a scene without triangles is its background") {
+    RenderOptions red = small;
+    red.background = {1, 0, 0, 1};
+    CHECK(render(Scene{}, algorithm("dual"), profile("ideal"), red).color().codes[0] == 0x3f800000u);
+}
+
+TEST_CASE("calls on several threads do not disturb each other") {
+    const Scene scene{"teapot"};
+    const RenderOptions options{.width = 24, .height = 18, .threads = 2};
+    const std::string alone = render(scene, algorithm("dual"), profile("geforce8"), options).digest();
+    std::vector<std::string> digests(4);
+    {
+        std::vector<std::jthread> threads;
+        for (std::string& digest : digests)
+            threads.emplace_back(
+                [&] { digest = render(scene, algorithm("dual"), profile("geforce8"), options).digest(); });
+    }
+    for (const std::string& digest : digests) CHECK(digest == alone);
+}

@@ -1,0 +1,138 @@
+// tools/library/scene.cpp - triangles out of plain memory, and the camera that belongs to a scene.
+#include "strata/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/bounds.h"
+
+namespace strata {
+inline namespace v0_1 {
+
+namespace {
+
+// One set of triangles, whose fields errors name.
+class Fields {
+  public:
+    explicit Fields(const Triangles& triangles) : thing_{"triangles '" + triangles.name + "'"} {}
+
+    [[noreturn]] void fail(const std::string& field, const std::string& expected, const std::string& found) const {
+        throw InputError(thing_, field, expected, found);
+    }
+    template <class Number>
+    void finite(const std::string& field, std::span<const Number> values) const {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (!std::isfinite(values[i]))
+                fail(field + "[" + std::to_string(i) + "]", "a finite number", std::to_string(values[i]));
+    }
+    // The vectors of an attribute of `size` floats.
+    template <class Vector>
+    [[nodiscard]] std::vector<Vector> copied(const char* field, const VertexArray& from) const {
+        if (from.count > 0 && from.first == nullptr)
+            fail(std::string{field} + ".first", "the address of " + std::to_string(from.count) + " vertices", "null");
+        const std::size_t stride = from.stride_bytes == 0 ? sizeof(Vector) : from.stride_bytes;
+        if (stride < sizeof(Vector))
+            fail(std::string{field} + ".stride_bytes", "0 or at least " + std::to_string(sizeof(Vector)),
+                 std::to_string(stride));
+        std::vector<Vector> to(from.count);
+        const auto* bytes = static_cast<const std::byte*>(from.first);
+        for (std::size_t i = 0; i < from.count; ++i) std::memcpy(&to[i].x, bytes + i * stride, sizeof(Vector));
+        return to;
+    }
+
+  private:
+    std::string thing_;
+};
+
+std::vector<std::uint32_t> indices_of(const Fields& its, const Triangles& triangles) {
+    const std::size_t count = triangles.positions.count;
+    if (triangles.indices.empty()) {
+        if (count % 3 != 0) its.fail("positions.count", "three a triangle", std::to_string(count));
+        std::vector<std::uint32_t> all(count);
+        for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<std::uint32_t>(i);
+        return all;
+    }
+    if (triangles.indices.size() % 3 != 0)
+        its.fail("indices", "three a triangle", std::to_string(triangles.indices.size()));
+    for (std::size_t i = 0; i < triangles.indices.size(); ++i)
+        if (triangles.indices[i] >= count)
+            its.fail("indices[" + std::to_string(i) + "]", "less than " + std::to_string(count),
+                     std::to_string(triangles.indices[i]));
+    return {triangles.indices.begin(), triangles.indices.end()};
+}
+
+}  // namespace
+
+Scene::Scene(const std::string& spec, const SceneOptions& options)
+    : scene_{scenes::load_scene(spec, options)}, is_loaded_{true} {}
+
+Scene& Scene::add(const Triangles& triangles) {
+    const Fields its{triangles};
+    if (triangles.positions.count == 0) its.fail("positions.count", "at least 3", "0");
+    if (triangles.positions.count > UINT32_MAX)
+        its.fail("positions.count", "at most 4294967295", std::to_string(triangles.positions.count));
+    if (triangles.colors.count != 0 && triangles.colors.count != triangles.positions.count)
+        its.fail("colors.count", std::to_string(triangles.positions.count) + " or none",
+                 std::to_string(triangles.colors.count));
+    its.finite<float>("color", triangles.color);
+    if (triangles.model) its.finite<double>("model", *triangles.model);
+
+    pipeline::Mesh mesh;
+    mesh.name = triangles.name;
+    mesh.positions = its.copied<Vec3>("positions", triangles.positions);
+    mesh.colors = its.copied<Rgba>("colors", triangles.colors);
+    mesh.indices = indices_of(its, triangles);
+    const auto& c = triangles.color;
+    const Rgba color{c[0], c[1], c[2], c[3]};
+    pipeline::DrawList& list = scene_.list;
+    list.instances.push_back({.mesh = static_cast<std::uint32_t>(list.meshes.size()),
+                              .material = static_cast<std::uint32_t>(list.materials.size()),
+                              .model = triangles.model ? matrix_of(*triangles.model) : identity});
+    list.materials.push_back(
+        {.name = triangles.name,
+         .front = color,
+         .back = color,
+         .alpha_mode = triangles.is_transparent ? pipeline::AlphaMode::blend : pipeline::AlphaMode::opaque,
+         .double_sided = triangles.is_double_sided,
+         .unlit = true});
+    list.meshes.push_back(std::move(mesh));
+    scene_.bounds = scenes::bounds_of(list);
+    return *this;
+}
+
+Scene& Scene::look(const View& view) {
+    own_view_ = view;
+    look_at_.reset();
+    orbit_.reset();
+    return *this;
+}
+
+Scene& Scene::look_at(const LookAt& camera) {
+    own_view_.reset();
+    look_at_ = camera;
+    orbit_.reset();
+    return *this;
+}
+
+Scene& Scene::orbit(double azimuth_degrees, double elevation_degrees) {
+    static_cast<void>(scenes::orbit_camera(scene_.bounds, azimuth_degrees, elevation_degrees));  // InputError
+    own_view_.reset();
+    look_at_.reset();
+    orbit_ = {azimuth_degrees, elevation_degrees};
+    return *this;
+}
+
+View Scene::view(int width, int height) const {
+    const double aspect = height > 0 ? double(width) / height : 1;
+    if (own_view_) return *own_view_;
+    if (look_at_) return scenes::look_at(*look_at_, aspect);
+    if (!orbit_ && !is_loaded_) return {};
+    if (!orbit_ && scene_.own_view) return *scene_.own_view;
+    const Orbit orbit = orbit_.value_or(Orbit{});
+    return scenes::orbit_view(scene_.bounds, orbit.azimuth, orbit.elevation, aspect);
+}
+
+}  // namespace v0_1
+}  // namespace strata

@@ -1,0 +1,50 @@
+// strata/catch2.h - for tests with Catch2: REQUIRE_THAT(picture, strata::MatchesReference("teapot.exr")).
+//
+// Rule     Takes the Picture of a program under test and a file, or a picture with a name. The message of a failure says the kinds of
+//          mistakes, the first pixel of each, and where the pictures are (strata/compare.h). Catch2 2 and 3; the project's own
+//          tests run with 2.13.
+#pragma once
+#if __has_include(<catch2/matchers/catch_matchers.hpp>)
+#include <catch2/matchers/catch_matchers.hpp>
+#else
+#include <catch2/catch.hpp>
+#endif
+#include <string>
+#include <utility>
+
+#include "strata/compare.h"
+
+namespace strata {
+inline namespace v0_1 {
+
+#if __has_include(<catch2/matchers/catch_matchers.hpp>)
+using CatchMatcher = Catch::Matchers::MatcherBase<Picture>;
+#else
+using CatchMatcher = Catch::MatcherBase<Picture>;
+#endif
+
+class MatchesReference : public CatchMatcher {
+  public:
+    explicit MatchesReference(Reference reference, const Tolerances& tolerances = {})
+        : reference_{std::move(reference)}, tolerances_{tolerances} {}
+    bool match(const Picture& candidate) const override {
+        const Checked checked = check(candidate, reference_, tolerances_);
+        message_ = checked.message;
+        return checked.is_accepted;
+    }
+    std::string describe() const override { return message_; }
+
+  private:
+    Reference reference_;
+    Tolerances tolerances_;
+    mutable std::string message_;
+};
+
+}  // namespace v0_1
+}  // namespace strata
+
+// How Catch2 prints a picture: its numbers alone would fill pages.
+template <>
+struct Catch::StringMaker<strata::Picture> {
+    static std::string convert(const strata::Picture& picture) { return strata::size_text(picture); }
+};
