@@ -11,9 +11,7 @@ TEST_CASE("the page counts each verdict a device, and tells the first trouble of
     const tools::HardSweep sweep{.cases = {scenes::find_hard_case("coincident")},
                                  .profiles = {*pipeline::find_profile("geforce8"), *pipeline::find_profile("ideal")},
                                  .formats = {pipeline::DepthFormat::d24},
-                                 .algorithms = {peeling::find_algorithm("dual"), peeling::find_algorithm("k_buffer")},
-                                 .folder = "",
-                                 .shard = {}};
+                                 .algorithms = {peeling::find_algorithm("dual"), peeling::find_algorithm("k_buffer")}};
     tools::HardRow breaks, refused;
     breaks.verdict = tools::HardVerdict::breaks;
     breaks.reasons = {"2048 fragments lost by ties at 1024 pixels"};

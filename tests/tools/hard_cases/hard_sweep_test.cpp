@@ -1,4 +1,4 @@
-// The model: the sweep in one go, byte by byte.
+// The model: the sweep in one go, byte by byte; and the combinations, counted by hand.
 #include "tools/strata/hard_cases/hard_sweep.h"
 
 #include <catch2/catch.hpp>
@@ -14,37 +14,35 @@ namespace {
 using namespace strata;
 using strata::test::bytes_of;
 
-tools::HardSweep small_sweep(const std::string& folder) {
-    return {.cases = {scenes::find_hard_case("frame-1x1"), scenes::find_hard_case("nothing")},
+// reversed-range is refused whole, and geforce3 refuses dual.
+tools::HardSweep small_sweep() {
+    return {.cases = {scenes::find_hard_case("frame-1x1"), scenes::find_hard_case("reversed-range")},
             .profiles = {*pipeline::find_profile("geforce3"), *pipeline::find_profile("geforce8")},
             .formats = {pipeline::DepthFormat::d16, pipeline::DepthFormat::d24},
-            .algorithms = {peeling::find_algorithm("dual"), peeling::find_algorithm("depth_units")},
-            .folder = folder,
-            .shard = {}};
+            .algorithms = {peeling::find_algorithm("dual"), peeling::find_algorithm("depth_units")}};
 }
 
 }  // namespace
 
 TEST_CASE("a sweep of hard cases has the same bytes in shards, and after it was torn at any line") {
     const test::TemporaryFolder whole, parts, torn;
-    const tools::Lines lines = run_sweep(small_sweep(whole.path));
-    CHECK(lines.size() == 2 * 2 * 2 * 2);
-    CHECK_FALSE(tools::has_failed(lines));
-    const std::string bytes = bytes_of(whole / "results.jsonl");
+    const tools::HardSweep sweep = small_sweep();
+    const tools::Work work = hard_work(sweep);
+    CHECK(work.cells == 2 * 2 * 2 * 2);
+    CHECK(run_sweep(work, whole.path, {}) == 0);
+    const std::string bytes = bytes_of(whole / "results.jsonl"), table = bytes_of(whole / "results.csv");
+    CHECK(std::count(bytes.begin(), bytes.end(), '\n') == 16);
+    CHECK(std::count(table.begin(), table.end(), '\n') == 17);
 
-    tools::HardSweep part = small_sweep(parts.path);
-    for (std::size_t index = 1; index <= 3; ++index) {
-        part.shard = {index, 3};
-        static_cast<void>(run_sweep(part));
-    }
-    part.shard = {};
-    CHECK(merge_shards(part, 3) == lines);
+    for (std::size_t index = 1; index <= 3; ++index) CHECK(run_sweep(hard_work(sweep), parts.path, {index, 3}) == 0);
+    CHECK(merge_shards(work, parts.path, 3) == 0);
     CHECK(bytes_of(parts / "results.jsonl") == bytes);
+    CHECK(bytes_of(parts / "results.csv") == table);
 
     int unlike = 0;
-    for (std::size_t kept = 0; kept < bytes.size(); kept += 97) {
+    for (std::size_t kept = 0; kept < bytes.size(); kept += 397) {
         std::ofstream(torn / "results.jsonl", std::ios::binary) << bytes.substr(0, kept);
-        static_cast<void>(run_sweep(small_sweep(torn.path)));
+        static_cast<void>(run_sweep(hard_work(sweep), torn.path, {}));
         if (bytes_of(torn / "results.jsonl") != bytes) ++unlike;
     }
     CHECK(unlike == 0);
@@ -52,9 +50,17 @@ TEST_CASE("a sweep of hard cases has the same bytes in shards, and after it was 
 
 TEST_CASE("lines of another sweep are refused, and so is a shard that is not whole") {
     const test::TemporaryFolder folder;
-    static_cast<void>(run_sweep(small_sweep(folder.path)));
-    tools::HardSweep other = small_sweep(folder.path);
+    const tools::HardSweep sweep = small_sweep();
+    static_cast<void>(run_sweep(hard_work(sweep), folder.path, {}));
+    tools::HardSweep other = small_sweep();
     other.algorithms = {peeling::find_algorithm("painter")};
-    CHECK_THROWS_AS(run_sweep(other), InputError);
-    CHECK_THROWS_WITH(merge_shards(small_sweep(folder.path), 2), Catch::Contains("one a combination of the shard"));
+    CHECK_THROWS_AS(run_sweep(hard_work(other), folder.path, {}), InputError);
+    CHECK_THROWS_WITH(merge_shards(hard_work(sweep), folder.path, 2), Catch::Contains("one a cell of the shard"));
+}
+
+TEST_CASE("a sweep of hard cases in which every combination is refused has exit status 2") {
+    const test::TemporaryFolder folder;
+    tools::HardSweep sweep = small_sweep();
+    sweep.cases = {scenes::find_hard_case("reversed-range")};
+    CHECK(run_sweep(hard_work(sweep), folder.path, {}) == 2);
 }

@@ -26,7 +26,7 @@ struct HardOptions {
     std::vector<std::string> algorithms;  // empty: all
     Shard shard;
     int merge = 0;
-    bool list = false, json = false;
+    bool list = false, json = false, dry_run = false;
 };
 
 int list_cases(const HardOptions& options) {
@@ -67,12 +67,7 @@ std::vector<const scenes::HardCase*> cases_of(const std::vector<std::string>& na
 }
 
 HardSweep sweep_of(const HardOptions& options) {
-    HardSweep sweep{.cases = cases_of(options.names),
-                    .profiles = {},
-                    .formats = {},
-                    .algorithms = {},
-                    .folder = options.folder,
-                    .shard = options.shard};
+    HardSweep sweep{.cases = cases_of(options.names), .profiles = {}, .formats = {}, .algorithms = {}};
     for (const std::string& name : options.profiles) sweep.profiles.push_back(scenes::load_profile(name));
     for (const std::string& name : options.formats)
         for (const auto& format : depth_formats)
@@ -87,16 +82,23 @@ HardSweep sweep_of(const HardOptions& options) {
 
 int hard_cases_command(const HardOptions& options) {
     if (options.list) return list_cases(options);
-    if (options.folder.empty()) throw CLI::ValidationError("-o", "expected a folder for the results, found none");
+    if (options.folder.empty() && !options.dry_run)
+        throw CLI::ValidationError("-o", "expected a folder for the results, found none");
     if (options.merge > 0 && options.shard.count > 1)
         throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
     const HardSweep sweep = sweep_of(options);
-    const Lines lines =
-        options.merge > 0 ? merge_shards(sweep, static_cast<std::size_t>(options.merge)) : run_sweep(sweep);
+    Work work = hard_work(sweep);
+    bool failed = false;
     // A shard's lines are a part of the page that --merge writes.
-    if (sweep.shard.count == 1) write_page(sweep, lines);
-    print(options.json ? ordered_json(lines).dump(2) + '\n' : summary(sweep, lines));
-    return has_failed(lines) ? 1 : 0;
+    work.summary = [&](const Lines& lines) {
+        write_page(sweep, lines, options.folder);
+        failed = has_failed(lines);
+        return options.json ? ordered_json(lines).dump(2) + '\n' : summary(sweep, lines);
+    };
+    if (options.dry_run) return dry_run(work, options.shard), 0;
+    const int status = options.merge > 0 ? merge_shards(work, options.folder, static_cast<std::size_t>(options.merge))
+                                         : run_sweep(work, options.folder, options.shard);
+    return failed ? 1 : status;
 }
 
 // Values with commas between, each a name that `known` has.
@@ -120,7 +122,8 @@ Command add_hard_cases(CLI::App& root) {
     const auto options = std::make_shared<HardOptions>();
     app->add_option("NAME", options->names, "hard cases (default all)")->type_name("");
     add_path(*app, options->folder,
-             {"-o,--output", "FOLDER", "a folder: results.jsonl, RESULTS.md, pictures/", "a folder"});
+             {"-o,--output", "FOLDER", "a folder: results.jsonl, results.csv, timings.jsonl, RESULTS.md, pictures/",
+              "a folder"});
     app->add_flag("--list", options->list, "name the cases and tell what is hard about each");
     app->add_flag("--json", options->json, "one JSON document instead of the table");
     std::vector<std::string> profiles;
@@ -129,9 +132,10 @@ Command add_hard_cases(CLI::App& root) {
     add_names(*app, "--depth", options->formats, names_of(depth_formats), "depth formats (default all)");
     add_names(*app, "--algorithm", options->algorithms, algorithm_names(), "algorithms (default all)");
     add_option(*app, options->shard,
-               {"--shard", "I/N", "only the groups I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
+               {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
     add_option(*app, options->merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},
                to_positive);
+    app->add_flag("--dry-run", options->dry_run, "print the cells and how long they would take");
     app->footer(
         footer("  strata hard-cases --list\n"
                "  strata hard-cases cyclic-overlap coincident --algorithm dual,painter -o hard\n"));

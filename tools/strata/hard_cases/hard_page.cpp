@@ -81,8 +81,8 @@ std::string section(const HardSweep& sweep, const scenes::HardCase& hard, bool h
     return text + troubles(lines);
 }
 
-std::string picture_file(const HardSweep& sweep, const scenes::HardCase& hard) {
-    return (std::filesystem::path(sweep.folder) / "pictures" / (std::string{hard.name} + ".png")).string();
+std::string in_folder(const std::string& folder, const std::string& name) {
+    return (std::filesystem::path(folder) / name).string();
 }
 
 bool is_refused(const scenes::HardCase& hard) { return hard.depth_near > hard.depth_far; }
@@ -107,14 +107,15 @@ std::string page_of(const HardSweep& sweep, const Lines& lines) {
     return text;
 }
 
-void write_page(const HardSweep& sweep, const Lines& lines) {
-    std::filesystem::create_directories(std::filesystem::path(sweep.folder) / "pictures");
+void write_page(const HardSweep& sweep, const Lines& lines, const std::string& folder) {
+    std::filesystem::create_directories(std::filesystem::path(folder) / "pictures");
     for (const scenes::HardCase* hard : sweep.cases) {
         if (is_refused(*hard)) continue;
         const auto picture = picture_of(*hard, *pipeline::find_profile("ideal"), *peeling::find_algorithm("a_buffer"));
-        scenes::write_image(picture_file(sweep, *hard), {.color = picture.frame.color});
+        scenes::write_image(in_folder(folder, fmt::format("pictures/{}.png", hard->name)),
+                            {.color = picture.frame.color});
     }
-    scenes::write_file((std::filesystem::path(sweep.folder) / "RESULTS.md").string(), page_of(sweep, lines));
+    scenes::write_file(in_folder(folder, "RESULTS.md"), page_of(sweep, lines));
 }
 
 }  // namespace strata::tools

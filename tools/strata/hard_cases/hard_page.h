@@ -13,6 +13,6 @@ namespace strata::tools {
 [[nodiscard]] std::string page_of(const HardSweep& sweep, const Lines& lines);
 
 // Writes the page and its pictures. A case that even the oracle refuses has none.
-void write_page(const HardSweep& sweep, const Lines& lines);
+void write_page(const HardSweep& sweep, const Lines& lines, const std::string& folder);
 
 }  // namespace strata::tools

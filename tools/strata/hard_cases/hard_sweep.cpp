@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <array>
+#include <chrono>
 #include <map>
 #include <optional>
 
 #include "peeling/algorithms/algorithm.h"
-#include "rasterizer/base/input_error.h"
-#include "scenes/files/atomic_file.h"
 #include "tools/strata/options/choices.h"
-#include "tools/strata/progress.h"
-#include "tools/strata/sweep/lock.h"
+#include "tools/strata/sweep/csv.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -21,56 +19,30 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// What all algorithms of a group share.
-struct HardGroup {
+// A cell of the sweep.
+struct HardCell {
+    std::size_t group = 0;  // cells of one case, profile and format
     const scenes::HardCase* hard = nullptr;
     const pipeline::DeviceProfile* profile = nullptr;
     pipeline::DepthFormat format{};
+    const peeling::Algorithm* algorithm = nullptr;
 };
 
-std::size_t groups(const HardSweep& sweep) { return sweep.cases.size() * sweep.profiles.size() * sweep.formats.size(); }
-
-HardGroup group_of(const HardSweep& sweep, std::size_t number) {
+HardCell hard_cell(const HardSweep& sweep, std::size_t number) {
     const std::size_t formats = sweep.formats.size(), profiles = sweep.profiles.size();
-    return {sweep.cases[number / formats / profiles], &sweep.profiles[number / formats % profiles],
-            sweep.formats[number % formats]};
-}
-
-// Numbers of the shard's lines among those of the whole sweep.
-std::vector<std::size_t> lines_of(const HardSweep& sweep, const Shard& shard) {
-    std::vector<std::size_t> numbers;
-    for (const std::size_t group : shard.cells(groups(sweep)))
-        for (std::size_t a = 0; a < sweep.algorithms.size(); ++a)
-            numbers.push_back(group * sweep.algorithms.size() + a);
-    return numbers;
+    const std::size_t group = number / sweep.algorithms.size();
+    return {group, sweep.cases[group / formats / profiles], &sweep.profiles[group / formats % profiles],
+            sweep.formats[group % formats], sweep.algorithms[number % sweep.algorithms.size()]};
 }
 
 ordered_json hard_description(const HardSweep& sweep, std::size_t number) {
-    const HardGroup group = group_of(sweep, number / sweep.algorithms.size());
+    const HardCell cell = hard_cell(sweep, number);
     return {{"cell", number},
-            {"case", group.hard->name},
-            {"profile", group.profile->name},
-            {"depth", name_of(depth_formats, group.format)},
-            {"algorithm", sweep.algorithms[number % sweep.algorithms.size()]->name}};
+            {"case", cell.hard->name},
+            {"profile", cell.profile->name},
+            {"depth", name_of(depth_formats, cell.format)},
+            {"algorithm", cell.algorithm->name}};
 }
-
-// A journal's lines at the places of the shard's combinations, null where one is missing.
-struct HardLines {
-    Found found;
-    Lines lines;
-};
-
-HardLines checked_lines(const HardSweep& sweep, const Shard& shard) {
-    const std::string path = shard_file(sweep.folder, "results", shard);
-    Expected expected{.cells = lines_of(sweep, shard), .described = {}, .keys = {"verdict"}};
-    for (const std::size_t number : expected.cells) expected.described.push_back(hard_description(sweep, number));
-    HardLines checked{read_journal(path), {}};
-    checked.lines = lines_of_cells(path, checked.found, expected);
-    warn_of(path, checked.found);
-    return checked;
-}
-
-std::ptrdiff_t missing_of(const Lines& lines) { return std::count(lines.begin(), lines.end(), nullptr); }
 
 ordered_json counts_of(const Composited& found) {
     return {
@@ -79,74 +51,78 @@ ordered_json counts_of(const Composited& found) {
         {"repeated", found.repeated},       {"misplaced", found.misplaced},       {"wrong_pixels", found.wrong_pixels}};
 }
 
+ordered_json faults_of(const std::vector<pipeline::Diagnostic>& diagnostics) {
+    ordered_json faults = ordered_json::array();
+    for (const pipeline::Diagnostic& d : diagnostics)
+        faults.push_back({{"fault", pipeline::name(d.fault)}, {"pixels", d.pixels}, {"detail", d.detail}});
+    return faults;
+}
+
+std::vector<std::string> hard_keys() {
+    return {"cell",    "case",       "profile", "depth",       "algorithm",  "outcome",
+            "refusal", "verdict",    "reasons", "fragments",   "difference", "difference_at_ties",
+            "bound",   "nan_values", "unlike",  "diagnostics", "digest"};
+}
+
+std::vector<std::string> hard_columns() {
+    std::vector<std::string> columns{"/cell",      "/case",    "/profile", "/depth",
+                                     "/algorithm", "/outcome", "/refusal", "/verdict"};
+    const ordered_json counts = counts_of({});
+    for (const auto& [key, value] : counts.items()) columns.push_back("/fragments/" + key);
+    for (const char* key : {"/difference", "/difference_at_ties", "/bound", "/nan_values", "/digest"})
+        columns.emplace_back(key);
+    return columns;
+}
+
+// The machine of the cells that were run last, and the number of their group.
+struct HardCache {
+    std::size_t group = 0;
+    std::optional<HardMachine> machine;
+};
+
+Measured hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
+    const auto start = std::chrono::steady_clock::now();
+    const HardCell cell = hard_cell(sweep, number);
+    if (!cache.machine || cache.group != cell.group) {
+        cache.machine.emplace(*cell.hard, *cell.profile, cell.format);
+        cache.group = cell.group;
+    }
+    const ordered_json line = to_line(sweep, number, cache.machine->run(*cell.algorithm));
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    return {.line = line, .timing = {{"cell", number}, {"seconds", taken.count()}}, .seconds = taken.count()};
+}
+
 }  // namespace
 
 ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row) {
     ordered_json line = hard_description(sweep, number);
+    const bool ran = row.refusal.empty();
+    const auto if_ran = [&](const ordered_json& value) { return ran ? value : ordered_json(nullptr); };
+    line["outcome"] = ran ? "done" : "refused";
+    line["refusal"] = row.refusal;
     line["verdict"] = name_of(row.verdict);
-    if (!row.refusal.empty()) {
-        line["refusal"] = row.refusal;
-        return line;
-    }
-    line["reasons"] = row.reasons;
-    line["fragments"] = counts_of(row.found);
-    line["difference"] = row.difference;
-    line["difference_at_ties"] = row.difference_at_ties;
-    line["bound"] = row.bound;
-    line["nan_values"] = row.nan_values;
-    line["unlike"] = row.unlike;
-    line["diagnostics"] = ordered_json::array();
-    for (const pipeline::Diagnostic& d : row.diagnostics)
-        line["diagnostics"].push_back({{"fault", pipeline::name(d.fault)}, {"pixels", d.pixels}, {"detail", d.detail}});
-    line["digest"] = row.digest;
+    line["reasons"] = if_ran(row.reasons);
+    line["fragments"] = if_ran(counts_of(row.found));
+    line["difference"] = if_ran(row.difference);
+    line["difference_at_ties"] = if_ran(row.difference_at_ties);
+    line["bound"] = if_ran(row.bound);
+    line["nan_values"] = if_ran(row.nan_values);
+    line["unlike"] = if_ran(row.unlike);
+    line["diagnostics"] = if_ran(faults_of(row.diagnostics));
+    line["digest"] = if_ran(row.digest);
     return line;
 }
 
-Lines run_sweep(const HardSweep& sweep) {
-    std::filesystem::create_directories(sweep.folder);
-    const std::string path = shard_file(sweep.folder, "results", sweep.shard);
-    const Lock lock(path);
-    auto [found, lines] = checked_lines(sweep, sweep.shard);
-    const std::vector<std::size_t> numbers = lines_of(sweep, sweep.shard);
-    const std::ptrdiff_t missing = missing_of(lines);
-    if (missing == 0 && found.changed.empty()) return lines;
-    Journal journal = journal_behind(path, found, lines);
-    Progress progress("hard cases", Remaining::shown);
-    std::optional<HardMachine> machine;
-    std::size_t group = ~std::size_t{0};
-    std::ptrdiff_t done = 0;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (!lines[i].is_null()) continue;
-        progress.show(static_cast<double>(done++) / static_cast<double>(missing));
-        const std::size_t own = numbers[i] / sweep.algorithms.size();
-        if (own != group) {
-            const HardGroup is = group_of(sweep, own);
-            machine.emplace(*is.hard, *is.profile, is.format);
-            group = own;
-        }
-        const HardRow row = machine->run(*sweep.algorithms[numbers[i] % sweep.algorithms.size()]);
-        journal.append(lines[i] = to_line(sweep, numbers[i], row));
-    }
-    // Combinations between others may have been missing: the finished file has all in order.
-    scenes::write_file(path, text_of(lines));
-    return lines;
-}
-
-Lines merge_shards(const HardSweep& sweep, std::size_t shards) {
-    const Lock lock(shard_file(sweep.folder, "results", {}));
-    Lines all(groups(sweep) * sweep.algorithms.size());
-    for (std::size_t index = 1; index <= shards; ++index) {
-        const Shard shard{index, shards};
-        const std::vector<std::size_t> numbers = lines_of(sweep, shard);
-        Lines lines = checked_lines(sweep, shard).lines;
-        if (const std::ptrdiff_t missing = missing_of(lines); missing > 0)
-            throw InputError(shard_file(sweep.folder, "results", shard), "lines",
-                             std::to_string(numbers.size()) + ", one a combination of the shard",
-                             std::to_string(numbers.size() - static_cast<std::size_t>(missing)));
-        for (std::size_t i = 0; i < numbers.size(); ++i) all[numbers[i]] = std::move(lines[i]);
-    }
-    scenes::write_file(shard_file(sweep.folder, "results", {}), text_of(all));
-    return all;
+Work hard_work(const HardSweep& sweep) {
+    return {.name = "hard cases",
+            .cells = sweep.cases.size() * sweep.profiles.size() * sweep.formats.size() * sweep.algorithms.size(),
+            .description = [&sweep](std::size_t i) { return hard_description(sweep, i); },
+            .keys = hard_keys(),
+            .measure = [&sweep, cache = std::make_shared<HardCache>()](
+                           std::size_t i) { return hard_measured(sweep, i, *cache); },
+            .csv = [](const Lines& lines) { return csv_of_columns(hard_columns(), lines); },
+            .summary = [&sweep](const Lines& lines) { return summary(sweep, lines); },
+            .alike = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; }};
 }
 
 bool has_failed(const Lines& lines) {

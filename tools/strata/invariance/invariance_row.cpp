@@ -7,6 +7,7 @@
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/registry.h"
 #include "tools/strata/options/choices.h"
+#include "tools/strata/sweep/csv.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -112,17 +113,6 @@ void add_findings(ordered_json& line, const Cell& cell, const peeling::Measureme
 
 // The double whose shortest decimals are those of the float: 0.1f becomes 0.1, not 0.10000000149.
 double shortest(float value) { return *to_number<double>(fmt::format("{}", value)); }
-
-// RFC 4180: quotes only where the text needs them.
-std::string csv_field(const ordered_json& value) {
-    if (!value.is_string()) return value.dump();
-    const auto text = value.get<std::string>();
-    if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-    std::string quoted(1, '"');
-    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-    quoted += '"';
-    return quoted;
-}
 
 // Results hold no path: a file's name alone.
 std::string without_folder(const std::string& name) {

@@ -1,0 +1,15 @@
+// The model: rows typed by hand after RFC 4180.
+#include "tools/strata/sweep/csv.h"
+
+#include <catch2/catch.hpp>
+
+using strata::tools::csv_of_columns;
+
+TEST_CASE("columns of lines are pointers; what a line lacks is empty, and only what needs quotes has them") {
+    const strata::tools::Lines lines{
+        {{"name", "a, \"b\""}, {"inner", {{"count", 3}}}, {"none", nullptr}},
+        {{"name", "plain"}, {"inner", nullptr}, {"none", 0.5}},
+    };
+    CHECK(csv_of_columns({"/name", "/inner/count", "/none"}, lines) ==
+          "name,inner.count,none\n\"a, \"\"b\"\"\",3,\nplain,,0.5\n");
+}
