@@ -5,6 +5,7 @@
 // Tests    tests/pipeline/region/executor_test.cpp
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "pipeline/formats/image.h"
@@ -58,6 +59,19 @@ struct RegionBooks {
 
   private:
     void join_tail();
+};
+
+// While it lives the region's work is the emulator's own, and goes to RegionBooks::uncounted.
+class UncountedWork {
+  public:
+    explicit UncountedWork(RegionBooks& books) noexcept : books_{books}, before_{std::exchange(books.counts, false)} {}
+    UncountedWork(const UncountedWork&) = delete;
+    UncountedWork& operator=(const UncountedWork&) = delete;
+    ~UncountedWork() { books_.counts = before_; }
+
+  private:
+    RegionBooks& books_;
+    bool before_;
 };
 
 }  // namespace strata::pipeline

@@ -22,6 +22,7 @@
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/region_books.h"
 #include "pipeline/frame/trace.h"
+#include "pipeline/region/region_place.h"
 #include "pipeline/region/target_storage.h"
 #include "pipeline/textures/depth_texels.h"
 #include "pipeline/vertices/prepare.h"
@@ -38,17 +39,6 @@ class FragmentStore;
 class RegionScratchPool;
 struct RegionScratch;  // the arrays that a batch passes through
 struct SelectedFragments;
-
-enum class Extent : std::uint8_t { frame, tile };
-// Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
-enum class List : std::uint8_t { first, second };
-enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
-
-struct RegionPlace {
-    rasterizer::Rect rect;
-    std::size_t tile = 0;  // its number; of an extent `tile`
-    Extent extent = Extent::frame;
-};
 
 class Region {
   public:
@@ -114,9 +104,8 @@ class Region {
     // Runs `work`, whose passes, clears and copies are the emulator's own: nothing counts them.
     template <class Work>
     void uncounted(Work&& work) {
-        books_.counts = false;
+        const UncountedWork own{books_};
         work();
-        books_.counts = true;
     }
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
