@@ -89,9 +89,7 @@ int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexc
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
     if (!algorithm.replayed) return options.tile_size.value_or(has_many ? large : 64);
     // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form visits them once.
-    const bool has_bytes = options.color_format.value_or(Format::rgba8) == Format::rgba8;
-    const bool is_closed = algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers &&
-                           (has_bytes || algorithm.key == DepthKey::stored_code);
+    const bool is_closed = algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers;
     return options.tile_size.value_or(is_closed ? 64 : 32);
 }
 
@@ -106,10 +104,17 @@ struct Renderer::State {
     std::optional<int> deepest{};                   // fragments of the deepest pixel, once somebody asked
     bool was_invariant = true;                      // the last frame that ran
 
-    [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
+    // Whether the user's options end a frame by its number of passes.
+    [[nodiscard]] bool limits_passes() const {
+        return options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
+    }
+
+    [[nodiscard]] Execution execution(const Algorithm& algorithm, const Instruments& instruments) const {
         // A tile that stops early does not know how many layers the others take from its two ends.
         const bool keeps_both_ends = options.keep_layers && algorithm.takes_both_ends;
-        return algorithm.whole_frame || keeps_both_ends ? Execution::literal : options.execution;
+        // Nor how many passes they made in the loops that it left early; and a log of passes names them all.
+        const bool counts_across = algorithm.runs_loops && (limits_passes() || instruments.log_passes);
+        return algorithm.whole_frame || keeps_both_ends || counts_across ? Execution::literal : options.execution;
     }
 
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
@@ -145,8 +150,7 @@ struct Renderer::State {
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
     // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
     [[nodiscard]] int pass_limit(const Frame& f) {
-        const bool is_limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
-        if (is_limited || f.is_invariant()) return options.max_passes;
+        if (limits_passes() || f.is_invariant()) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
@@ -183,7 +187,7 @@ struct Renderer::State {
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
         const AuditMemory memory{audit_memory(),
-                                 execution(algorithm) == Execution::literal ? 1 : thread_count(options.threads)};
+                                 execution(algorithm, {}) == Execution::literal ? 1 : thread_count(options.threads)};
         f.trace = options.audit && algorithm.ties != TiePolicy::none;
         f.trace_bytes = memory.trace_bytes();
         f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
@@ -236,7 +240,8 @@ struct Renderer::State {
         const Watch watch = traces != nullptr ? keep_traces(f, *traces) : audit ? audit->watch() : Watch{};
         {
             const Stopwatch stopwatch{result.seconds.passes};
-            result.frame = run(f, body, execution(algorithm), options.threads, progress, instruments, watch);
+            result.frame =
+                run(f, body, execution(algorithm, instruments), options.threads, progress, instruments, watch);
         }
         result.seconds.audit = result.frame.watched * result.seconds.passes;
         result.seconds.passes -= result.seconds.audit;
