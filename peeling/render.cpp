@@ -6,6 +6,7 @@
 #include "peeling/audit/audit.h"
 #include "peeling/audit/region_trace.h"
 #include "peeling/prepared_lists.h"
+#include "peeling/render_diagnostics.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
 #include "pipeline/frame/effects.h"
@@ -82,58 +83,6 @@ Body body_of(const Algorithm& algorithm) {
     };
 }
 
-// What may keep passes from seeing the depths that earlier ones stored.
-struct PassDepths {
-    bool is_invariant = true;  // every pass saw the same fragments and compared the depth that it stores
-    bool are_flushed = false;  // the whole depth range is denormal, and blending into float targets flushes it to zero
-};
-
-bool needs(const Algorithm& algorithm, Feature feature) {
-    return std::find(algorithm.features.begin(), algorithm.features.end(), feature) != algorithm.features.end();
-}
-
-bool flushes_depths(const DeviceProfile& profile, const rasterizer::RasterState& raster) noexcept {
-    return profile.denormals == DenormalRule::flush && std::max(raster.depth_near, raster.depth_far) < 0x1p-126f;
-}
-
-// Names the cause of order errors: the first that holds, in the order of keys-and-counts.md 7.3.
-void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const PassDepths& depths,
-                           const AuditResult& audit, std::vector<Diagnostic>& all) {
-    const auto note = [&](Fault fault, const PixelCount& where, std::string detail) {
-        merge(all, {fault, where.pixels, where.first_x, where.first_y, std::move(detail)});
-    };
-    const bool merges = algorithm.ties == TiePolicy::merged, drops = algorithm.ties == TiePolicy::unique;
-    if (audit.lost_by_ties > 0 && (merges || drops))
-        note(Fault::merged_ties, audit.ties,
-             std::to_string(audit.lost_by_ties) +
-                 (merges ? " fragments of equal depth mixed by MAX" : " later fragments of equal depth lost"));
-    const bool sorts = algorithm.order == ListOrder::objects || algorithm.order == ListOrder::back_to_front;
-    const bool orders = algorithm.exact || sorts || !depths.is_invariant;
-    if (!orders || audit.order_errors.value_or(0) == 0) return;
-    const bool limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed ||
-                         options.termination.rule == TerminationRule::ratio;
-    if (limited)
-        note(Fault::truncated, audit.misordered, "the peel ended before the last layer");
-    else if (algorithm.has_published_form && options.formulation == Formulation::published)
-        note(Fault::as_published, audit.misordered,
-             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced by the listing as printed");
-    else if (algorithm.order == ListOrder::sets)
-        note(Fault::out_of_order, audit.misordered, "the ordered set (--sorted) does not arrive front to back");
-    else if (algorithm.order == ListOrder::objects && !algorithm.exact)
-        note(Fault::out_of_order, audit.misordered, "objects or their own triangles overlap out of order");
-    else if (algorithm.order == ListOrder::back_to_front)
-        note(Fault::out_of_order, audit.misordered, "triangles sorted by their centroids overlap out of order");
-    else if (!depths.is_invariant)
-        note(Fault::unlike_depths, audit.misordered,
-             std::to_string(*audit.order_errors) + " places lost, repeated or misplaced");
-    else if (needs(algorithm, Feature::float_targets) && depths.are_flushed)
-        note(
-            Fault::unlike_depths, audit.misordered,
-            std::to_string(*audit.order_errors) + " places lost or repeated: blending flushes denormal depths to zero");
-    else if (options.termination.rule == TerminationRule::paper && algorithm.ties == TiePolicy::merged)
-        note(Fault::early_end, audit.misordered, "every back layer of a pass had alpha 0 while layers were left (E14)");
-}
-
 }  // namespace
 
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {
@@ -141,9 +90,7 @@ int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexc
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
     if (!algorithm.replayed) return options.tile_size.value_or(has_many ? large : 64);
     // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form visits them once.
-    const bool has_bytes = options.color_format.value_or(Format::rgba8) == Format::rgba8;
-    const bool is_closed = algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers &&
-                           (has_bytes || algorithm.key == DepthKey::stored_code);
+    const bool is_closed = algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers;
     return options.tile_size.value_or(is_closed ? 64 : 32);
 }
 
@@ -158,10 +105,17 @@ struct Renderer::State {
     std::optional<int> deepest{};                   // fragments of the deepest pixel, once somebody asked
     bool was_invariant = true;                      // the last frame that ran
 
-    [[nodiscard]] Execution execution(const Algorithm& algorithm) const {
+    // Whether the user's options end a frame by its number of passes.
+    [[nodiscard]] bool limits_passes() const {
+        return options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
+    }
+
+    [[nodiscard]] Execution execution(const Algorithm& algorithm, const Instruments& instruments) const {
         // A tile that stops early does not know how many layers the others take from its two ends.
         const bool keeps_both_ends = options.keep_layers && algorithm.takes_both_ends;
-        return algorithm.whole_frame || keeps_both_ends ? Execution::literal : options.execution;
+        // Nor how many passes they made in the loops that it left early; and a log of passes names them all.
+        const bool counts_across = algorithm.runs_loops && (limits_passes() || instruments.log_passes);
+        return algorithm.whole_frame || keeps_both_ends || counts_across ? Execution::literal : options.execution;
     }
 
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }
@@ -197,8 +151,7 @@ struct Renderer::State {
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
     // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
     [[nodiscard]] int pass_limit(const Frame& f) {
-        const bool is_limited = options.max_passes > 0 || options.termination.rule == TerminationRule::fixed;
-        if (is_limited || f.is_invariant()) return options.max_passes;
+        if (limits_passes() || f.is_invariant()) return options.max_passes;
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
@@ -212,18 +165,6 @@ struct Renderer::State {
         return 6 * (*deepest + 1);
     }
 
-    // keys-and-counts.md 3.4. A limit that the user set is no fault, even if the peel reaches it.
-    void note_endless(const Frame& f, FrameResult& result) const {
-        if (options.max_passes > 0 || f.max_passes == 0 || result.passes.geometry < f.max_passes) return;
-        const std::string why =
-            !f.quantize_reference
-                ? "the compared depth is not rounded like the stored one, so a fragment lies behind itself"
-                : "some fragments' compared depth lies behind the depth that they stored themselves";
-        merge(result.diagnostics, {Fault::endless, 0, -1, -1,
-                                   "stopped after " + std::to_string(f.max_passes) +
-                                       " geometry passes, twice what the deepest pixel needs: " + why});
-    }
-
     [[nodiscard]] Frame frame(const Algorithm& algorithm) {
         Frame f;
         f.profile = &profile;
@@ -234,7 +175,7 @@ struct Renderer::State {
         own.bin(tile_size_of(options, algorithm));
         f.shadow = light ? &light->stage : nullptr;
         f.epsilon = options.compare_epsilon;
-        f.quantize_reference = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+        f.quantize_reference = quantizes();
         f.depth = depth_of(algorithm);
         if (algorithm.is_oracle) f.depth.path = rasterizer::DepthPath::exact;
         f.key = algorithm.key;
@@ -247,7 +188,7 @@ struct Renderer::State {
         f.alike_where_blank = true;  // no program here looks at x or y
         f.keep_layers = options.keep_layers;
         const AuditMemory memory{audit_memory(),
-                                 execution(algorithm) == Execution::literal ? 1 : thread_count(options.threads)};
+                                 execution(algorithm, {}) == Execution::literal ? 1 : thread_count(options.threads)};
         f.trace = options.audit && algorithm.ties != TiePolicy::none;
         f.trace_bytes = memory.trace_bytes();
         f.list_bytes = memory.bytes / static_cast<std::uint64_t>(memory.workers);
@@ -276,10 +217,14 @@ struct Renderer::State {
         return peeling::refusal(algorithm, profile);
     }
 
+    // Whether a compared depth is rounded like a stored one.
+    [[nodiscard]] bool quantizes() const {
+        return options.quantize_reference && profile.raster.hypothesis.quantize_reference;
+    }
+
     // By the options alone: every pass of a peel sees the same fragments and compares what it stores.
     [[nodiscard]] bool is_invariant() const {
-        const bool quantizes = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
-        return lists.second() == nullptr && quantizes && options.compare_epsilon == CompareEpsilon{} &&
+        return lists.second() == nullptr && quantizes() && options.compare_epsilon == CompareEpsilon{} &&
                depth.reference.value_or(depth.path) == depth.path;
     }
 
@@ -298,11 +243,12 @@ struct Renderer::State {
         const Watch watch = traces != nullptr ? keep_traces(f, *traces) : audit ? audit->watch() : Watch{};
         {
             const Stopwatch stopwatch{result.seconds.passes};
-            result.frame = run(f, body, execution(algorithm), options.threads, progress, instruments, watch);
+            result.frame =
+                run(f, body, execution(algorithm, instruments), options.threads, progress, instruments, watch);
         }
         result.seconds.audit = result.frame.watched * result.seconds.passes;
         result.seconds.passes -= result.seconds.audit;
-        if (!algorithm.compares_own_codes) note_endless(f, result.frame);
+        if (!algorithm.compares_own_codes) note_endless(f, options, result.frame);
         if (!audit) return;
         const Stopwatch stopwatch{result.seconds.audit};
         result.audit = audit->finish(result.frame);
@@ -322,32 +268,12 @@ struct Renderer::State {
             result.outcome = Outcome::refused;
             return result;
         }
-        note_machine(algorithm, result.frame.diagnostics);
+        note_set_up(lists.transparent(ListOrder::given).geometry.counters, result.frame.diagnostics);
+        note_machine(algorithm, depth.format, quantizes(), result.frame.diagnostics);
         if (options.audit && traces == nullptr)
             add_audit_diagnostics(algorithm, options, {was_invariant, flushes_depths(profile, options.raster)},
                                   result.audit, result.frame.diagnostics);
         return result;
-    }
-
-    void note_machine(const Algorithm& algorithm, std::vector<Diagnostic>& all) {
-        const auto& counters = lists.transparent(ListOrder::given).geometry.counters;
-        if (counters.non_finite > 0)
-            merge(all, {Fault::non_finite_vertices, 0, -1, -1,
-                        std::to_string(counters.non_finite) + " triangles dropped, the first is number " +
-                            std::to_string(counters.first_non_finite)});
-        if (algorithm.run == find_algorithm("depth_units")->run && !algorithm.body)
-            merge(all,
-                  {Fault::emulator_extension, 0, -1, -1, "STRATA_depth_units: no device had sequential depth units"});
-        if (needs(algorithm, Feature::ordered_rmw))
-            merge(all, {Fault::emulator_extension, 0, -1, -1,
-                        "STRATA_ordered_rmw: no device's programs read what they write, in order"});
-        const bool compares_in_program = algorithm.key == DepthKey::stored_code &&
-                                         needs(algorithm, Feature::fragment_programs) &&
-                                         depth.format != DepthFormat::d32f;
-        const bool quantises = options.quantize_reference && profile.raster.hypothesis.quantize_reference;
-        if (compares_in_program && (quantises || algorithm.compares_own_codes))
-            merge(all, {Fault::depth_quantized, 0, -1, -1,
-                        "the program converts its z like a depth write before it compares"});
     }
 };
 

@@ -86,6 +86,8 @@ Drawn peel(Region& region, const Interval& interval, const LayerTargets& t, bool
     state.reads[0] = t.peeled;
     state.needs = code_with_color;
     state.primitives = interval.objects;
+    state.selection = {.keeps = Keeps::nearest, .least = interval.low, .most = interval.high - 1};
+    if (!first) state.selection.behind = t.peeled;
     return region.draw(state, [&, first](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i)
@@ -103,14 +105,16 @@ void batched(Region& region) {
     region.call(t.nearest, "nearest");
     region.call(t.accumulated, "accumulated");
     region.clear(t.accumulated, {.color = {0, 0, 0, 1}});
-    for (const Interval& interval : intervals_of(region.frame()))
+    for (const Interval& interval : intervals_of(region.frame())) {
+        region.begin_loop();
         for (bool first = true; !region.limit_reached(); first = false) {
             region.begin_iteration();
             const Drawn drawn = peel(region, interval, t, first);
             composite_layer(region, t.layer, t.nearest, t.accumulated);
-            if (!region.any(drawn.passed, Idle::no)) break;
+            if (!region.any(drawn.passed, Idle::when_zero)) break;
             std::swap(t.peeled, t.nearest);
         }
+    }
     publish_over_background(region, t.accumulated, region.opaque_color());
 }
 

@@ -32,7 +32,7 @@ Drawn peel(Region& region, Target layer, Target nearest, Target peeled, bool fir
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.shader_z = false;
     state.needs.reference = !first && !compare.is_plain();
-    if (first || compare.is_plain()) state.selection = {.keeps = Keeps::nearest, .behind = state.reads[0]};
+    state.selection = nearest_behind(compare, state.reads[0], Outside::discarded);
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));

@@ -81,6 +81,8 @@ class Peel {
         PassState state = composite_state(accumulated_);
         state.reads = {peeled_, layer_, region_.opaque_depth()};
         state.primitives = as_span(sets_.ordered);
+        state.selection = {.keeps = Keeps::window, .up_to = layer_};
+        if (!from_the_start_) state.selection.behind = peeled_;
         static_cast<void>(region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             if (!from_the_start_) keep_behind(in, own.depth(0), out);
             if (published_)

@@ -34,9 +34,8 @@ Drawn peel(Region& region, const Buffers& to) {
     state.reads[0] = to.map;
     state.needs.shader_z = false;
     state.needs.reference = !first;
-    if (compare.quantizes && compare.epsilon == CompareEpsilon{})
-        state.selection = {
-            .keeps = Keeps::nearest, .outside = Outside::alpha_test, .behind = to.map, .by_reference = !first};
+    state.selection = nearest_behind(compare, to.map, Outside::alpha_test);
+    state.selection.by_reference = !first;
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;

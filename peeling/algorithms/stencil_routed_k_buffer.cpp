@@ -18,8 +18,8 @@ using namespace pipeline;
 
 namespace {
 
-constexpr int k = 8;
-constexpr int most_passes = 31;  // the stencil of the last sample starts at k - 1 + 2 + k p <= 255
+constexpr int pass_samples = 8;  // each takes a fragment
+constexpr int most_passes = 31;  // the stencil of the last sample starts at 8 - 1 + 2 + 8 p <= 255
 
 struct Capture {
     Target color, depth;
@@ -27,13 +27,13 @@ struct Capture {
 
 // Every arriving fragment decrements all stencils, down to 0 and no further; the sample that stands at 2 takes it.
 Capture capture(Region& region, Target stencil, int pass) {
-    const Capture into{region.make(region.frame().color_format, k),
-                       region.make(target_format(region.frame().key_request().format), k)};
+    const Capture into{region.make(region.frame().color_format, pass_samples),
+                       region.make(target_format(region.frame().key_request().format), pass_samples)};
     region.call(into.color, "samples_color");
     region.call(into.depth, "samples_depth");
     region.clear(into.depth, {.depth = 1.0f});  // a sample that stays empty: nothing visible lies there
-    for (int s = 0; s < k; ++s)
-        region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + k * pass)},
+    for (int s = 0; s < pass_samples; ++s)
+        region.clear(stencil, {.stencil = static_cast<std::uint8_t>(s + 2 + pass_samples * pass)},
                      static_cast<std::uint8_t>(1u << s));
     PassState state;
     state.depth = {.enabled = true, .func = CompareFunc::always, .write = true};
@@ -52,7 +52,7 @@ Capture capture(Region& region, Target stencil, int pass) {
     state.needs = code_with_color;
     state.selection = {.keeps = Keeps::arrivals,
                        .before = region.opaque_depth(),
-                       .first_arrival = static_cast<std::uint32_t>(k * pass)};
+                       .first_arrival = static_cast<std::uint32_t>(pass_samples * pass)};
     static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
         keep_before(in, own.depth(0), out);  // before the stencil test: what is hidden takes no sample
         out.color[0] = in.color;
@@ -60,12 +60,12 @@ Capture capture(Region& region, Target stencil, int pass) {
     return into;
 }
 
-// Pixels that had more than k fragments left for the last pass.
+// Pixels that had more than eight fragments left for the last pass.
 Count overflowing(Region& region, Target stencil) {
     PassState state;
     state.stencil = {.enabled = true, .front = {.func = CompareFunc::equal, .ref = 0}, .back = {}};
     state.stencil_target = stencil;
-    state.sample_mask = 1u << (k - 1);
+    state.sample_mask = 1u << (pass_samples - 1);
     return region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}).passed;
 }
 
@@ -97,7 +97,7 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel) {
         samples.clear();
         for (const Capture& c : captures)
-            for (int s = 0; s < k; ++s)
+            for (int s = 0; s < pass_samples; ++s)
                 if (const std::uint32_t code = region.storage(c.depth).depth(s)[pixel]; code != empty)
                     samples.push_back({code, region.color(c.color, pixel, s)});
         shortcuts.store_pixel(result, pixel, composite(samples, region.color(region.opaque_color(), pixel)));
@@ -110,7 +110,7 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     shortcuts.book({.bytes_read = bytes(region.opaque_color()), .bytes_written = bytes(result)}, {.full_screen = 1});
     for (std::size_t pass = 0; pass < captures.size(); ++pass) {
         region.count_with(static_cast<int>(pass) + 1);
-        shortcuts.book({.bytes_read = k * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
+        shortcuts.book({.bytes_read = pass_samples * (bytes(captures[pass].color) + bytes(captures[pass].depth))}, {});
     }
     return result;
 }
@@ -118,7 +118,7 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
 // The last sample's stencil has reached 0 where a fragment came after all samples were taken (algorithms.md 13).
 void report_overflow(Region& region, Target stencil) {
     PixelSet lost{region};
-    const std::uint32_t* const last = region.storage(stencil).stencil(k - 1);
+    const std::uint32_t* const last = region.storage(stencil).stencil(pass_samples - 1);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
         if (last[pixel] == 0) lost.add(pixel);
     lost.report(region, Fault::buffer_overflow,
@@ -128,7 +128,7 @@ void report_overflow(Region& region, Target stencil) {
 }  // namespace
 
 void stencil_routed_k_buffer(Region& region) {
-    const Target stencil = region.make(Format::s8, k);
+    const Target stencil = region.make(Format::s8, pass_samples);
     region.call(stencil, "stencil");
     std::vector<Capture> captures;
     while (static_cast<int>(captures.size()) < most_passes && !region.limit_reached()) {

@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/region/region_place.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/rules/raster_state.h"
 
 namespace strata::pipeline {
 class Region;
-enum class Bookkeeping : std::uint8_t;
 }  // namespace strata::pipeline
 
 namespace strata::peeling {

@@ -5,6 +5,19 @@
 #include "pipeline/region/region.h"
 
 namespace strata::peeling {
+// The window of a peel that keeps the nearest fragment behind `peeled`: by stored codes, or by compared ones. Nothing, if
+// the comparison is of more than codes.
+[[nodiscard]] inline pipeline::FragmentSelection nearest_behind(const pipeline::DepthCompare& compare,
+                                                                pipeline::Target peeled, pipeline::Outside outside) {
+    if (!peeled.exists()) return {.keeps = pipeline::Keeps::nearest, .outside = outside};
+    if (!compare.compares_codes()) return {};
+    return {.keeps = pipeline::Keeps::nearest,
+            .outside = outside,
+            .behind = peeled,
+            .behind_codes = static_cast<std::uint32_t>(compare.epsilon.ulps),
+            .by_reference = !compare.is_plain()};
+}
+
 inline namespace strict {
 
 // The promise that a one-layer peel may give about a region whose count is 0. Such a pass leaves the opaque depth as

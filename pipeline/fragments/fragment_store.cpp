@@ -94,7 +94,8 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
     std::byte* at = chunks_[used_chunks_ - 1].data() + used_bytes_;
     const bool has_dead =
         std::any_of(alive.begin(), alive.begin() + batch.count, [](std::uint32_t a) { return a == 0; });
-    batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead});
+    const auto [least, greatest] = std::minmax_element(batch.primitive.begin(), batch.primitive.begin() + batch.count);
+    batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead, {*least, *greatest + 1}});
     const auto pack = [&](const auto& array) {
         std::memcpy(at, array.data(), count * sizeof(array[0]));
         at += count * sizeof(array[0]);

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/vertices/primitive_range.h"
 #include "rasterizer/base/uninitialized.h"
 #include "rasterizer/coverage/fragment_batch.h"
 
@@ -38,6 +39,10 @@ class FragmentStore {
         return static_cast<std::uint32_t>(batch << 8 | lane);
     }
     [[nodiscard]] std::size_t count(std::size_t number) const noexcept { return batches_[number].count; }
+    // The least range that holds the primitives of a batch. In later batches neither of its ends is less.
+    [[nodiscard]] const PrimitiveRange& primitives(std::size_t number) const noexcept {
+        return batches_[number].primitives;
+    }
     [[nodiscard]] const rasterizer::FragmentNeeds& needs() const noexcept { return needs_; }
     // `primitive`, and what else `needs` names, of the fragments at `places` to the first lanes of a batch, in this order.
     // Pixels and their positions are the caller's: it knows them.
@@ -55,6 +60,7 @@ class FragmentStore {
         std::uint32_t material;
         std::uint16_t count;
         bool has_dead;  // MASK killed some: `alive` is among the arrays
+        PrimitiveRange primitives;
     };
 
     template <class Visit>

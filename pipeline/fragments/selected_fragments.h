@@ -17,11 +17,12 @@ struct SelectedFragments {
     bool is_ready = false;                      // chosen for the present pass
     std::uint64_t inside = 0;                   // fragments in their pixel's window
     std::uint64_t passed = 0;                   // of these, the ones that pass the depth test, of Keeps::nearest
+    std::uint64_t killed = 0;                   // of these, the ones that the stencil test of Keeps::previous kills
 
     void start() {
         for (auto& fragments : of_rank) fragments.clear();
         ranks = rank = next = 0;
-        inside = passed = 0;
+        inside = passed = killed = 0;
     }
     // A word of SortedFragments.
     void add(std::size_t pixel, std::uint64_t word, std::size_t at_rank) {

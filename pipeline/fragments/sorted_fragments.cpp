@@ -17,6 +17,7 @@ using rasterizer::Lanes;
 namespace {
 
 constexpr std::uint64_t bytes_per_fragment = sizeof(std::uint64_t) + sizeof(std::uint32_t);
+constexpr std::uint64_t more_by_reference = 2 * sizeof(std::uint64_t);
 constexpr std::uint64_t bytes_per_pixel = 32;  // start, end of the updates, three fingers
 constexpr std::uint32_t not_counted = ~0u;
 
@@ -24,10 +25,25 @@ constexpr std::uint32_t not_counted = ~0u;
     return std::bit_cast<std::uint32_t>(value) <= std::bit_cast<std::uint32_t>(most);  // false for -0 and NaN
 }
 
-// How many fragments of a batch have no word, by the first reason for it.
+// Fragments of a batch, and how many of them have no word, by the first reason for it.
 struct Fates {
-    std::uint64_t masked, hidden, alpha_killed;
+    std::uint64_t rasterized, masked, hidden, alpha_killed;
 };
+
+[[nodiscard]] bool holds(std::span<const PrimitiveRange> ranges, std::uint32_t primitive) noexcept {
+    const auto behind = std::ranges::upper_bound(ranges, primitive, {}, &PrimitiveRange::first);
+    return behind != ranges.begin() && primitive < std::prev(behind)->last;
+}
+
+// Whether any of `ranges` may hold a primitive of `batch`; and whether one of them holds them all.
+[[nodiscard]] bool meets(std::span<const PrimitiveRange> ranges, const PrimitiveRange& batch) noexcept {
+    const auto from = std::ranges::upper_bound(ranges, batch.first, {}, &PrimitiveRange::last);
+    return from != ranges.end() && from->first < batch.last;
+}
+[[nodiscard]] bool covers(std::span<const PrimitiveRange> ranges, const PrimitiveRange& batch) noexcept {
+    const auto from = std::ranges::upper_bound(ranges, batch.first, {}, &PrimitiveRange::last);
+    return from != ranges.end() && from->first <= batch.first && batch.last <= from->last;
+}
 
 // Of neighbouring passes bounds are the same or a few words apart: steps that double, from where the last one was.
 [[nodiscard]] std::uint32_t first_from(std::span<const std::uint64_t> words, std::uint64_t word,
@@ -67,6 +83,7 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
     if (!take(store, limit, surface)) return false;
     for (std::size_t p = 0; p < pixels && !request.by_arrival; ++p)
         sort_column({words_.data() + start_[p], start_[p + 1] - start_[p]});
+    if (request.by_reference) take_stored(store);
     for (auto& finger : finger_) finger.assign(pixels, Found{});
     updates_end_.assign(pixels, not_counted);
     updates_.resize(words_.size());
@@ -80,18 +97,21 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
     rasterized_ = masked_ = alpha_killed_ = hidden_ = 0;
     has_plain_colors_ = stores_reference_ = true;
     const std::size_t pixels = start_.size() - 1;
-    for (std::size_t number = 0; number < store.batches(); ++number) rasterized_ += store.count(number);
-    const std::uint64_t needed = rasterized_ * bytes_per_fragment + pixels * bytes_per_pixel;
-    if (store.used_bytes() + needed > limit || store.batches() >= std::size_t{1} << 24) return false;
+    if (store.batches() >= std::size_t{1} << 24) return false;
     const auto batch = std::make_unique<FragmentBatch>();
     Lanes<std::uint32_t> alive;
     const auto for_each_alive = [&](auto&& visit) {
         for (std::size_t number = 0; number < store.batches(); ++number) {
+            const std::span<const PrimitiveRange> ranges = request_.primitives;
+            if (!ranges.empty() && !meets(ranges, store.primitives(number))) continue;
             store.recall(number, *batch, alive);
             const auto count = static_cast<std::size_t>(batch->count);
             const auto dead = [&] {
                 return static_cast<std::uint64_t>(std::count(alive.begin(), alive.begin() + batch->count, 0u));
             };
+            std::uint64_t others = 0;  // that are none of this request's
+            for (std::size_t i = 0; i < count && !ranges.empty() && !covers(ranges, store.primitives(number)); ++i)
+                if (!holds(ranges, batch->primitive[i])) alive[i] = 0, ++others;
             const std::uint64_t masked = dead();
             for (std::size_t i = 0; request_.by_arrival && i < count; ++i)
                 alive[i] &= mask(batch->code[i] < surface[batch->pixel[i]]);
@@ -99,12 +119,14 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
             if (request_.alpha.enabled)
                 alpha_test(request_.alpha, request_.eight_bit_alpha, batch->color[3].data(), alive.data(),
                            batch->count);
-            if (!visit(number, count, alive, Fates{masked, unseen - masked, dead() - unseen})) return false;
+            if (!visit(number, count, alive, Fates{count - others, masked - others, unseen - masked, dead() - unseen}))
+                return false;
         }
         return true;
     };
     const bool sortable =
         for_each_alive([&](std::size_t, std::size_t count, const Lanes<std::uint32_t>& is_alive, const Fates& lost) {
+            rasterized_ += lost.rasterized;
             masked_ += lost.masked;
             hidden_ += lost.hidden;
             alpha_killed_ += lost.alpha_killed;
@@ -114,14 +136,17 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
         });
     if (!sortable) return false;
     for (std::size_t p = 0; p < pixels; ++p) start_[p + 1] += start_[p];
+    if (store.used_bytes() + needed_bytes() > limit) return false;
     words_.resize(start_[pixels]);
     updates_end_.assign(start_.begin(), start_.end() - 1);  // for now: where the column's next word goes
     return for_each_alive(
         [&](std::size_t number, std::size_t count, const Lanes<std::uint32_t>& is_alive, const Fates&) {
             for (std::size_t i = 0; i < count; ++i) {
                 if (is_alive[i] == 0) continue;
-                const std::uint32_t key =
-                    request_.key == DepthKey::shader_z ? rasterizer::ordered_code(batch->shader_z[i]) : batch->code[i];
+                const std::uint32_t key = request_.by_reference ? batch->reference_code[i]
+                                          : request_.key == DepthKey::shader_z
+                                              ? rasterizer::ordered_code(batch->shader_z[i])
+                                              : batch->code[i];
                 words_[updates_end_[batch->pixel[i]]++] = std::uint64_t{key} << 32 | FragmentStore::place(number, i);
             }
             return true;
@@ -133,7 +158,13 @@ bool SortedFragments::has_sortable_keys(const FragmentBatch& batch) const noexce
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         sortable &= request_.key == DepthKey::shader_z ? batch.shader_z[i] == batch.shader_z[i]
                                                        : !request_.is_float || batch.code[i] <= 0x7f800000u;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count) && request_.by_reference; ++i)
+        sortable &= !request_.is_float || batch.reference_code[i] <= 0x7f800000u;
     return sortable;
+}
+
+std::uint64_t SortedFragments::needed_bytes() const noexcept {
+    return size() * (bytes_per_fragment + (request_.by_reference ? more_by_reference : 0)) + pixels() * bytes_per_pixel;
 }
 
 void SortedFragments::look_at_values(const FragmentStore& store, const FragmentBatch& batch) noexcept {
@@ -175,6 +206,20 @@ void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) noexc
         updates[k] = 1 + (next < last ? updates[next] : 0);
     }
     updates_end_[pixel] = last;
+}
+
+// Chains lead from the nearest to those that passed before it, one update fewer each.
+std::uint32_t SortedFragments::update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
+                                      std::uint32_t updates) noexcept {
+    const std::span<const std::uint64_t> words = of(pixel);
+    const auto place = [&](std::uint32_t k) { return static_cast<std::uint32_t>(words[k]); };
+    std::uint32_t at = first;
+    for (std::uint32_t left = passing(pixel, first, last); left > updates; --left) {
+        const std::uint32_t from = place(at);
+        while (place(++at) > from) {
+        }
+    }
+    return at;
 }
 
 }  // namespace strata::pipeline

@@ -6,7 +6,7 @@
 //          alpha test kills.
 // Layout   Pixel after pixel, in one piece. A finger remembers for each pixel which bound was looked for last, and where it is:
 //          bounds of successive passes move by a few words, so finding the next takes a few comparisons, however long the column.
-// Numbers  12 bytes a fragment and 32 a pixel. No key is a NaN, and no stored code of a float buffer negative: else nothing is sorted.
+// Numbers  12 bytes a fragment (28 by reference) and 32 a pixel. No key is a NaN, and no stored code of a float buffer negative: else nothing is sorted.
 // Source   execution.md 7.1.
 // Tests    tests/pipeline/fragments/sorted_fragments_test.cpp
 #pragma once
@@ -26,7 +26,9 @@ struct SortRequest {
     bool is_float = false;  // stored codes are bits of binary32
     AlphaTest alpha{};
     bool eight_bit_alpha = true;
-    bool by_arrival = false;  // not sorted by key, and without those that do not lie before `surface`
+    bool by_arrival = false;    // not sorted by key, and without those that do not lie before `surface`
+    bool by_reference = false;  // sorted by the code that is compared; each has its stored code beside it
+    std::vector<PrimitiveRange> primitives{};  // these alone, ascending and disjoint; empty: all
     friend bool operator==(const SortRequest&, const SortRequest&) = default;
 };
 
@@ -50,6 +52,7 @@ class SortedFragments {
     [[nodiscard]] std::uint64_t hidden() const noexcept { return hidden_; }              // not before the surface
     // Whether every colour is in [0, 1024] and every alpha in [0, 1], none of them -0: MAX of such has no order.
     [[nodiscard]] bool has_plain_colors() const noexcept { return has_plain_colors_; }
+    [[nodiscard]] bool is_by_reference() const noexcept { return request_.by_reference; }
     // Whether the reference code is every fragment's stored one.
     [[nodiscard]] bool stores_reference() const noexcept { return stores_reference_; }
 
@@ -69,14 +72,30 @@ class SortedFragments {
     }
     // How many of the fragments [first, last) pass a depth test LESS with a write, as they arrive.
     [[nodiscard]] std::uint32_t passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) noexcept;
+    // The one of [first, last) that passes `updates`-th there, 1 <= updates <= passing. The last is the nearest.
+    [[nodiscard]] std::uint32_t update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
+                                       std::uint32_t updates) noexcept;
+    // Bytes that the present sorting takes.
+    [[nodiscard]] std::uint64_t bytes() const noexcept { return state_ == State::sorted ? needed_bytes() : 0; }
+
+    // Of a request by reference: the fragments from number `first` on, before `surface`, under the same test of their stored
+    // codes. `word` is (stored code, place) of the last that passes; without one nothing passes.
+    struct Passing {
+        std::uint64_t word = 0;
+        std::uint32_t passed = 0;
+    };
+    [[nodiscard]] Passing passing_stored(std::size_t pixel, std::uint32_t first, std::uint32_t surface);
 
   private:
     enum class State : std::uint8_t { empty, sorted, declined };
 
+    [[nodiscard]] std::uint64_t needed_bytes() const noexcept;
     [[nodiscard]] bool take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface);
+    void take_stored(const FragmentStore& store);
     [[nodiscard]] bool has_sortable_keys(const rasterizer::FragmentBatch& batch) const noexcept;
     void look_at_values(const FragmentStore& store, const rasterizer::FragmentBatch& batch) noexcept;
     void count_updates(std::size_t pixel, std::uint32_t last) noexcept;
+    void count_stored_updates(std::size_t pixel, std::uint32_t surface);
 
     State state_ = State::empty;
     SortRequest request_;
@@ -92,6 +111,10 @@ class SortedFragments {
     UninitializedVector<std::uint32_t> updates_;
     std::vector<std::uint32_t> updates_end_;  // by pixel; ~0: not counted yet
     std::vector<std::uint32_t> next_nearer_;  // of one column, while it is counted
+    // Of a request by reference, by word: the fragment's own (stored code, place), and the least of it and those behind.
+    UninitializedVector<std::uint64_t> stored_, least_stored_;
+    std::vector<std::uint64_t> by_code_, by_place_;  // of one column, while it is counted
+    std::vector<std::uint32_t> reach_;
 };
 
 }  // namespace strata::pipeline

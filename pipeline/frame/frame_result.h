@@ -23,9 +23,9 @@ struct FrameResult {
     Counters counters;
     Work work;
     std::vector<Diagnostic> diagnostics;
-    std::vector<bool> answers;  // to the frame's queries: a script for whoever runs a part of it again
-    double watched = 0;         // the watch's share of the time that was spent in regions
-    PassLog pass_log;           // where Instruments ask for it
+    Answers answers;     // to the frame's queries: a script for whoever runs a part of it again
+    double watched = 0;  // the watch's share of the time that was spent in regions
+    PassLog pass_log;    // where Instruments ask for it
 };
 
 }  // namespace strata::pipeline

@@ -16,6 +16,7 @@ void RegionBooks::begin_iteration() {
     counted_record = records.size();
     records.emplace_back();
     ++iterations;
+    ++loops.back().iterations;
 }
 
 void RegionBooks::end_iterations() {

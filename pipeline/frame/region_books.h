@@ -5,6 +5,7 @@
 // Tests    tests/pipeline/region/executor_test.cpp
 #pragma once
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "pipeline/formats/image.h"
@@ -26,21 +27,29 @@ struct Decision {
     bool answer = false;
 };
 
+// One loop of a body: its queries, and what the region has promised about them.
+struct LoopBooks {
+    std::vector<Decision> decisions;
+    int iterations = 0;
+    int idle_from = -1;   // number, from 1, of the iteration whose counters every further one repeats; -1: never idle
+    bool probed = false;  // the last iteration was an idle probe
+};
+
+// Answers to the queries of every loop.
+using Answers = std::vector<std::vector<bool>>;
+
 struct KeptLayer {
     Image color, depth;       // of the region's rectangle
     Side side = Side::front;  // from which end the peel took it
 };
 
 struct RegionBooks {
-    std::vector<bool>
-        script;  // the frame's answers that are known already; further ones are guessed from the region's own counts
-    std::vector<Decision> decisions;
+    Answers script;  // the frame's that are known already; further ones are guessed from the region's own counts
+    std::vector<LoopBooks> loops = std::vector<LoopBooks>(1);  // one, unless the body says that a further one begins
     std::vector<IterationRecord> records =
         std::vector<IterationRecord>(1);  // [0] before the first iteration, then one each, at last what follows
-    int iterations = 0;
-    int idle_from = -1;   // index of the record whose counters every further iteration repeats; -1: never idle
-    bool probed = false;  // the last iteration was an idle probe
-    Target published;     // what the body leaves: its final colour
+    int iterations = 0;                   // of all loops
+    Target published;                     // what the body leaves: its final colour
     std::vector<KeptLayer> layers;
     std::size_t idle_layers = 0;  // the last ones, kept while idle: empty
     std::vector<Diagnostic> diagnostics;
@@ -58,6 +67,19 @@ struct RegionBooks {
 
   private:
     void join_tail();
+};
+
+// While it lives the region's work is the emulator's own, and goes to RegionBooks::uncounted.
+class UncountedWork {
+  public:
+    explicit UncountedWork(RegionBooks& books) noexcept : books_{books}, before_{std::exchange(books.counts, false)} {}
+    UncountedWork(const UncountedWork&) = delete;
+    UncountedWork& operator=(const UncountedWork&) = delete;
+    ~UncountedWork() { books_.counts = before_; }
+
+  private:
+    RegionBooks& books_;
+    bool before_;
 };
 
 }  // namespace strata::pipeline

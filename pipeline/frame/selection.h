@@ -17,10 +17,14 @@ namespace strata::pipeline {
 // The fragments of its window that decide what a pass leaves at a pixel.
 enum class Keeps : std::uint8_t {
     everything,  // no selection: every fragment is visited
-    nearest,     // the first arrival of the least key, by a depth test LESS with a write and without blending
-    window,      // all of the window, in the order of arrival
-    arrivals,    // from number `first_arrival` of the window on, in the order of arrival, one for each sample: by a
-                 // stencil test that all of the window count down and only those meet
+    nearest,   // the first arrival of the least key, by a depth test LESS with a write and without blending; a stencil
+               // that every update increments is set to what they leave
+    last_two,  // as nearest, with blending that the last two updates decide
+    previous,  // the update before the nearest's: by a stencil that holds how many there are, up to 255, and that each of
+               // a second walk decrements down to 1
+    window,    // all of the window, in the order of arrival, whatever the tests
+    arrivals,  // from number `first_arrival` of the window on, in the order of arrival, one for each sample: by a
+               // stencil test that all of the window count down and only those meet
     ends  // the window's first and last key, all arrivals, and the nearest and farthest between: for MAX of (-z, z)
 };
 
@@ -36,14 +40,16 @@ enum class Outside : std::uint8_t {
 struct FragmentSelection {
     Keeps keeps = Keeps::everything;
     Outside outside = Outside::discarded;
-    Target behind{};  // depth target: keys greater than its code
-    Target from{};    // depth target: keys not less than its code
-    Target at{};      // depth target: keys equal to its code
-    Target before{};  // depth target: keys less than its code
-    Target range{};   // float target: keys from minus its red to its green, both included
+    Target behind{};                      // depth target: keys greater than its code raised by `behind_codes`
+    Target from{};                        // depth target: keys not less than its code
+    Target at{};                          // depth target: keys equal to its code
+    Target before{};                      // depth target: keys less than its code
+    Target up_to{};                       // depth target: keys not greater than its code
+    Target range{};                       // float target: keys from minus its red to its green, both included
+    std::uint32_t least = 0, most = ~0u;  // keys, both included
+    std::uint32_t behind_codes = 0;
     std::uint32_t first_arrival = 0;
-    bool by_reference =
-        false;  // `behind` bounds reference_code, the program looks at it alone, and it is the stored code
+    bool by_reference = false;  // `behind` bounds reference_code, and the program looks at no other depth
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;
 };
 

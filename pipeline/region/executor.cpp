@@ -131,7 +131,7 @@ class FrameRun {
 
     // Runs region `r` with the answers of `script`; beyond them it guesses from its own counts (region_control.cpp).
     // The image of the nearest depth depends on no answer, so the first run writes it for good.
-    void run_region(std::size_t r, const std::vector<bool>& script) {
+    void run_region(std::size_t r, const Answers& script) {
         const Clock::time_point start = Clock::now();
         RegionBooks books;
         books.script = script;
@@ -152,26 +152,26 @@ class FrameRun {
             progress_(std::min(1.0, static_cast<double>(++finished_) / static_cast<double>(regions_.size())));
     }
 
-    void run(const std::vector<std::size_t>& which, const std::vector<bool>& script) {
+    void run(const std::vector<std::size_t>& which, const Answers& script) {
         parallel_for(which.size(), threads_, [&](std::size_t i) { run_region(which[i], script); });
     }
 
     // True if region r went past decision d of the frame without being bound by its answer: it counted nothing there, or it
     // had stopped before, and has promised that further iterations change nothing.
-    [[nodiscard]] static bool is_idle(const RegionBooks& r, std::size_t d) {
-        const std::size_t last = std::min(d, r.decisions.size() - 1);
-        return r.decisions[last].own == 0 && r.decisions[last].idle != Idle::no;
+    [[nodiscard]] static bool is_idle(const LoopBooks& loop, std::size_t d) {
+        const std::size_t last = std::min(d, loop.decisions.size() - 1);
+        return loop.decisions[last].own == 0 && loop.decisions[last].idle != Idle::no;
     }
 
     // How many further answers are "yes": those of a region that has gone the frame's way up to decision d, and counted enough
     // by itself. A hint that saves runs: every answer is settled in its own round.
-    [[nodiscard]] std::size_t certain_after(std::size_t d, bool answer) const {
+    [[nodiscard]] std::size_t certain_after(std::size_t loop, std::size_t d, bool answer) const {
         std::size_t longest = 0;
         for (const auto& [r, fragments, runs] : regions_) {
             std::size_t next = d + 1;
-            if (r.decisions.size() <= next || r.decisions[d].answer != answer) continue;
-            while (next < r.decisions.size() && continues(frame_.termination, frame_.rect(), r.decisions[next].own))
-                ++next;
+            const std::vector<Decision>& own = r.loops[loop].decisions;
+            if (own.size() <= next || own[d].answer != answer) continue;
+            while (next < own.size() && continues(frame_.termination, frame_.rect(), own[next].own)) ++next;
             longest = std::max(longest, next - d - 1);
         }
         return longest;
@@ -181,28 +181,36 @@ class FrameRun {
     // each round settles at least one, and regions that guessed otherwise run again with the answers known so far.
     void settle() {
         if (extent_ == Extent::frame) {
-            for (const Decision& d : regions_[0].books.decisions) result_.answers.push_back(d.answer);
+            for (const LoopBooks& loop : regions_[0].books.loops) {
+                result_.answers.emplace_back();
+                for (const Decision& d : loop.decisions) result_.answers.back().push_back(d.answer);
+            }
             return;
         }
-        std::vector<bool>& answers = result_.answers;
+        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop) settle(loop);
+    }
+
+    void settle(std::size_t loop) {
+        std::vector<bool>& answers = result_.answers.emplace_back();
         for (std::size_t d = 0;; ++d) {
             std::uint64_t sum = 0;
             bool anyone = false;
             for (const auto& [r, fragments, runs] : regions_) {
-                if (d >= r.decisions.size()) continue;
-                sum += r.decisions[d].own;
+                const std::vector<Decision>& own = r.loops[loop].decisions;
+                if (d >= own.size()) continue;
+                sum += own[d].own;
                 anyone = true;
             }
             if (!anyone) return;
             answers.push_back(continues(frame_.termination, frame_.rect(), sum));
             std::vector<std::size_t> again;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                const RegionBooks& books = regions_[r].books;
-                if (books.decisions.empty() || is_idle(books, d)) continue;
-                if (d >= books.decisions.size() || books.decisions[d].answer != answers[d]) again.push_back(r);
+                const LoopBooks& own = regions_[r].books.loops[loop];
+                if (own.decisions.empty() || is_idle(own, d)) continue;
+                if (d >= own.decisions.size() || own.decisions[d].answer != answers[d]) again.push_back(r);
             }
-            std::vector<bool> script = answers;
-            if (!again.empty()) script.insert(script.end(), certain_after(d, answers[d]), true);
+            Answers script = result_.answers;
+            if (!again.empty()) script.back().insert(script.back().end(), certain_after(loop, d, answers[d]), true);
             run(again, script);
             result_.work.reruns += again.size();
         }
@@ -211,13 +219,14 @@ class FrameRun {
     // Puts the frame together from the books of all regions. Counters are integers and diagnostics merge in any order,
     // so the result does not depend on threads. Without a query every region ran the same iterations.
     void gather() {
-        const RegionBooks& first = regions_[0].books;
-        result_.iterations = first.decisions.empty() ? first.iterations : iterations_of_answers();
+        std::vector<int> iterations;
+        for (std::size_t loop = 0; loop < regions_[0].books.loops.size(); ++loop)
+            result_.iterations += iterations.emplace_back(iterations_of(loop));
         result_.work.regions = regions_.size();
         result_.work.tile_size = extent_ == Extent::frame ? 0 : frame_.transparent->geometry.tile_size;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             RegionBooks& books = regions_[r].books;
-            gather_counters(books);
+            gather_counters(books, iterations);
             for (const Diagnostic& d : books.diagnostics) merge(result_.diagnostics, d);
             gather_log(books.pass_log);
             result_.work.fragments += regions_[r].fragments;
@@ -228,11 +237,11 @@ class FrameRun {
         if (frame_.keep_layers) gather_layers();
     }
 
-    // The frame runs as long as any region had something to count: idle probes do not prolong it.
-    [[nodiscard]] int iterations_of_answers() const {
+    // A loop of the frame runs as long as any region had something to count: idle probes do not prolong it.
+    [[nodiscard]] int iterations_of(std::size_t loop) const {
         int longest = 0;
         for (const auto& [r, fragments, runs] : regions_)
-            longest = std::max(longest, r.iterations - (r.probed ? 1 : 0));
+            longest = std::max(longest, r.loops[loop].iterations - (r.loops[loop].probed ? 1 : 0));
         return longest;
     }
 
@@ -243,15 +252,20 @@ class FrameRun {
     }
 
     // Prologue, the frame's iterations (those that the region did not run repeat its idle one), epilogue.
-    void gather_counters(const RegionBooks& r) {
+    void gather_counters(const RegionBooks& r, const std::vector<int>& iterations) {
         PassCount passes;
         const auto add = [&](const IterationRecord& record) {
             result_.counters += record.counters;
             passes += record.passes;
         };
         add(r.records.front());
-        for (int i = 1; i <= result_.iterations; ++i)
-            add(r.records[static_cast<std::size_t>(i <= r.iterations ? i : r.idle_from)]);
+        int before = 0;  // the region's own iterations of earlier loops
+        for (std::size_t loop = 0; loop < r.loops.size(); ++loop) {
+            const LoopBooks& own = r.loops[loop];
+            for (int i = 1; i <= iterations[loop]; ++i)
+                add(r.records[static_cast<std::size_t>(before + (i <= own.iterations ? i : own.idle_from))]);
+            before += own.iterations;
+        }
         for (std::size_t i = static_cast<std::size_t>(r.iterations) + 1; i < r.records.size(); ++i) add(r.records[i]);
         result_.passes = passes;  // the same in every region
     }

@@ -58,13 +58,12 @@ Region::Region(const Frame& frame, const RegionPlace& place, RegionBooks& books,
     // nowhere.
     opaque_depth_ = make_depth();
     opaque_color_ = make_color();
-    books_.counts = false;
+    const UncountedWork priming{books_};
     clear(opaque_depth_, {.depth = 1.0f});
     clear(opaque_color_, {.color = frame.background});
     opaque_depth_is_cleared_ =
         frame.opaque == nullptr || (extent_ == Extent::tile && frame.opaque->geometry.bin(tile_).empty());
     if (!opaque_depth_is_cleared_) draw_opaque();
-    books_.counts = true;
 }
 
 Trace& Region::traced() noexcept { return scratch_->trace; }
@@ -173,7 +172,8 @@ void Region::draw_opaque() {
 
 // Coverage is counted first, before MASK, so that the list is allocated once and not moved while it grows.
 std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
-    books_.counts = bookkeeping == Bookkeeping::counted;
+    std::optional<UncountedWork> look;
+    if (bookkeeping == Bookkeeping::silent) look.emplace(books_);
     std::uint64_t fragments = 0;
     std::vector<std::uint32_t> coverage(rect_.area());
     RegionShortcuts{*this}.count_coverage(coverage);
@@ -194,7 +194,6 @@ std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
                            {in.color[0][i], in.color[1][i], in.color[2][i], in.color[3][i]}});
         }
     }));
-    books_.counts = true;
     return all;
 }
 

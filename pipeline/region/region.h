@@ -22,6 +22,7 @@
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/region_books.h"
 #include "pipeline/frame/trace.h"
+#include "pipeline/region/region_place.h"
 #include "pipeline/region/target_storage.h"
 #include "pipeline/textures/depth_texels.h"
 #include "pipeline/vertices/prepare.h"
@@ -37,18 +38,8 @@ namespace strata::pipeline {
 class FragmentStore;
 class RegionScratchPool;
 struct RegionScratch;  // the arrays that a batch passes through
+struct SortRequest;
 struct SelectedFragments;
-
-enum class Extent : std::uint8_t { frame, tile };
-// Which vertices a geometry pass draws: Frame::transparent, or Frame::second, the same triangles come by another way.
-enum class List : std::uint8_t { first, second };
-enum class Bookkeeping : std::uint8_t { counted, silent };  // a pass of the algorithm, or a look of the emulator's own
-
-struct RegionPlace {
-    rasterizer::Rect rect;
-    std::size_t tile = 0;  // its number; of an extent `tile`
-    Extent extent = Extent::frame;
-};
 
 class Region {
   public:
@@ -114,9 +105,8 @@ class Region {
     // Runs `work`, whose passes, clears and copies are the emulator's own: nothing counts them.
     template <class Work>
     void uncounted(Work&& work) {
-        books_.counts = false;
+        const UncountedWork own{books_};
         work();
-        books_.counts = true;
     }
     // A screen-aligned quad: every pixel of the region once.
     template <FragmentProgram P>
@@ -136,6 +126,9 @@ class Region {
     // A query for a branch within the iteration asks with Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle);
     void begin_iteration();
+    // A further loop begins: promises made so far concern the loops before it, and further ones it alone. Only where no
+    // limit counts passes across the loops: a tile that leaves a loop early has made fewer.
+    void begin_loop();
     // A layer may be composited after the last iteration, but its cost belongs to the iteration that made it. From now
     // on counters go to the record of `iteration`, counted from 1.
     void count_with(int iteration) { books_.counted_record = static_cast<std::size_t>(iteration); }
@@ -190,12 +183,21 @@ class Region {
     void capture_unseen(const PreparedDraw& list, const rasterizer::FragmentNeeds& kept);
     void select(const PassState& state);
     void select_nearest(const PassState& state);
+    struct ColumnPart {
+        std::uint32_t first, last, end;  // a window [first, end), of which [first, last) lies before the stored depth
+    };
+    void select_previous(const PassState& state, std::size_t pixel, const ColumnPart& part, std::uint32_t updates);
+    void select_nearest_stored(const PassState& state);
+    void count_up(const PassState& state, std::size_t pixel, std::uint32_t by);
     void select_window(const PassState& state);
     void select_arrivals(const PassState& state);
     void select_ends(const PassState& state);
     template <class FragmentsAt>
     void count_down(const PassState& state, const FragmentsAt& fragments_at);
+    void count_unvisited(const PassState& state, std::uint64_t visited);
     [[nodiscard]] Drawn book_arrivals(const PassState& state, const Drawn& visited);
+    [[nodiscard]] bool sort_for(const PassState& state);
+    [[nodiscard]] bool find_or_sort(const PassState& state, const SortRequest& request);
     [[nodiscard]] std::size_t samples_of_pass() const noexcept { return static_cast<std::size_t>(pass_samples_); }
     // Null where there is no such target.
     [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? storage(t).depth(0) : nullptr; }
@@ -238,6 +240,7 @@ class Region {
     void record_trace(const FragmentBatch& batch, const Outputs& out, const Lanes<std::uint32_t>& alive);
     void count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels);
     void report_saturation(const FragmentBatch& batch);
+    void report_saturation(std::uint32_t pixel);
     void write_colors(const PassState& state, const FragmentBatch& batch, const Outputs& out, int sample,
                       const Lanes<std::uint32_t>& alive, std::uint64_t passed);
     void draw_opaque();
@@ -305,100 +308,6 @@ class Region {
     std::vector<bool> has_saturated_;  // pixels whose stencil has met its limit; empty until one does
 };
 
-template <FragmentProgram P>
-Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& program) {
-    begin_pass(state, PassKind::geometry);
-    if (state.selection.keeps == Keeps::everything || !may_select(state, list))
-        return draw_everything(state, list, program);
-    return instruments_.check_selections ? draw_checked(state, list, program) : draw_selected(state, program);
-}
-
-template <FragmentProgram P>
-Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, P& program) {
-    Drawn drawn;
-    auto sink = [&](FragmentBatch& batch) {
-        Outputs& out = start_batch(batch);
-        shade_or_recall(list, batch, out);
-        show(Stage::shaded, state, batch, out, out.alive);
-        load(state, batch);
-        run_program(program, batch, out);
-        show(Stage::program, state, batch, out, out.alive);
-        finish(state, batch, out, drawn);
-    };
-    for_each_batch(list, state, rasterizer::BatchSink{sink});
-    show({.step = Step::geometry, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
-    return drawn;
-}
-
-template <FragmentProgram P>
-Drawn Region::draw_selected(const PassState& state, P& program) {
-    const Counters before = record().counters;
-    select(state);
-    Drawn drawn;
-    while (FragmentBatch* const batch = next_selected(state)) {
-        Outputs& out = start_batch(*batch);
-        load(state, *batch);
-        run_program(program, *batch, out);
-        finish(state, *batch, out, drawn);
-    }
-    return book_selected(state, before, drawn);
-}
-
-// Both ways from the same targets. What is kept is the outcome of visiting everything, the definition. A program that
-// writes elsewhere than to its outputs does so twice.
-template <FragmentProgram P>
-Drawn Region::draw_checked(const PassState& state, const PreparedDraw& list, P& program) {
-    Snapshot taken = snapshot();
-    const Count selected_passed = draw_selected(state, program).passed;
-    restore(taken);  // and takes what the selection left
-    const Drawn drawn = draw_everything(state, list, program);
-    require_equal(taken, selected_passed, drawn.passed);
-    return drawn;
-}
-
-template <FragmentProgram P>
-Drawn Region::full_screen(const PassState& state, P&& program) {
-    begin_pass(state, PassKind::full_screen);
-    Drawn drawn;
-    FragmentBatch& batch = screen_batch();
-    for (std::size_t next = 0; next_screen_batch(batch, next);) {
-        Outputs& out = start_batch(batch);
-        load(state, batch);
-        run_program(program, batch, out);
-        show(Stage::program, state, batch, out, out.alive);
-        finish(state, batch, out, drawn);
-    }
-    show({.step = Step::full_screen, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
-    return drawn;
-}
-
-template <FragmentProgram P>
-void Region::trace_pixels(Target read, P&& program) {
-    if (!frame_.trace) return;
-    kind_ = PassKind::full_screen;
-    PassState state;
-    state.reads[0] = read;
-    const IterationRecord before = record();
-    FragmentBatch& batch = screen_batch();
-    for (std::size_t next = 0; next_screen_batch(batch, next);) {
-        Outputs& out = start_batch(batch);
-        load(state, batch);
-        program(static_cast<const FragmentBatch&>(batch), loads(), out);
-        record_trace(batch, out, out.alive);
-    }
-    record() = before;
-}
-
-template <class P>
-void Region::run_program(P& program, FragmentBatch& batch, Outputs& out) {
-    const std::uint64_t before = alive_count(out, batch.count);
-    const std::uint64_t tally = out.tally;
-    program(static_cast<const FragmentBatch&>(batch), loads(), out);
-    if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
-    tallied_ += out.tally - tally;
-    if (kind_ != PassKind::geometry) return;
-    record().counters.discarded += before - alive_count(out, batch.count);
-    if (books_.counts) books_.fragments_visited += static_cast<std::uint64_t>(batch.count);
-}
-
 }  // namespace strata::pipeline
+
+#include "pipeline/region/region_draw.h"

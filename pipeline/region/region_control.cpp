@@ -7,6 +7,11 @@
 
 namespace strata::pipeline {
 
+void Region::begin_loop() {
+    books_.loops.emplace_back();
+    probing_ = false;
+}
+
 void Region::begin_iteration() { books_.begin_iteration(); }
 
 // A tile that counts nothing and has promised to be idle stops on its own word. With Idle::when_zero it first goes through one
@@ -15,22 +20,24 @@ bool Region::any(Count count, Idle idle) {
     if (frame_.termination.rule == TerminationRule::fixed) return true;  // no query at all
     if (instruments_.log_passes) ++books_.pass_log.queries;
     if (!instruments_.trust_idle) idle = Idle::no;
-    const std::size_t index = books_.decisions.size();
+    LoopBooks& loop = books_.loops.back();
+    const std::size_t index = loop.decisions.size(), number = books_.loops.size() - 1;
+    const bool is_known = number < books_.script.size() && index < books_.script[number].size();
     const bool finished = extent_ == Extent::tile && count.own_ == 0 && idle != Idle::no;
     bool answer = false;
-    if (index < books_.script.size()) {
-        answer = books_.script[index];
+    if (is_known) {
+        answer = books_.script[number][index];
     } else if (extent_ == Extent::frame) {
         answer = continues(frame_.termination, frame_.rect(), count.own_);
     } else {
         answer = count.own_ > 0;
     }
-    if (finished && index >= books_.script.size()) {
-        if (books_.idle_from < 0) books_.idle_from = books_.iterations + (idle == Idle::steady ? 0 : 1);
-        books_.probed = probing_;
+    if (finished && !is_known) {
+        if (loop.idle_from < 0) loop.idle_from = loop.iterations + (idle == Idle::steady ? 0 : 1);
+        loop.probed = probing_;
         answer = idle == Idle::when_zero && !std::exchange(probing_, true);
     }
-    books_.decisions.push_back({count.own_, idle, answer});
+    loop.decisions.push_back({count.own_, idle, answer});
     show({.step = Step::query, .passed = count.own_, .answer = answer});
     if (!answer) books_.end_iterations();
     return answer;

@@ -7,7 +7,7 @@
 
 #include "pipeline/fragments/fragment_store.h"
 #include "pipeline/fragments/selected_fragments.h"
-#include "pipeline/fragments/sorted_fragments.h"
+#include "pipeline/fragments/sorted_sets.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
 #include "pipeline/region/arena.h"
@@ -30,7 +30,7 @@ struct alignas(64) RegionScratch {
     Lanes<std::uint32_t> stencil_stored;
     Lanes<std::uint32_t> saturated;
     FragmentStore store;
-    SortedFragments sorted;  // of the store
+    SortedSets sorted;  // of the store
     SelectedFragments selected;
     Trace trace;
     Arena arena;

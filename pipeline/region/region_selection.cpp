@@ -2,15 +2,12 @@
 // the stages, and the others are counted as if they had (execution.md 7.1). Literal execution never takes this way: it is
 // what this one is tested against.
 #include <algorithm>
-#include <bit>
 #include <stdexcept>
-#include <utility>
 
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
-#include "rasterizer/rules/depth_code.h"
 
 namespace strata::pipeline {
 
@@ -18,29 +15,7 @@ using rasterizer::FragmentNeeds;
 
 namespace {
 
-using Finger = SortedFragments::Finger;
-
-constexpr std::size_t pixels_ahead = 12;  // whose words are asked for: about as many as memory answers at once
-
-// The codes of a depth target in the form of sorted keys.
-class KeyBound {
-  public:
-    KeyBound(const std::uint32_t* codes, DepthKey key) : codes_{codes}, is_float_key_{key == DepthKey::shader_z} {}
-    [[nodiscard]] bool exists() const noexcept { return codes_ != nullptr; }
-    [[nodiscard]] std::uint64_t of(std::size_t pixel) const noexcept {
-        return is_float_key_ ? rasterizer::ordered_code(std::bit_cast<float>(codes_[pixel])) : codes_[pixel];
-    }
-
-  private:
-    const std::uint32_t* codes_;
-    bool is_float_key_;
-};
-
-// A depth test that leaves the nearest fragment of a window, and blends nothing.
-bool leaves_the_nearest(const PassState& state) {
-    return state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = true} &&
-           std::ranges::none_of(state.blend, &Blend::enabled);
-}
+constexpr DepthTest leaves_the_nearest{.enabled = true, .func = CompareFunc::less, .write = true};
 
 // A stencil test that every fragment counts down, and that lets one code through, at every sample.
 bool routes_arrivals(const PassState& state) {
@@ -53,29 +28,45 @@ bool routes_arrivals(const PassState& state) {
            state.depth == DepthTest{.enabled = true, .func = CompareFunc::always, .write = true};
 }
 
+bool has_stencil(const PassState& state, const StencilFace& face) {
+    return state.stencil.enabled && !state.stencil.two_sided && state.stencil.front == face &&
+           !state.saturates_by_design;
+}
+
 // Whether the pass's tests are those of what it keeps.
 bool has_tests_of_its_kind(const PassState& state, int samples) {
+    constexpr StencilFace counts_updates{.func = CompareFunc::always, .ref = 0, .pass = StencilOp::incr};
+    constexpr StencilFace counts_back{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};
     if (state.selection.keeps == Keeps::arrivals) return routes_arrivals(state);
-    if (samples != 1 || state.stencil.enabled) return false;
-    return state.selection.keeps == Keeps::nearest ? leaves_the_nearest(state) : !state.depth.enabled;
+    if (samples != 1) return false;
+    const bool is_blended = std::ranges::any_of(state.blend, &Blend::enabled);
+    switch (state.selection.keeps) {
+        case Keeps::nearest:
+            return state.depth == leaves_the_nearest && !is_blended &&
+                   (!state.stencil.enabled || has_stencil(state, counts_updates));
+        case Keeps::last_two: return state.depth == leaves_the_nearest && !state.stencil.enabled;
+        case Keeps::previous:
+            return state.depth == leaves_the_nearest && !is_blended && has_stencil(state, counts_back);
+        case Keeps::window: return state.selection.outside == Outside::discarded;
+        case Keeps::ends: return !state.depth.enabled && !state.stencil.enabled;
+        case Keeps::arrivals:
+        case Keeps::everything: break;
+    }
+    return false;
 }
 
 // Stages that the counts below do not know.
 bool has_foreign_stages(const PassState& state) {
     const bool is_killed_by_alpha = state.selection.outside == Outside::alpha_test;
     const bool is_killed_by_unit = state.selection.outside == Outside::depth_unit;
-    return state.replaces_depth || state.ordered_rmw || !state.primitives.empty() || (state.sample_mask & 1u) == 0 ||
+    return state.replaces_depth || state.ordered_rmw || (state.sample_mask & 1u) == 0 ||
            state.alpha.enabled != is_killed_by_alpha || state.depth_unit_count != (is_killed_by_unit ? 1 : 0);
 }
 
-// The words of a window by place; in `own` if they stand in another order.
-std::span<const std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t> words,
-                                                   std::vector<std::uint64_t>& own) {
-    const auto place = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
-    if (std::ranges::is_sorted(words, {}, place)) return words;
-    own.assign(words.begin(), words.end());
-    std::ranges::sort(own, {}, place);
-    return own;
+// Whether selections of this kind look at stored codes alone.
+bool wants_stored_codes(const PassState& state) {
+    const Keeps keeps = state.selection.keeps;
+    return keeps == Keeps::arrivals || keeps == Keeps::previous || keeps == Keeps::last_two || state.stencil.enabled;
 }
 
 std::uint64_t pixel_bytes_of(const TargetStorage& s) {
@@ -91,9 +82,8 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
     const bool is_plain_run = extent_ == Extent::tile && frame_.effects == Effects::needed &&
                               instruments_.once_more == Effect::none && !instruments_.log_passes &&
                               frame_.replay.bytes > 0 && &list == frame_.transparent;
-    const bool by_arrival = selection.keeps == Keeps::arrivals;
     if (!is_plain_run || has_foreign_stages(state) || !has_tests_of_its_kind(state, pass_samples_) ||
-        (by_arrival && frame_.key != DepthKey::stored_code))
+        (wants_stored_codes(state) && frame_.key != DepthKey::stored_code))
         return false;
     rasterizer::FragmentNeeds kept = pass_needs(state, needs_of_tile(list), frame_.effects);
     kept.texcoord = state.needs.texcoord;
@@ -103,30 +93,50 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
         capture_unseen(list, kept | frame_.replay.needs);
         if (!store().serves(kept)) return false;
     }
-    SortRequest request{
-        .key = frame_.key, .is_float = frame_.key_request().format == DepthFormat::d32f, .by_arrival = by_arrival};
-    if (state.alpha.enabled) {
-        request.alpha = state.alpha;
-        const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
-        request.eight_bit_alpha = is_eight_bit_alpha(profile().alpha_test, type);
-    }
-    SortedFragments& sorted = scratch_->sorted;
-    if (!sorted.serves(request)) {
-        if (!sorted.may_sort(request)) return false;
-        store().recall_only(store().needs());
-        if (!sorted.sort(store(), request, rect_.area(), frame_.replay.bytes, codes_of(selection.before))) return false;
-    }
+    if (!sort_for(state)) return false;
+    const SortedFragments& sorted = scratch_->sorted.present();
     const bool has_order =
         selection.keeps == Keeps::ends && std::ranges::any_of(state.color, [&](Target t) {
             return t.exists() && info(at(t).format()).type != ChannelType::unorm8 && t != state.color[0];
         });
-    if ((has_order && !sorted.has_plain_colors()) || (selection.by_reference && !sorted.stores_reference()))
-        return false;
+    if (has_order && !sorted.has_plain_colors()) return false;
     // Where a window holds most of the fragments, it is cheaper to visit all of them in a row.
     scratch_->selected.is_ready = selection.keeps == Keeps::window;
     if (!scratch_->selected.is_ready) return true;
     select_window(state);
     return instruments_.check_selections || 2 * scratch_->selected.inside <= sorted.size();
+}
+
+// The sorting that this pass looks into. Where the compared depth is every fragment's stored one, one sorting serves
+// both.
+bool Region::sort_for(const PassState& state) {
+    const FragmentSelection& selection = state.selection;
+    SortRequest request{.key = frame_.key,
+                        .is_float = frame_.key_request().format == DepthFormat::d32f,
+                        .by_arrival = selection.keeps == Keeps::arrivals,
+                        .primitives = {state.primitives.begin(), state.primitives.end()}};
+    if (state.alpha.enabled) {
+        request.alpha = state.alpha;
+        const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
+        request.eight_bit_alpha = is_eight_bit_alpha(profile().alpha_test, type);
+    }
+    if (!find_or_sort(state, request)) return false;
+    if (!selection.by_reference || scratch_->sorted.present().stores_reference()) return true;
+    const bool is_bounded = selection.before.exists() || selection.up_to.exists() || selection.most != ~0u;
+    if (selection.keeps != Keeps::nearest || state.stencil.enabled || is_bounded || frame_.key != DepthKey::stored_code)
+        return false;
+    request.by_reference = true;
+    return find_or_sort(state, request);
+}
+
+bool Region::find_or_sort(const PassState& state, const SortRequest& request) {
+    SortedSets& sets = scratch_->sorted;
+    if (sets.find(request)) return true;
+    if (!sets.may_sort(request)) return false;
+    store().recall_only(store().needs());
+    const std::uint64_t others = std::min(sets.bytes_of_other(), frame_.replay.bytes);
+    return sets.present().sort(store(), request, rect_.area(), frame_.replay.bytes - others,
+                               codes_of(state.selection.before));
 }
 
 // As the first draw of a list does, but for the pass: that follows. What MASK kills is counted then, too.
@@ -149,213 +159,66 @@ void Region::capture_unseen(const PreparedDraw& list, const FragmentNeeds& kept)
     record().counters = before;
 }
 
-void Region::select(const PassState& state) {
-    if (std::exchange(scratch_->selected.is_ready, false)) return;
-    switch (state.selection.keeps) {
-        case Keeps::nearest: return select_nearest(state);
-        case Keeps::window: return select_window(state);
-        case Keeps::arrivals: return select_arrivals(state);
-        case Keeps::ends: return select_ends(state);
-        case Keeps::everything: return;
-    }
-}
-
-void Region::select_nearest(const PassState& state) {
-    SortedFragments& sorted = scratch_->sorted;
-    SelectedFragments& selected = scratch_->selected;
-    selected.start();
-    const KeyBound behind{codes_of(state.selection.behind), frame_.key};
-    const std::uint32_t* const stored = codes_of(state.depth_target);
-    const bool is_float = at(state.depth_target).format() == Format::d32f;
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        const auto words = sorted.of(p);
-        if (words.empty()) continue;
-        const std::uint32_t first = behind.exists() ? sorted.below(p, behind.of(p) + 1, Finger::low) : 0;
-        // A binary32 that is negative or NaN lies before every stored code, or before none.
-        const std::uint32_t last =
-            is_float && stored[p] > 0x7f800000u ? 0 : sorted.below(p, stored[p], Finger::surface);
-        selected.inside += words.size() - first;
-        if (first >= last) continue;
-        selected.passed += sorted.passing(p, first, last);
-        selected.add(p, words[first], 0);
-    }
-}
-
-// A window of one key is followed to its end; another one has both bounds.
-void Region::select_window(const PassState& state) {
-    SortedFragments& sorted = scratch_->sorted;
-    SelectedFragments& selected = scratch_->selected;
-    const FragmentSelection& selection = state.selection;
-    selected.start();
-    const bool is_one_key = selection.at.exists();
-    const KeyBound low{codes_of(is_one_key ? selection.at : selection.from), frame_.key};
-    const KeyBound high{codes_of(selection.before), frame_.key};
-    std::vector<std::uint64_t> window;
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        const auto words = sorted.of(p);
-        if (words.empty()) continue;
-        const std::uint32_t first = sorted.below(p, low.of(p), Finger::low);
-        std::uint32_t last = first;
-        if (is_one_key)
-            while (last < words.size() && words[last] >> 32 == low.of(p)) ++last;
-        else
-            last = std::max(first, sorted.below(p, high.of(p), Finger::high));
-        selected.inside += last - first;
-        const auto kept = in_order_of_arrival(words.subspan(first, last - first), window);
-        for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
-    }
-}
-
-// Those before have counted the stencil down by the time that the kept ones come, and met no sample's test.
-void Region::select_arrivals(const PassState& state) {
-    SortedFragments& sorted = scratch_->sorted;
-    SelectedFragments& selected = scratch_->selected;
-    selected.start();
-    const std::size_t past = state.selection.first_arrival;
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        const auto words = sorted.of(p);
-        const std::size_t last = std::min(words.size(), past + samples_of_pass());
-        for (std::size_t k = past; k < last; ++k) selected.add(p, words[k], k - past);
-        selected.inside += last > past ? last - past : 0;
-    }
-    count_down(state, [&](std::size_t p) { return std::min(sorted.of(p).size(), past); });
-}
-
-// Decrements every sample's stencil by a number of fragments of its pixel, down to 0.
-template <class FragmentsAt>
-void Region::count_down(const PassState& state, const FragmentsAt& fragments_at) {
-    TargetStorage& stencil = at(state.stencil_target);
-    for (std::size_t p = 0; p < scratch_->sorted.pixels(); ++p) {
-        const auto fragments = static_cast<std::uint32_t>(fragments_at(p));
-        for (int sample = 0; fragments > 0 && sample < pass_samples_; ++sample) {
-            std::uint32_t& stored = stencil.stencil_plane(sample).words[p];
-            stored -= std::min(stored, fragments);
-        }
-    }
-}
-
-// Ends are taken by the columns' own keys: where a bound was flushed as a denormal, they are still the ones that decide.
-void Region::select_ends(const PassState& state) {
-    SortedFragments& sorted = scratch_->sorted;
-    SelectedFragments& selected = scratch_->selected;
-    const FragmentSelection& selection = state.selection;
-    selected.start();
-    const KeyBound before{codes_of(selection.before), frame_.key};
-    const auto range = selection.range.exists() ? at(selection.range).texels(0) : Texels{};
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        sorted.prefetch(p + pixels_ahead, Finger::high);
-        const auto words = sorted.of(p);
-        if (words.empty()) continue;
-        const auto size = static_cast<std::uint32_t>(words.size());
-        std::uint32_t first = 0, last = sorted.below(p, before.of(p), Finger::surface);
-        if (selection.range.exists()) {
-            const float near = -std::bit_cast<float>(range.plane(0).words[p]);
-            const float far = std::bit_cast<float>(range.plane(1).words[p]);
-            first = near <= far ? sorted.below(p, rasterizer::ordered_code(near), Finger::low) : last;
-            if (near <= far)
-                last = std::min(last, sorted.below(p, std::uint64_t{rasterizer::ordered_code(far)} + 1, Finger::high));
-        }
-        last = std::max(first, last);
-        selected.inside += last - first;
-        std::size_t rank = 0;
-        const auto add = [&](std::uint32_t k) { selected.add(p, words[k], rank++); };
-        const auto key = [&](std::uint32_t k) { return words[k] >> 32; };
-        std::uint32_t near_end = first, far_begin = last;
-        while (near_end < last && key(near_end) == key(first)) add(near_end++);
-        while (far_begin > near_end && key(far_begin - 1) == key(last - 1)) --far_begin;
-        if (near_end < far_begin) add(near_end);
-        if (near_end + 1 < far_begin) add(far_begin - 1);
-        for (std::uint32_t k = far_begin; k < last; ++k) add(k);
-        // Only where the window writes nothing but its first key does the value of those outside come from outside.
-        if (selection.outside == Outside::one_value && near_end == last && last - first < size)
-            add(first > 0 ? 0 : last);
-    }
-}
-
-// Keys that are stored codes need no fetching. Pixels rise within a rank, so their rows do.
-FragmentBatch* Region::next_selected(const PassState& state) {
-    SelectedFragments& selected = scratch_->selected;
-    while (selected.rank < selected.ranks && selected.next == selected.of_rank[selected.rank].size())
-        ++selected.rank, selected.next = 0;
-    if (selected.rank == selected.ranks) return nullptr;
-    const auto& all = selected.of_rank[selected.rank];
-    const std::size_t count = std::min<std::size_t>(all.size() - selected.next, batch_capacity);
-    FragmentBatch& batch = scratch_->recalled;
-    Lanes<std::uint32_t>& places = scratch_->depth_stored;
-    const auto width = static_cast<std::uint32_t>(rect_.width());
-    std::uint32_t row = all[selected.next].pixel / width;
-    for (std::size_t i = 0; i < count; ++i) {
-        const SelectedFragments::One& one = all[selected.next + i];
-        while (one.pixel >= (row + 1) * width) ++row;
-        batch.pixel[i] = one.pixel;
-        batch.x[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(rect_.x0) + one.pixel - row * width);
-        batch.y[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(rect_.y0) + row);
-        batch.code[i] = one.key;
-        places[i] = one.place;
-    }
-    if (state.selection.by_reference) std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
-    selected.next += count;
-    batch.count = static_cast<int>(count);
-    batch.material = 0;
-    FragmentNeeds fetched = state.needs;
-    fetched.code = frame_.key == DepthKey::shader_z;  // else the key is the code
-    store().fetch({places.data(), count}, fetched, batch);
-    return &batch;
-}
-
-// The counts of all fragments, in place of those that were visited. Of a window's fragments without a depth test the
-// visited are all, or all of them are alike.
-Drawn Region::book_selected(const PassState& state, const Counters& before, const Drawn& visited) {
-    const SortedFragments& sorted = scratch_->sorted;
-    const SelectedFragments& selected = scratch_->selected;
-    const FragmentSelection& selection = state.selection;
-    const std::uint64_t living = sorted.size(), rasterized = sorted.rasterized();
-    if (selection.keeps == Keeps::arrivals) return book_arrivals(state, visited);
+// Adds what fragments count that the program would have discarded: all but the visited ones.
+void Region::count_unvisited(const PassState& state, std::uint64_t visited) {
+    const SortedFragments& sorted = scratch_->sorted.present();
     Counters& counters = record().counters;
-    counters = before;
-    counters.fragments_rasterized += rasterized;
-    counters.alpha_killed += sorted.masked() + sorted.alpha_killed();
+    counters.fragments_rasterized += sorted.rasterized();
+    counters.alpha_killed += sorted.masked();
     for (const auto& targets : {std::span<const Target>{state.textures}, std::span<const Target>{state.reads}})
         for (const Target t : targets)
-            if (t.exists()) counters += of_loads(pixel_bytes_of(at(t)), rasterized);
-    std::uint64_t arriving = selection.keeps == Keeps::window ? visited.passed.own_ : selected.inside;
+            if (t.exists()) counters += of_loads(pixel_bytes_of(at(t)), sorted.rasterized() - visited);
+}
+
+// The counts of all fragments. Stages have counted a window's; of everything else the visited are some of many, and counted
+// anew with them.
+Drawn Region::book_selected(const PassState& state, const Counters& before, const Drawn& visited) {
+    const SortedFragments& sorted = scratch_->sorted.present();
+    const SelectedFragments& selected = scratch_->selected;
+    const FragmentSelection& selection = state.selection;
+    if (selection.keeps == Keeps::arrivals) return book_arrivals(state, visited);
+    Counters& counters = record().counters;
+    if (selection.keeps == Keeps::window) {
+        count_unvisited(state, selected.inside);
+        counters.discarded += sorted.size() - selected.inside;
+        return visited;
+    }
+    counters = before;
+    count_unvisited(state, 0);
+    counters.alpha_killed += sorted.alpha_killed();
+    std::uint64_t arriving = selected.inside;
+    const std::uint64_t outside = sorted.size() - arriving;
     switch (selection.outside) {
-        case Outside::discarded: counters.discarded += living - arriving; break;
-        case Outside::alpha_test: counters.alpha_killed += living - arriving; break;
+        case Outside::discarded: counters.discarded += outside; break;
+        case Outside::alpha_test: counters.alpha_killed += outside; break;
         case Outside::depth_unit:
-            counters += of_depth_test(pixel_bytes_of(at(state.depth_units[0].depth)), living, arriving, false);
+            counters += of_depth_test(pixel_bytes_of(at(state.depth_units[0].depth)), sorted.size(), arriving, false);
             break;
         case Outside::nothing_new:
-        case Outside::one_value: arriving = living; break;
+        case Outside::one_value: arriving = sorted.size(); break;
     }
     Drawn drawn;
-    drawn.passed.own_ = arriving;
-    if (selection.keeps == Keeps::nearest) {
-        drawn.passed.own_ = selected.passed;
-        counters += of_depth_test(pixel_bytes_of(at(state.depth_target)), arriving, selected.passed, true);
-    }
+    drawn.passed.own_ = selection.keeps == Keeps::ends ? arriving : selected.passed;
+    drawn.tallied = visited.tallied;
+    if (state.stencil.enabled)
+        counters += {.stencil_killed = selected.killed, .bytes_read = arriving, .bytes_written = arriving};
+    if (state.depth.enabled)
+        counters +=
+            of_depth_test(pixel_bytes_of(at(state.depth_target)), arriving - selected.killed, selected.passed, true);
     counters.blended += drawn.passed.own_;
     for (std::size_t k = 0; k < state.color.size(); ++k)
         if (state.color[k].exists() && state.blend[k].write_mask != 0)
             count_color_bytes(state.blend[k], at(state.color[k]), drawn.passed.own_);
-    drawn.tallied = visited.tallied;
     return drawn;
 }
 
-// What was visited has been counted by its stages, which the other fragments reach up to the stencil.
+// Stages have counted what was visited; the other fragments reach the stencil.
 Drawn Region::book_arrivals(const PassState& state, const Drawn& visited) {
-    const SortedFragments& sorted = scratch_->sorted;
+    const SortedFragments& sorted = scratch_->sorted.present();
     const std::uint64_t kept = scratch_->selected.inside;
     Counters& counters = record().counters;
-    counters.fragments_rasterized += sorted.rasterized();
-    counters.alpha_killed += sorted.masked();
+    count_unvisited(state, kept);
     counters.discarded += sorted.hidden();
-    for (const auto& targets : {std::span<const Target>{state.textures}, std::span<const Target>{state.reads}})
-        for (const Target t : targets)
-            if (t.exists()) counters += of_loads(pixel_bytes_of(at(t)), sorted.rasterized() - kept);
     const std::uint64_t tests = (sorted.size() - kept) * samples_of_pass();
     counters += {.stencil_killed = tests, .bytes_read = tests, .bytes_written = tests};
     count_down(state, [&](std::size_t p) {

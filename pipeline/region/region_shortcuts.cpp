@@ -74,7 +74,7 @@ std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& s
 
 // LESS with a write over a copy of the opaque depth, in the form of the algorithm's key (execution.md 9).
 Target RegionShortcuts::nearest_depth() {
-    region_.books_.counts = false;
+    const UncountedWork look{region_.books_};
     const Target nearest = region_.make_depth();
     region_.copy(region_.opaque_depth_, nearest);
     PassState state;
@@ -83,7 +83,6 @@ Target RegionShortcuts::nearest_depth() {
     state.needs = {
         .shader_z = false, .code = true, .exact_code = false, .color = false, .texcoord = false, .facing = false};
     static_cast<void>(region_.draw_depth(state));
-    region_.books_.counts = true;
     return nearest;
 }
 

@@ -78,7 +78,7 @@ class RegionShortcuts {
 
 template <class P>
 bool RegionShortcuts::look(const rasterizer::FragmentNeeds& needs, const rasterizer::Rect& band, P&& program) {
-    region_.books_.counts = false;
+    const UncountedWork look{region_.books_};
     bool goes_on = true;
     auto sink = [&](FragmentBatch& batch) {
         if (!goes_on) return;
@@ -87,7 +87,6 @@ bool RegionShortcuts::look(const rasterizer::FragmentNeeds& needs, const rasteri
         goes_on = program(static_cast<const FragmentBatch&>(batch), static_cast<const Outputs&>(out));
     };
     rasterize_band(needs, band, rasterizer::BatchSink{sink}, goes_on);
-    region_.books_.counts = true;
     return goes_on;
 }
 

@@ -23,6 +23,8 @@ namespace strata::pipeline {
 
 namespace {
 
+constexpr auto saturated_stencil = "INCR or DECR at the end of the 8-bit range";
+
 // The one channel of a depth or stencil plane.
 Texels codes_in(Plane plane) noexcept { return {plane, 1, 32}; }
 
@@ -298,7 +300,14 @@ void Region::report_saturation(const FragmentBatch& batch) {
         first = std::min(first, batch.pixel[i]);
         ++pixels;
     }
-    report(Fault::stencil_saturated, pixels, first, "INCR or DECR at the end of the 8-bit range");
+    report(Fault::stencil_saturated, pixels, first, saturated_stencil);
+}
+
+void Region::report_saturation(std::uint32_t pixel) {
+    has_saturated_.resize(rect_.area());
+    if (has_saturated_[pixel]) return;
+    has_saturated_[pixel] = true;
+    report(Fault::stencil_saturated, 1, pixel, saturated_stencil);
 }
 
 // Sums into halves have a kernel that adds in place; on sets that do not convert halves it answers false, and the

@@ -37,6 +37,9 @@ struct DepthCompare {
     // Only the fragment's own code is asked for: no reference array is needed.
     [[nodiscard]] bool is_plain() const noexcept { return !has_reference && quantizes && epsilon == CompareEpsilon{}; }
 
+    // Whether codes are all that is compared: the reference's, and the stored one raised by `ulps`.
+    [[nodiscard]] bool compares_codes() const noexcept { return quantizes && epsilon.absolute == 0.0; }
+
     // The stored code raised by `ulps`.
     [[nodiscard]] std::uint32_t raised(std::uint32_t stored) const noexcept {
         const std::uint64_t sum = std::uint64_t{stored} + static_cast<std::uint64_t>(epsilon.ulps);
@@ -45,7 +48,7 @@ struct DepthCompare {
     // In the buffer's own units; exact.
     [[nodiscard]] double value(std::uint32_t code) const noexcept { return rasterizer::buffer_value(code, format); }
     [[nodiscard]] bool is_behind(std::uint32_t code, double z, std::uint32_t stored) const noexcept {
-        if (quantizes && epsilon.absolute == 0.0) return code > raised(stored);
+        if (compares_codes()) return code > raised(stored);
         const double one = rasterizer::buffer_units(format);
         const double own = quantizes ? value(code) : std::min(z > 0.0 ? z : 0.0, one);
         return own > value(raised(stored)) + epsilon.absolute * one;

@@ -141,6 +141,7 @@ Way way(ByteSource& bytes, const Running& running, Simd simd) {
     const bool has_memory_of_its_own = bytes.one_in(2);
     const std::uint64_t memory = has_memory_of_its_own ? bytes.pick(memories) : w.fragment_memory;
     if (running.fragment_memory > 0) w.fragment_memory = memory;
+    w.check_selections = running.execution == Execution::replay && bytes.one_in(3);
     return w;
 }
 

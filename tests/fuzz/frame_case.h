@@ -19,6 +19,7 @@ struct Way {
     int tile_size = 32;
     pipeline::Effects effects = pipeline::Effects::needed;
     bool trust_idle = true;
+    bool check_selections = false;  // beforehand: passes visit every fragment, too, and compare
     std::uint64_t fragment_memory = std::uint64_t{256} << 20;
 };
 

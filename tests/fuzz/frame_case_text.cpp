@@ -85,7 +85,8 @@ void print(std::ostream& out, const Way& w) {
     constexpr const char* sets[]{"scalar", "sse4", "avx2", "avx512", "best"};
     out << executions[static_cast<int>(w.execution)] << ", " << sets[static_cast<int>(w.simd)] << ", tile "
         << w.tile_size << (w.effects == pipeline::Effects::all ? ", all effects" : "")
-        << (w.trust_idle ? "" : ", mistrusting") << ", fragment memory " << w.fragment_memory;
+        << (w.trust_idle ? "" : ", mistrusting") << (w.check_selections ? ", selections checked" : "")
+        << ", fragment memory " << w.fragment_memory;
 }
 
 void print(std::ostream& out, const FrameCase& f) {

@@ -26,6 +26,7 @@ struct StoredColumns {
     FragmentStore store;
     std::vector<std::vector<SortedArrival>> columns = std::vector<std::vector<SortedArrival>>(column_pixels);
     std::uint64_t rasterized = 0, masked = 0, faint = 0;
+    std::uint64_t of_part = 0, masked_of_part = 0;  // primitives 3 to 8, 12, and 40 to 47
 };
 
 // Distinct pixels, in no order.
@@ -38,7 +39,7 @@ void choose_pixels(Random& random, strata::rasterizer::FragmentBatch& batch) {
 
 // `codes`: how many different ones there are. Alpha below 0.25 counts as faint.
 void fill_columns(Random& random, int batches, int codes, StoredColumns& to) {
-    to.store.start({.shader_z = true, .code = true, .color = true}, std::uint64_t{64} << 20);
+    to.store.start({.shader_z = true, .code = true, .color = true, .reference = true}, std::uint64_t{64} << 20);
     auto batch = std::make_unique<strata::rasterizer::FragmentBatch>();
     for (int b = 0; b < batches; ++b) {
         batch->count = random_int(random, 1, 240);
@@ -48,10 +49,16 @@ void fill_columns(Random& random, int batches, int codes, StoredColumns& to) {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch->count); ++i) {
             batch->code[i] = static_cast<std::uint32_t>(random_int(random, 0, codes - 1));
             batch->shader_z[i] = random_float(random, -1, 1);
+            batch->reference_code[i] = static_cast<std::uint32_t>(random_int(random, 0, codes - 1));
+            batch->primitive[i] = static_cast<std::uint32_t>(b + (static_cast<int>(i) > batch->count / 2 ? 1 : 0));
             for (auto& channel : batch->color) channel[i] = random_channel(random);
             alive[i] = has_dead && random_int(random, 0, 3) == 0 ? 0u : ~0u;
             const bool is_faint = batch->color[3][i] < 0.25f;
             to.masked += alive[i] == 0 ? 1 : 0;
+            const std::uint32_t n = batch->primitive[i];
+            const bool is_of_part = (n >= 3 && n < 9) || n == 12 || (n >= 40 && n < 48);
+            to.of_part += is_of_part ? 1 : 0;
+            to.masked_of_part += is_of_part && alive[i] == 0 ? 1 : 0;
             to.faint += alive[i] != 0 && is_faint ? 1 : 0;
             if (alive[i] != 0 && !is_faint) to.columns[batch->pixel[i]].push_back({batch->code[i], batch->color[0][i]});
         }
@@ -144,12 +151,105 @@ TEST_CASE("a bound is found wherever its finger stood, and as many fragments pas
     CHECK(wrong_counts == 0);
 }
 
+TEST_CASE("the updates of a depth buffer are found one by one from the nearest back") {
+    Random random{20};
+    StoredColumns given;
+    fill_columns(random, 60, 40, given);
+    SortedFragments sorted;
+    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    int wrong = 0;
+    for (std::size_t p = 0; p < column_pixels; ++p) {
+        const auto words = sorted.of(p);
+        const auto size = static_cast<std::uint32_t>(words.size());
+        const std::uint32_t first = size / 4;
+        std::vector<std::uint64_t> arrived(words.begin() + first, words.end());
+        std::sort(arrived.begin(), arrived.end(),
+                  [](std::uint64_t a, std::uint64_t b) { return (a & 0xffffffff) < (b & 0xffffffff); });
+        std::vector<std::uint64_t> updates;
+        for (const std::uint64_t word : arrived)
+            if (updates.empty() || word >> 32 < updates.back() >> 32) updates.push_back(word);
+        for (std::uint32_t n = 1; n <= updates.size(); ++n)
+            wrong += words[sorted.update(p, first, size, n)] == updates[n - 1] ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a part of the primitives is sorted as if there were no others") {
+    Random random{21};
+    StoredColumns given;
+    fill_columns(random, 60, 40, given);
+    const SortRequest part{.primitives = {{3, 9}, {12, 13}, {40, 48}}};
+    SortedFragments all;
+    SortedFragments sorted;
+    REQUIRE(all.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    REQUIRE(sorted.sort(given.store, part, column_pixels, std::uint64_t{64} << 20));
+    auto one = std::make_unique<strata::rasterizer::FragmentBatch>();
+    bool is_same = true;
+    for (std::size_t p = 0; p < column_pixels; ++p) {
+        std::vector<std::uint64_t> expected;
+        for (const std::uint64_t word : all.of(p)) {
+            const auto place = static_cast<std::uint32_t>(word);
+            given.store.fetch({&place, 1}, {}, *one);
+            const std::uint32_t n = one->primitive[0];
+            if ((n >= 3 && n < 9) || n == 12 || (n >= 40 && n < 48)) expected.push_back(word);
+        }
+        is_same = is_same && std::ranges::equal(expected, sorted.of(p));
+    }
+    CHECK(is_same);
+    CHECK(sorted.rasterized() == given.of_part);
+    CHECK(sorted.size() == given.of_part - given.masked_of_part);
+    CHECK(sorted.size() > 100);
+}
+
+TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffer tests them one by one") {
+    for (const int codes : {3, 40, 1'000'000}) {
+        Random random{22};
+        StoredColumns given;
+        fill_columns(random, 60, codes, given);
+        SortedFragments sorted;
+        REQUIRE(sorted.sort(given.store, {.by_reference = true}, column_pixels, std::uint64_t{64} << 20));
+        int wrong = 0;
+        auto one = std::make_unique<strata::rasterizer::FragmentBatch>();
+        for (std::size_t p = 0; p < column_pixels; ++p) {
+            struct Arrival {
+                std::uint32_t place, compared, code;
+            };
+            std::vector<Arrival> arrivals;
+            for (const std::uint64_t word : sorted.of(p)) {
+                const auto place = static_cast<std::uint32_t>(word);
+                given.store.fetch({&place, 1}, {.code = true, .color = false, .reference = true}, *one);
+                arrivals.push_back({place, one->reference_code[0], one->code[0]});
+                wrong += word >> 32 == one->reference_code[0] ? 0 : 1;
+            }
+            wrong += std::ranges::is_sorted(arrivals, {}, &Arrival::compared) ? 0 : 1;
+            const auto surface = static_cast<std::uint32_t>(codes - codes / 3);
+            std::vector<Arrival> in_order = arrivals;
+            std::ranges::sort(in_order, {}, &Arrival::place);
+            for (std::uint32_t first = 0; first < arrivals.size(); ++first) {
+                if (first > 0 && arrivals[first].compared == arrivals[first - 1].compared) continue;
+                std::uint32_t stored = surface, passed = 0, last_place = 0;
+                for (const Arrival& a : in_order) {
+                    if (a.compared < arrivals[first].compared || a.code >= stored) continue;
+                    stored = a.code;
+                    last_place = a.place;
+                    ++passed;
+                }
+                const auto found = sorted.passing_stored(p, first, surface);
+                wrong += found.passed == passed ? 0 : 1;
+                if (passed > 0) wrong += found.word == (std::uint64_t{stored} << 32 | last_place) ? 0 : 1;
+            }
+        }
+        INFO(codes << " codes");
+        CHECK(wrong == 0);
+    }
+}
+
 TEST_CASE("what has no order, or no room, is not sorted") {
     Random random{19};
     StoredColumns given;
     fill_columns(random, 10, 40, given);
     SortedFragments sorted;
-    const std::uint64_t needed = given.store.used_bytes() + 12 * given.rasterized + 32 * column_pixels;
+    const std::uint64_t needed = given.store.used_bytes() + 12 * (given.rasterized - given.masked) + 32 * column_pixels;
     CHECK_FALSE(sorted.sort(given.store, {}, column_pixels, needed - 1));
     CHECK(sorted.sort(given.store, {}, column_pixels, needed));
     CHECK(sorted.sort(given.store, {.key = DepthKey::shader_z}, column_pixels, needed));

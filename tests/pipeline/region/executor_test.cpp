@@ -39,6 +39,20 @@ void add_one(Region& region, Target sum, std::size_t channel) {
     }));
 }
 
+// A code more of red where a fragment lies in `slot`.
+void add_found(Region& region, Target sum, int slot) {
+    PassState state;
+    state.color[0] = sum;
+    state.blend[0] = blend_mode::sum;
+    const std::uint32_t code = std::bit_cast<std::uint32_t>(slot_depth(slot));
+    static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            if (in.code[i] != code) out.alive[i] = 0;
+            for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = c == 0 ? 1.0f / 255.0f : 0.0f;
+        }
+    }));
+}
+
 struct Spot {
     std::size_t pixel;
     std::vector<int> slots;  // a fragment in each
@@ -77,6 +91,21 @@ void branch(Region& region) {
         if (!region.any(count_slot(region, slot), promise)) break;
     }
     static_cast<void>(count_slot(region, 0));  // what follows the loop
+    region.publish(sum);
+}
+
+// Two loops, from slot 0 and from slot 6. A tile that has found all of a loop's fragments leaves it.
+void two_loops(Region& region) {
+    const Target sum = region.make_color();
+    for (const int start : {0, 6}) {
+        region.begin_loop();
+        for (int slot = start; slot < slots && !region.limit_reached(); ++slot) {
+            region.begin_iteration();
+            const Count found = count_slot(region, slot);
+            add_found(region, sum, slot);
+            if (!region.any(found, Idle::when_zero)) break;
+        }
+    }
     region.publish(sum);
 }
 
@@ -164,6 +193,18 @@ TEST_CASE("a tile whose count is zero and later is not goes on with the frame") 
     CHECK(result.iterations == 5);
     CHECK(everywhere(result, 0) == 5);
     CHECK(result.counters.blended == 4);
+}
+
+TEST_CASE("a tile leaves each of several loops by itself, and counts what the frame's loops cost") {
+    // Loop 1 finds slots 0 to 3 and not 4, loop 2 slots 6 and 7 and not 8; tile 3 has nothing, the others less than all.
+    const TestFrame test{spots({{5, {0, 1, 2, 3}}, {20, {0, 6}}, {300, {6, 7}}, {301, {0, 1}}}), "geforce8"};
+    const FrameResult result = both(test, two_loops);
+    CHECK(result.iterations == 5 + 3);
+    CHECK(result.passes.geometry == 2 * (5 + 3));
+    CHECK(result.answers == Answers{{}, {true, true, true, true, false}, {true, true, false}});
+    CHECK(result.color.codes[4 * 5] == 4);
+    CHECK(result.color.codes[4 * 20] == 2);
+    CHECK(result.color.codes[4 * 300] == 2);
 }
 
 TEST_CASE("a ratio is of the frame's pixels, and stops tiles that would go on by their own count") {

@@ -23,10 +23,26 @@ float greatest_z(const Geometry& geometry, std::span<const std::uint32_t> triang
     return greatest;
 }
 
+// Of triangles that have fragments: how many, and how many bounds lie before a fragment or close behind the last one.
+struct BoundTally {
+    int beyond = 0, close = 0, drawn = 0;
+};
+
+void compare_bounds(const Geometry& geometry, BoundTally& tally) {
+    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
+        const float greatest = greatest_z(geometry, {&i, 1});
+        const double bound = depth_bound(geometry, {&i, 1});
+        if (greatest == -std::numeric_limits<float>::infinity()) continue;
+        ++tally.drawn;
+        tally.beyond += double{greatest} > bound ? 1 : 0;
+        tally.close += bound - double{greatest} < 0.1 ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 TEST_CASE("no fragment lies behind the depth bound of its triangle, and the bound is seldom far behind the fragments") {
-    int beyond = 0, close = 0, drawn = 0;
+    BoundTally tally;
     for (const SoupKind kind : {SoupKind::flat, SoupKind::perspective, SoupKind::needs_clipping})
         for (const PlaneOrigin origin : {PlaneOrigin::snapped, PlaneOrigin::unsnapped})
             for (const Snap snap : {Snap::nearest_even, Snap::toward_zero})
@@ -35,22 +51,15 @@ TEST_CASE("no fragment lies behind the depth bound of its triangle, and the boun
                     RasterState state = scene_state(61, 47);
                     state.polygon_offset = {kind == SoupKind::flat, 1.5f, 20.0f};
                     const Geometry geometry = set_up(random_soup(900, 80, kind), state, rules, 1);
-                    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-                        const float greatest = greatest_z(geometry, {&i, 1});
-                        const double bound = depth_bound(geometry, {&i, 1});
-                        if (greatest == -std::numeric_limits<float>::infinity()) continue;
-                        ++drawn;
-                        beyond += double{greatest} > bound ? 1 : 0;
-                        close += bound - double{greatest} < 0.1 ? 1 : 0;
-                    }
+                    compare_bounds(geometry, tally);
                 }
-    CHECK(beyond == 0);
-    CHECK(drawn > 1000);
-    CHECK(close > drawn / 2);
+    CHECK(tally.beyond == 0);
+    CHECK(tally.drawn > 1000);
+    CHECK(tally.close > tally.drawn / 2);
 }
 
 TEST_CASE("no fragment lies behind the bound of a plane that is stepped in binary32, and few bounds are far behind") {
-    int beyond = 0, close = 0, drawn = 0;
+    BoundTally tally;
     for (const SoupKind kind : {SoupKind::flat, SoupKind::perspective, SoupKind::needs_clipping})
         for (const PlaneRule plane :
              {PlaneRule::reciprocal_area, PlaneRule::reciprocal_area_fused, PlaneRule::least_corner})
@@ -61,18 +70,11 @@ TEST_CASE("no fragment lies behind the bound of a plane that is stepped in binar
                                             .plane_origin = PlaneOrigin::unsnapped,
                                             .plane_rule = plane};
                     const Geometry geometry = set_up(random_soup(903, 48, kind), scene_state(width, 47), rules, 1);
-                    for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-                        const float greatest = greatest_z(geometry, {&i, 1});
-                        const double bound = depth_bound(geometry, {&i, 1});
-                        if (greatest == -std::numeric_limits<float>::infinity()) continue;
-                        ++drawn;
-                        beyond += double{greatest} > bound ? 1 : 0;
-                        close += bound - double{greatest} < 0.1 ? 1 : 0;
-                    }
+                    compare_bounds(geometry, tally);
                 }
-    CHECK(beyond == 0);
-    CHECK(drawn > 1000);
-    CHECK(close > drawn / 3);
+    CHECK(tally.beyond == 0);
+    CHECK(tally.drawn > 1000);
+    CHECK(tally.close > tally.drawn / 3);
 }
 
 TEST_CASE("the bound of several triangles is the greatest of theirs, and of none it is below every depth") {

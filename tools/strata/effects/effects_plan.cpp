@@ -167,7 +167,8 @@ class Planner {
   private:
     template <class Holds>
     [[nodiscard]] std::uint64_t passes(Holds holds) const {
-        if (job_.algorithm != nullptr && job_.algorithm->whole_frame)  // no iteration of it is like another
+        if (job_.algorithm != nullptr &&
+            (job_.algorithm->whole_frame || job_.algorithm->runs_loops))  // no iteration of it is like another
             return static_cast<std::uint64_t>(
                 std::count_if(log_.passes.begin(), log_.passes.end(),
                               [&](const PassRecord& pass) { return !pass.is_opaque_priming && holds(pass); }));

@@ -188,7 +188,7 @@ bool HardMachine::is_run(const Way& way, const peeling::Algorithm& algorithm) co
     constexpr std::size_t many = std::size_t{1} << 20;
     const std::size_t triangles = scene_.list.meshes[0].indices.size() / 3;
     if (triangles * static_cast<std::size_t>(hard_.counts.layers) <= many) return true;
-    if (algorithm.whole_frame) return false;
+    if (algorithm.whole_frame || algorithm.runs_loops) return false;
     const bool rasterizes_every_pass = way.name == "literal" || way.name == "effects=all";
     return !rasterizes_every_pass || algorithm.closed_form != nullptr;
 }

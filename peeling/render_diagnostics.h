@@ -1,0 +1,45 @@
+// peeling/render_diagnostics.h - what a frame says beside its picture: the causes of order errors, peels that found no end, and what no
+// device had.
+//
+// Source   keys-and-counts.md 3.4 and 7.3.
+// Tests    tests/peeling/comparison_test.cpp, published_test.cpp, algorithms/shadow_map_test.cpp
+#pragma once
+#include <vector>
+
+#include "peeling/algorithms/algorithm.h"
+#include "peeling/audit/audit_result.h"
+#include "peeling/render_options.h"
+#include "pipeline/frame/frame.h"
+#include "pipeline/frame/frame_result.h"
+
+namespace strata::rasterizer {
+struct SetupCounters;
+}
+
+namespace strata::peeling {
+
+// What may keep passes from seeing the depths that earlier ones stored.
+struct PassDepths {
+    bool is_invariant = true;  // every pass saw the same fragments and compared the depth that it stores
+    bool are_flushed = false;  // the whole depth range is denormal, and blending into float targets flushes it to zero
+};
+
+[[nodiscard]] bool needs(const Algorithm& algorithm, pipeline::Feature feature);
+[[nodiscard]] bool flushes_depths(const pipeline::DeviceProfile& profile,
+                                  const rasterizer::RasterState& raster) noexcept;
+
+// Names the cause of order errors: the first that holds, in the order of keys-and-counts.md 7.3.
+void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& options, const PassDepths& depths,
+                           const AuditResult& audit, std::vector<pipeline::Diagnostic>& all);
+
+// A limit that the user set is no fault, even if the peel reaches it (keys-and-counts.md 3.4).
+void note_endless(const pipeline::Frame& frame, const RenderOptions& options, pipeline::FrameResult& result);
+
+// Triangles that set-up dropped.
+void note_set_up(const rasterizer::SetupCounters& counters, std::vector<pipeline::Diagnostic>& all);
+
+// What the algorithm asks of a device that none had. `quantizes`: a compared depth is rounded like a stored one.
+void note_machine(const Algorithm& algorithm, pipeline::DepthFormat format, bool quantizes,
+                  std::vector<pipeline::Diagnostic>& all);
+
+}  // namespace strata::peeling

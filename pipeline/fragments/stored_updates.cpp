@@ -1,0 +1,101 @@
+// pipeline/fragments/stored_updates.cpp - columns sorted by a compared depth whose test looks at another, the stored one: the nearest behind a
+// bound, and how many pass on the way to it (execution.md 7.1).
+//
+// Rule     From number i of a column on, f passes LESS if no earlier arrival g at i or behind has a stored code up to f's. So f passes
+//          for every i from one behind the last such g up to f's own number: an interval. Intervals are summed once a column.
+// Tests    tests/pipeline/fragments/sorted_fragments_test.cpp
+#include <algorithm>
+#include <memory>
+
+#include "pipeline/fragments/sorted_fragments.h"
+
+namespace strata::pipeline {
+
+namespace {
+
+// The greatest of the numbers put down so far at places up to a given one: a Fenwick tree of prefix maxima.
+class PrefixMaximum {
+  public:
+    PrefixMaximum(std::vector<std::uint32_t>& nodes, std::size_t size) : nodes_{nodes}, size_{size} {
+        nodes_.assign(size + 1, 0);
+    }
+    void put(std::size_t place, std::uint32_t number) noexcept {
+        for (std::size_t n = place + 1; n <= size_; n += n & (~n + 1)) nodes_[n] = std::max(nodes_[n], number);
+    }
+    [[nodiscard]] std::uint32_t up_to(std::size_t place) const noexcept {
+        std::uint32_t greatest = 0;
+        for (std::size_t n = place + 1; n > 0; n &= n - 1) greatest = std::max(greatest, nodes_[n]);
+        return greatest;
+    }
+
+  private:
+    std::vector<std::uint32_t>& nodes_;
+    std::size_t size_;
+};
+
+void sort_if_needed(std::vector<std::uint64_t>& words) {
+    if (!std::ranges::is_sorted(words)) std::ranges::sort(words);
+}
+
+}  // namespace
+
+// The stored code of every word, which its own place in the store leads to.
+void SortedFragments::take_stored(const FragmentStore& store) {
+    stored_.resize(words_.size());
+    least_stored_.resize(words_.size());
+    const auto batch = std::make_unique<rasterizer::FragmentBatch>();
+    rasterizer::FragmentNeeds code_alone;
+    code_alone.shader_z = code_alone.color = false;
+    code_alone.code = true;
+    rasterizer::Lanes<std::uint32_t> places;
+    for (std::size_t first = 0; first < words_.size(); first += places.size()) {
+        const std::size_t count = std::min(places.size(), words_.size() - first);
+        for (std::size_t i = 0; i < count; ++i) places[i] = static_cast<std::uint32_t>(words_[first + i]);
+        store.fetch({places.data(), count}, code_alone, *batch);
+        for (std::size_t i = 0; i < count; ++i) stored_[first + i] = std::uint64_t{batch->code[i]} << 32 | places[i];
+    }
+}
+
+SortedFragments::Passing SortedFragments::passing_stored(std::size_t pixel, std::uint32_t first,
+                                                         std::uint32_t surface) {
+    if (first >= of(pixel).size()) return {};
+    if (updates_end_[pixel] != surface) count_stored_updates(pixel, surface);
+    const std::uint64_t least = least_stored_[start_[pixel] + first];
+    if (least >> 32 >= surface) return {};
+    return {least, updates_[start_[pixel] + first]};
+}
+
+// `updates_` first takes where intervals begin and end, and then their sum.
+void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surface) {
+    const std::uint32_t begin = start_[pixel];
+    const auto size = static_cast<std::uint32_t>(of(pixel).size());
+    const std::uint64_t* const stored = stored_.data() + begin;
+    std::uint32_t* const updates = updates_.data() + begin;
+    by_code_.clear();
+    by_place_.clear();
+    std::uint64_t least = ~std::uint64_t{0};
+    for (std::uint32_t k = size; k-- > 0;) least_stored_[begin + k] = least = std::min(least, stored[k]);
+    for (std::uint32_t k = 0; k < size; ++k) {
+        updates[k] = 0;
+        if (stored[k] >> 32 >= surface) continue;
+        by_code_.push_back(stored[k]);
+        by_place_.push_back(stored[k] << 32 | k);
+    }
+    sort_if_needed(by_code_);
+    sort_if_needed(by_place_);
+    PrefixMaximum behind{reach_, by_code_.size()};  // one more than the number of a fragment that has arrived
+    for (const std::uint64_t word : by_place_) {
+        const auto k = static_cast<std::uint32_t>(word);
+        // Fragments of f's own code that arrived before it have lower words, and are in the tree already.
+        const auto rank = static_cast<std::size_t>(std::ranges::lower_bound(by_code_, stored[k]) - by_code_.begin());
+        const std::uint32_t from = behind.up_to(rank);
+        behind.put(rank, k + 1);
+        if (from > k) continue;
+        ++updates[from];
+        if (k + 1 < size) --updates[k + 1];
+    }
+    for (std::uint32_t k = 1; k < size; ++k) updates[k] += updates[k - 1];
+    updates_end_[pixel] = surface;
+}
+
+}  // namespace strata::pipeline

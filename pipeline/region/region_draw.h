@@ -1,0 +1,105 @@
+// pipeline/region/region_draw.h - how a region runs a caller's program over a pass's fragments: the part of region.h that is templates.
+#pragma once
+#include <algorithm>
+
+#include "pipeline/region/region.h"
+
+namespace strata::pipeline {
+
+template <FragmentProgram P>
+Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& program) {
+    begin_pass(state, PassKind::geometry);
+    if (state.selection.keeps == Keeps::everything || !may_select(state, list))
+        return draw_everything(state, list, program);
+    return instruments_.check_selections ? draw_checked(state, list, program) : draw_selected(state, program);
+}
+
+template <FragmentProgram P>
+Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, P& program) {
+    Drawn drawn;
+    auto sink = [&](FragmentBatch& batch) {
+        Outputs& out = start_batch(batch);
+        shade_or_recall(list, batch, out);
+        show(Stage::shaded, state, batch, out, out.alive);
+        load(state, batch);
+        run_program(program, batch, out);
+        show(Stage::program, state, batch, out, out.alive);
+        finish(state, batch, out, drawn);
+    };
+    for_each_batch(list, state, rasterizer::BatchSink{sink});
+    show({.step = Step::geometry, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
+    return drawn;
+}
+
+template <FragmentProgram P>
+Drawn Region::draw_selected(const PassState& state, P& program) {
+    const Counters before = record().counters;
+    select(state);
+    Drawn drawn;
+    while (FragmentBatch* const batch = next_selected(state)) {
+        Outputs& out = start_batch(*batch);
+        load(state, *batch);
+        run_program(program, *batch, out);
+        finish(state, *batch, out, drawn);
+    }
+    return book_selected(state, before, drawn);
+}
+
+// Both ways from the same targets. What is kept is the outcome of visiting everything, the definition. A program that
+// writes elsewhere than to its outputs does so twice.
+template <FragmentProgram P>
+Drawn Region::draw_checked(const PassState& state, const PreparedDraw& list, P& program) {
+    Snapshot taken = snapshot();
+    const Count selected_passed = draw_selected(state, program).passed;
+    restore(taken);  // and takes what the selection left
+    const Drawn drawn = draw_everything(state, list, program);
+    require_equal(taken, selected_passed, drawn.passed);
+    return drawn;
+}
+
+template <FragmentProgram P>
+Drawn Region::full_screen(const PassState& state, P&& program) {
+    begin_pass(state, PassKind::full_screen);
+    Drawn drawn;
+    FragmentBatch& batch = screen_batch();
+    for (std::size_t next = 0; next_screen_batch(batch, next);) {
+        Outputs& out = start_batch(batch);
+        load(state, batch);
+        run_program(program, batch, out);
+        show(Stage::program, state, batch, out, out.alive);
+        finish(state, batch, out, drawn);
+    }
+    show({.step = Step::full_screen, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
+    return drawn;
+}
+
+template <FragmentProgram P>
+void Region::trace_pixels(Target read, P&& program) {
+    if (!frame_.trace) return;
+    kind_ = PassKind::full_screen;
+    PassState state;
+    state.reads[0] = read;
+    const IterationRecord before = record();
+    FragmentBatch& batch = screen_batch();
+    for (std::size_t next = 0; next_screen_batch(batch, next);) {
+        Outputs& out = start_batch(batch);
+        load(state, batch);
+        program(static_cast<const FragmentBatch&>(batch), loads(), out);
+        record_trace(batch, out, out.alive);
+    }
+    record() = before;
+}
+
+template <class P>
+void Region::run_program(P& program, FragmentBatch& batch, Outputs& out) {
+    const std::uint64_t before = alive_count(out, batch.count);
+    const std::uint64_t tally = out.tally;
+    program(static_cast<const FragmentBatch&>(batch), loads(), out);
+    if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
+    tallied_ += out.tally - tally;
+    if (kind_ != PassKind::geometry) return;
+    record().counters.discarded += before - alive_count(out, batch.count);
+    if (books_.counts) books_.fragments_visited += static_cast<std::uint64_t>(batch.count);
+}
+
+}  // namespace strata::pipeline
