@@ -75,14 +75,15 @@ struct AverageTargets {
               {"sums", "count", "behind_target"})} {}
 };
 
-// The geometry pass: what stands before the opaque surfaces is added up, in any order.
-void accumulate(const AverageTargets& t) {
+// The geometry pass: what stands before the opaque surfaces, whose depth is binary32, is added up in any order; or everything.
+enum class Adds : std::uint8_t { visible, all };
+void accumulate(const AverageTargets& t, Adds adds) {
     const GpuScene& scene = t.input.scene;
     t.opaque.draw(scene);
     glBindFramebuffer(GL_FRAMEBUFFER, t.accumulate.name());
     glClearBufferfv(GL_COLOR, 0, zero.data());
     glClearBufferfv(GL_COLOR, 1, zero.data());
-    (scene.has(Surfaces::opaque) ? glEnable : glDisable)(GL_DEPTH_TEST);
+    (adds == Adds::visible ? glEnable : glDisable)(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
@@ -100,10 +101,10 @@ void resolve(const AverageTargets& t) {
     draw_full_screen(t.finish_program);
 }
 
-Job average_job(const std::string& name, const JobInput& input, const std::string& power) {
+Job average_job(const std::string& name, const JobInput& input, const std::string& power, Adds adds) {
     const auto t = std::make_shared<AverageTargets>(input, power);
-    return {name, [t](Image& picture, int, Record* record) {
-                accumulate(*t);
+    return {name, [t, adds](Image& picture, int, Record* record) {
+                accumulate(*t, adds);
                 show_pass(record, t->input.size, "geometry",
                           {{"sums", t->sums.name(), t->sums_format}, {"count", t->count.name(), t->count_format}});
                 resolve(*t);
@@ -142,15 +143,15 @@ Job depth_job(const JobInput& input) {
             }};
 }
 
-Job weighted_average_job(const JobInput& input) { return average_job("weighted_average", input, "power"); }
-// As most ports write it.
-Job weighted_average_pow_job(const JobInput& input) { return average_job("weighted_average_pow", input, "pow"); }
+Job weighted_average_job(const JobInput& input) { return average_job("weighted_average", input, "power", Adds::visible); }
+// Of all fragments, so that its sums are those of sums_job.
+Job weighted_average_pow_job(const JobInput& input) { return average_job("weighted_average_pow", input, "pow", Adds::all); }
 
 // The sums themselves, before a colour is made of them.
 Job sums_job(const JobInput& input) {
     const auto t = std::make_shared<AverageTargets>(input, "power");
     return {"sums", [t](Image& picture, int, Record*) {
-                accumulate(*t);
+                accumulate(*t, Adds::all);
                 picture = read_back(t->sums.name(), t->sums_format, t->input.size);
                 return 1;
             }};
