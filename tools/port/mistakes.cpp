@@ -12,8 +12,9 @@ const std::vector<Mistake> all{
     // Vertices and the frame
     {"flipped_rows", "front_to_back", "no glClipControl: row 0 of memory is the bottom",
      [](Way& w) { w.origin = GL_LOWER_LEFT; }},
-    {"zero_to_one_clip", "front_to_back", "glClipControl(GL_ZERO_TO_ONE) with matrices that put the near plane at -w",
-     [](Way& w) { w.zero_to_one = true; }},
+    {"other_clip_range", "front_to_back",
+     "glClipControl for the other range of clip depths than the matrices are made for",
+     [](Way& w) { w.other_clip_depth = true; }},
     {"half_pixel", "front_to_back", "positions moved by half a pixel, as Direct3D 9 wanted it",
      [](Way& w) { w.shift_px = 0.5f; }},
     {"scissor_left_on", "front_to_back", "the scissor rectangle of an earlier pass is still on",

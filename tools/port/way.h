@@ -11,9 +11,9 @@ namespace strata::port {
 enum class Culling : std::uint8_t { as_listed, always_back, always_front };
 
 struct Way {
-    // Vertices and the frame. The clip control is that of the scene unless `zero_to_one` is on.
+    // Vertices and the frame.
     GLenum origin = GL_UPPER_LEFT;  // row 0 of memory is the top
-    bool zero_to_one = false;       // near at clip depth 0 although the matrices put it at -w
+    bool other_clip_depth = false;  // the clip control is not that of the matrices
     float shift_px = 0;             // of every window position, to the right and down
     bool scissored = false;         // the last quarter of every row is not drawn
     Culling culling = Culling::as_listed;

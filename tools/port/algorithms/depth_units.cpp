@@ -111,8 +111,11 @@ int depth_units(const UnitTargets& t, int max_passes, Image& picture, Record* re
         left = drawn > t.input.way.query_limit;
         layers.push_back(std::move(layer));
         const Layer& last = layers.back();
+        const std::string number = layers.size() > 1 ? fmt::format(".{}", layers.size() - 1) : "";
         show_pass(record, t.input.size, "geometry",
-                  {{"layer", last.color.name(), formats.color}, {"nearest", last.depth.name(), formats.depth}}, drawn);
+                  {{"layer" + number, last.color.name(), formats.color},
+                   {"nearest" + number, last.depth.name(), formats.depth}},
+                  drawn);
         if (record != nullptr && drawn > 0)
             record->layers.push_back({read_back(last.color.name(), formats.color, t.input.size),
                                       read_back(last.depth.name(), formats.depth, t.input.size)});

@@ -134,7 +134,10 @@ void initialize(const DualTargets& t, Record* record) {
     bind({0, 0, t.opaque.depth()});
     glUseProgram(t.min_max_program.name());
     t.input.scene.draw();
-    show_pass(record, t.input.size, "geometry", {{"min_max", t.min_max[0].name(), t.input.way.min_max}});
+    show_pass(record, t.input.size, "geometry",
+              {{"min_max", t.min_max[0].name(), t.input.way.min_max},
+               {"front", t.front[0].name(), t.input.formats.color},
+               {"back", t.back.name(), t.input.formats.color}});
 }
 
 // One geometry pass: fragments at the ends of `last` become colours, those between them the next
@@ -169,12 +172,14 @@ std::uint64_t blend_back(const DualTargets& t, std::size_t min_max) {
     return samples_passed(t.query);
 }
 
-void show(const DualTargets& t, const std::string& kind, std::size_t now, std::optional<std::uint64_t> query,
-          Record* record) {
-    const Format& color = t.input.formats.color;
+// Whatever a pass has drawn or cleared by then.
+void show(const DualTargets& t, const std::string& kind, std::optional<std::uint64_t> query, Record* record) {
+    const Format &color = t.input.formats.color, &min_max = t.input.way.min_max;
     show_pass(record, t.input.size, kind,
-              {{"min_max", t.min_max[now].name(), t.input.way.min_max},
-               {"front", t.front[now].name(), color},
+              {{"min_max", t.min_max[0].name(), min_max},
+               {"min_max.1", t.min_max[1].name(), min_max},
+               {"front", t.front[0].name(), color},
+               {"front.1", t.front[1].name(), color},
                {"back_layer", t.back_dump.name(), color},
                {"back", t.back.name(), color}},
               query);
@@ -189,10 +194,10 @@ int dual(const DualTargets& t, int max_passes, Image& picture, Record* record) {
     // paper's own query needs for even N (E11).
     for (bool left = true; left && passes < max_passes; ++passes) {
         peel_both_ends(t, last);
-        show(t, "geometry", 1 - last, {}, record);
+        show(t, "geometry", {}, record);
         const std::uint64_t still = blend_back(t, 1 - last);
         left = still > t.input.way.query_limit;
-        show(t, "full_screen", 1 - last, still, record);
+        show(t, "full_screen", still, record);
         if (t.input.way.swaps) last = 1 - last;
     }
     t.finish.draw(t.front[last].name(), t.back.name(), picture, record);

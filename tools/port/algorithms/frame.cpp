@@ -4,6 +4,14 @@
 
 namespace strata::port {
 
+void set_window(Size size, const Way& way, GLenum clip_depth) {
+    const GLenum other = clip_depth == GL_ZERO_TO_ONE ? GL_NEGATIVE_ONE_TO_ONE : GL_ZERO_TO_ONE;
+    glViewport(0, 0, size.width, size.height);
+    glClipControl(way.origin, way.other_clip_depth ? other : clip_depth);
+    (way.scissored ? glEnable : glDisable)(GL_SCISSOR_TEST);
+    glScissor(0, 0, size.width * 3 / 4, size.height);
+}
+
 Opaque::Opaque(const JobInput& input, const Format& depth)
     : size_{input.size},
       background_{input.background},

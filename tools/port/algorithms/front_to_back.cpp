@@ -91,13 +91,16 @@ void blend_under(const PeelTargets& t) {
     draw_full_screen(t.under_program);
 }
 
+// The depth of the first pass is the pack's nearest.1; the other one is not there before the second.
 void show(const PeelTargets& t, const std::string& kind, int pass, std::optional<std::uint64_t> query, Record* record) {
     const TargetFormats& formats = t.input.formats;
-    show_pass(record, t.input.size, kind,
-              {{"layer", t.layer.name(), formats.color},
-               {"nearest", t.depth[t.nearest(pass)].name(), formats.depth},
-               {"accumulated", t.accumulated.name(), formats.color}},
-              query);
+    const NamedTexture layer{"layer", t.layer.name(), formats.color},
+        accumulated{"accumulated", t.accumulated.name(), formats.color},
+        first{"nearest.1", t.depth[0].name(), formats.depth}, second{"nearest", t.depth[1].name(), formats.depth};
+    if (pass == 0)
+        show_pass(record, t.input.size, kind, {layer, first, accumulated}, query);
+    else
+        show_pass(record, t.input.size, kind, {layer, first, second, accumulated}, query);
 }
 
 // Peels to the last layer, or to `max_passes` geometry passes. Answers the geometry passes, the

@@ -143,9 +143,13 @@ Job depth_job(const JobInput& input) {
             }};
 }
 
-Job weighted_average_job(const JobInput& input) { return average_job("weighted_average", input, "power", Adds::visible); }
+Job weighted_average_job(const JobInput& input) {
+    return average_job("weighted_average", input, "power", Adds::visible);
+}
 // Of all fragments, so that its sums are those of sums_job.
-Job weighted_average_pow_job(const JobInput& input) { return average_job("weighted_average_pow", input, "pow", Adds::all); }
+Job weighted_average_pow_job(const JobInput& input) {
+    return average_job("weighted_average_pow", input, "pow", Adds::all);
+}
 
 // The sums themselves, before a colour is made of them.
 Job sums_job(const JobInput& input) {

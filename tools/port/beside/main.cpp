@@ -13,6 +13,7 @@
 #include "scenes/camera.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/profile_json.h"
+#include "tools/port/algorithms/frame.h"
 #include "tools/port/beside/reference.h"
 #include "tools/port/context.h"
 
@@ -177,9 +178,8 @@ int run_all(const Options& options) {
     const rasterizer::TriangleSoup soup = clip_vertices(subject);
     const HeadlessContext context(options.driver, options.threads);
     std::fprintf(stderr, "%s\n", context.renderer().c_str());
-    glViewport(0, 0, subject.size.width, subject.size.height);
-    glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);  // row 0 of memory is the top, as in Strata
     const Way way = way_with(options.mistakes);
+    set_window(subject.size, way, GL_NEGATIVE_ONE_TO_ONE);
     const GpuScene scene(mesh_of(soup), subject.size, way);
     for (const std::string& name : options.algorithms) {
         const JobInput input{.scene = scene, .size = subject.size, .formats = options.formats, .way = way};
