@@ -36,15 +36,17 @@ void main() {{
 }}
 )";
 
-// The end of the run: the least of what arrived earlier, what interrupts it, and the opaque surface.
+// The end of the run: the least of what arrived earlier, what interrupts it, and the opaque surface. A colour holds it: a
+// depth of 24 bits that is read and written through gl_FragDepth comes back as another code.
 constexpr auto reached_text = R"(
 uniform sampler2D previous_depth;
 uniform sampler2D breaker_depth;
 uniform sampler2D opaque;
+layout(location = 0) out float reached;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    gl_FragDepth = min(min(texelFetch(previous_depth, pixel, 0).r, texelFetch(breaker_depth, pixel, 0).r),
-                       texelFetch(opaque, pixel, 0).r);
+    reached = min(min(texelFetch(previous_depth, pixel, 0).r, texelFetch(breaker_depth, pixel, 0).r),
+                  texelFetch(opaque, pixel, 0).r);
 }
 )";
 
@@ -59,8 +61,8 @@ struct DepthStencil {
 struct CoherentTargets {
     JobInput input;
     Opaque opaque;
-    DepthStencil nearest, previous, last_in_order, breaker, reached;
-    Handle accumulated, composite, query;
+    DepthStencil nearest, previous, last_in_order, breaker;
+    Handle reached, reach, accumulated, composite, query;
     Handle find_all, find_left, find_run, set_reached, composite_run, composite_end;
     Finish finish;
 
@@ -71,7 +73,8 @@ struct CoherentTargets {
           previous{in},
           last_in_order{in},
           breaker{in},
-          reached{in},
+          reached{make_texture(r32f, in.size)},
+          reach{make_framebuffer({reached.name()})},
           accumulated{make_texture(in.formats.color, in.size)},
           composite{make_framebuffer({accumulated.name()})},
           query{make_query()},
@@ -144,7 +147,7 @@ void show(const CoherentTargets& t, const std::string& kind, const DepthStencil&
                {"previous", t.previous.texture.name(), depth},
                {"last_in_order", t.last_in_order.texture.name(), depth},
                {"breaker", t.breaker.texture.name(), depth},
-               {"reached", t.reached.texture.name(), depth},
+               {depth == d32f ? "reached" : "reached_as_float", t.reached.name(), r32f},
                {"stencil", stencil.texture.name(), s8},
                {"accumulated", t.accumulated.name(), t.input.formats.color}},
               query);
@@ -154,7 +157,7 @@ void show(const CoherentTargets& t, const std::string& kind, const DepthStencil&
 std::uint64_t find_nearest(const CoherentTargets& t, bool from_the_start, Record* record) {
     start(t, t.nearest, far_plane, nullptr);
     use({GL_LESS, GL_ALWAYS, 0, {GL_KEEP, GL_KEEP, t.input.way.stencil_increment}});
-    const std::uint64_t found = draw(t, from_the_start ? t.find_all : t.find_left, t.reached.texture.name(), 0);
+    const std::uint64_t found = draw(t, from_the_start ? t.find_all : t.find_left, t.reached.name(), 0);
     show(t, "geometry", t.nearest, found, record);
     return found;
 }
@@ -163,7 +166,7 @@ std::uint64_t find_nearest(const CoherentTargets& t, bool from_the_start, Record
 void find_run(const CoherentTargets& t, bool from_the_start, Record* record) {
     start(t, t.previous, far_plane, t.input.way.stencil_kept ? &t.nearest : nullptr);
     use({GL_LESS, GL_LESS, 1, {GL_KEEP, GL_KEEP, GL_DECR}});
-    draw(t, from_the_start ? t.find_all : t.find_left, t.reached.texture.name(), 0);
+    draw(t, from_the_start ? t.find_all : t.find_left, t.reached.name(), 0);
     show(t, "geometry", t.previous, {}, record);
     start(t, t.last_in_order, 0.0f, nullptr);
     use({GL_GREATER, GL_GREATER, 128, {GL_KEEP, GL_INVERT, t.input.way.stencil_increment}});
@@ -174,13 +177,10 @@ void find_run(const CoherentTargets& t, bool from_the_start, Record* record) {
     draw(t, t.find_run, t.nearest.texture.name(), t.previous.texture.name());
     show(t, "geometry", t.breaker, {}, record);
     glDisable(GL_STENCIL_TEST);
-    glBindFramebuffer(GL_FRAMEBUFFER, t.reached.framebuffer.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, t.reach.name());
+    glDisable(GL_BLEND);
     bind({t.previous.texture.name(), t.breaker.texture.name(), t.opaque.depth()});
-    glUseProgram(t.set_reached.name());
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_ALWAYS);
-    glDisable(GL_CULL_FACE);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    draw_full_screen(t.set_reached);
     show(t, "full_screen", t.breaker, {}, record);
 }
 
@@ -192,10 +192,10 @@ void composite(const CoherentTargets& t, Record* record) {
     glBlendEquation(GL_FUNC_ADD);
     const auto& factors = t.input.way.under;
     glBlendFuncSeparate(factors[0], factors[1], factors[2], factors[3]);
-    const std::uint64_t run = draw(t, t.composite_run, t.nearest.texture.name(), t.reached.texture.name());
+    const std::uint64_t run = draw(t, t.composite_run, t.nearest.texture.name(), t.reached.name());
     show(t, "geometry", t.breaker, run, record);
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
-    const std::uint64_t end = draw(t, t.composite_end, t.reached.texture.name(), 0);
+    const std::uint64_t end = draw(t, t.composite_end, t.reached.name(), 0);
     show(t, "geometry", t.breaker, end, record);
 }
 
@@ -204,8 +204,9 @@ int coherent_stencil(const CoherentTargets& t, int max_passes, Image& picture, R
     const std::array<float, 4> transparent{0, 0, 0, t.input.way.transmittance_start};
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
     glClearBufferfv(GL_COLOR, 0, transparent.data());
-    for (const DepthStencil* target : {&t.previous, &t.last_in_order, &t.breaker, &t.reached})
-        start(t, *target, 0.0f, nullptr);
+    glBindFramebuffer(GL_FRAMEBUFFER, t.reach.name());
+    glClearBufferfv(GL_COLOR, 0, zero.data());
+    for (const DepthStencil* target : {&t.previous, &t.last_in_order, &t.breaker}) start(t, *target, 0.0f, nullptr);
     int passes = 1;
     bool from_the_start = true;
     while (find_nearest(t, from_the_start, record) > t.input.way.query_limit && passes + 6 <= max_passes) {

@@ -14,6 +14,7 @@ void set_window(Size size, const Way& way, GLenum clip_depth) {
 
 Opaque::Opaque(const JobInput& input, const Format& depth)
     : size_{input.size},
+      format_{depth},
       background_{input.background},
       exists_{input.scene.has(Surfaces::opaque)},
       tested_{input.way.opaque_tested},
@@ -61,9 +62,10 @@ void Opaque::copy_color_to(const Handle& framebuffer) const {
 }
 
 std::string Opaque::hidden_text() const {
+    const std::string far = format_ == d32f ? "1.0" : "stored(1.0)";
     return exists_ ? "uniform sampler2D opaque_depth;\n"
                      "bool hidden(float z) { return z >= texelFetch(opaque_depth, TEXEL, 0).r; }\n"
-                   : "bool hidden(float z) { return z >= 1.0; }\n";
+                   : "bool hidden(float z) { return z >= " + far + "; }\n";
 }
 
 Finish::Finish(const JobInput& input, const std::string& through)
@@ -107,7 +109,8 @@ Image read_picture(GLuint texture, const JobInput& input) {
 
 std::string stored_text(const Format& depth) {
     const std::string greatest = depth == d16 ? "65535.0" : "16777215.0";
-    const std::string stored = depth == d32f ? "z" : "roundEven(z * " + greatest + ") * (1.0 / " + greatest + ")";
+    const std::string stored =
+        depth == d32f ? "z" : "roundEven(clamp(z, 0.0, 1.0) * " + greatest + ") * (1.0 / " + greatest + ")";
     return "float stored(float z) { return " + stored + "; }\n";
 }
 

@@ -22,11 +22,13 @@ class Opaque {
     void copy_color_to(const Handle& framebuffer) const;
     [[nodiscard]] GLuint color() const { return color_.name(); }
     [[nodiscard]] GLuint depth() const { return depth_.name(); }
-    // GLSL: `bool hidden(float z)`, true at and behind the opaque surface. The sampler opaque_depth is the program's affair.
+    // GLSL: `bool hidden(float z)`, true at and behind the opaque surface, z as it is stored. The sampler opaque_depth is the
+    // program's affair, and so is stored() where depths are no floats.
     [[nodiscard]] std::string hidden_text() const;
 
   private:
     Size size_;
+    Format format_;
     std::array<float, 4> background_;
     bool exists_, tested_;
     Handle color_, depth_, framebuffer_, program_;
