@@ -75,7 +75,8 @@ bool choice(const Manifest& manifest, const std::string& place, const std::strin
 // Materials that the port has no programs for.
 void check_material(const Manifest& manifest, std::uint32_t number) {
     const std::string place = fmt::format("/scene/materials/{}", number);
-    if (!manifest.at(place + "/texture").is_null())
+    const ordered_json& texture = manifest.at(place + "/texture");
+    if (!texture.is_null() && texture != -1)
         manifest.refuse(place + "/texture", "none: the port draws no textures", "one");
     if (manifest.text(place + "/alpha_mode") == "mask")
         manifest.refuse(place + "/alpha_mode", "opaque or blend: the port has no alpha test", "mask");
