@@ -60,7 +60,9 @@ Manifest load(const std::string& folder) {
     return manifest;
 }
 
-Format format_at(const Manifest& manifest, const std::string& place) {
+// `usual` where the pack leaves the choice open.
+Format format_at(const Manifest& manifest, const std::string& place, const Format& usual) {
+    if (manifest.at(place).is_null()) return usual;
     const Format* const format = find_format(manifest.text(place));
     if (format == nullptr) manifest.refuse(place, "a format that OpenGL stores", manifest.text(place));
     return *format;
@@ -70,6 +72,19 @@ bool choice(const Manifest& manifest, const std::string& place, const std::strin
     const std::string found = manifest.text(place);
     if (found != no && found != yes) manifest.refuse(place, no + " or " + yes, found);
     return found == yes;
+}
+
+// Choices that change the pixels and that the port does not make; a pack that does not name one has the usual.
+void check_state(const Manifest& manifest) {
+    const ordered_json& state = manifest.at("/state");
+    if (state.value("depth_order", "less") != "less")
+        manifest.refuse("/state/depth_order", "less: the port does not reverse depths", "greater");
+    for (const char* const choice : {"depth_path", "reference_path"})
+        if (state.contains(choice) && !state.at(choice).is_null())
+            manifest.refuse(std::string("/state/") + choice, "null", state.at(choice).dump());
+    const ordered_json& offset = manifest.at("/state/polygon_offset");
+    if (offset.is_object() && offset.value("enabled", false))
+        manifest.refuse("/state/polygon_offset", "none: the port has no polygon offset", "one");
 }
 
 // Materials that the port has no programs for.
@@ -126,12 +141,10 @@ Pack read_pack(const std::string& folder) {
     const Manifest manifest = load(folder);
     Pack pack;
     pack.size = {manifest.number("/state/width"), manifest.number("/state/height")};
-    pack.formats = {format_at(manifest, "/state/color_format"), format_at(manifest, "/state/depth")};
+    pack.formats = {format_at(manifest, "/state/color_format", rgba8), format_at(manifest, "/state/depth", d32f)};
     for (std::size_t i = 0; i < 4; ++i) pack.background[i] = manifest.real("/state/background", i);
     pack.zero_to_one = choice(manifest, "/state/clip_depth", "minus_one_to_one", "zero_to_one");
-    if (choice(manifest, "/state/depth_order", "less", "greater"))
-        manifest.refuse("/state/depth_order", "less: the port does not reverse depths", "greater");
-    if (!manifest.at("/state/polygon_offset").is_null()) manifest.refuse("/state/polygon_offset", "none", "one");
+    check_state(manifest);
     for (std::size_t i = 0; i < manifest.at("/draws").size(); ++i)
         append_draws(manifest, fmt::format("/draws/{}", i), pack.mesh);
     for (std::size_t i = 0; i < manifest.at("/results").size(); ++i)
