@@ -24,4 +24,4 @@ mapfile -t optional < <(listed "?" | missing)
 echo "installing ${needed[*]} ${optional[*]}"
 as_root apt-get update -qq || fail "apt-get update failed; is there a network?"
 [ ${#needed[@]} = 0 ] || install "${needed[@]}" || fail "apt-get could not install: ${needed[*]}"
-[ ${#optional[@]} = 0 ] || install "${optional[@]}" || echo "tools/setup.sh: without ${optional[*]}: no fuzzing, no clang++, no instruction counts, no plots, no GNU parallel, no tools/bench/mesa" >&2
+[ ${#optional[@]} = 0 ] || install "${optional[@]}" || echo "tools/setup.sh: without ${optional[*]}: no fuzzing, no clang++, no instruction counts, no plots, no GNU parallel, no tools/port" >&2

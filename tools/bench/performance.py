@@ -301,8 +301,8 @@ def start_section(options, folder):
 def mesa_section(options):
     title = "## Beside Mesa llvmpipe\n\n"
     build = pathlib.Path(options.strata).parent
-    if not (build / "strata_mesa").exists():
-        return title + "Not built here (`-DSTRATA_BENCH_MESA=ON`).\n"
+    if not (build / "strata_port_beside").exists():
+        return title + "Not built here (`-DSTRATA_PORT=ON`).\n"
     command = [sys.executable, str(HERE / "side_by_side.py"), options.models, "--build", str(build), "--size", options.size]
     if options.quick:
         command += ["--quick", "--pairs", "1", "--repeat", "1"]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs Mesa's llvmpipe (strata_mesa) and Strata (strata bench) in turn on the same scenes and prints the ratio of each pair.
+"""Runs Mesa's llvmpipe (strata_port_beside) and Strata (strata bench) in turn on the same scenes and prints the ratio of each pair.
 
 Exit status 0: the programs drew the same fragments in the same number of passes; 1: they did not; 2: bad usage.
 tools/bench/README.md says how the comparison is made fair."""
@@ -40,7 +40,7 @@ ASKED = {("bunny", "depth"): 5, ("bunny", "weighted_average"): 4, ("bunny", "dua
 def parse():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("models", help="the folder with bunny.glb and dragon.glb")
-    parser.add_argument("--build", default="build/release", help="where strata and strata_mesa are (default build/release)")
+    parser.add_argument("--build", default="build/release", help="where strata and strata_port_beside are (default build/release)")
     parser.add_argument("--strata", help="another program than BUILD/strata")
     parser.add_argument("--scenes", default=",".join(SCENES), help="of %(default)s")
     parser.add_argument("--algorithms", default=",".join(ALGORITHMS), help="of %(default)s")
@@ -95,11 +95,11 @@ class Bench:
         return [spec, "--camera", camera, *alpha, "--size", o.size, "--threads", o.threads]
 
     def coverage(self, name):
-        out, said = run([os.path.join(self.options.build, "strata_mesa"), *self.words(name, ""), "--check"])
+        out, said = run([os.path.join(self.options.build, "strata_port_beside"), *self.words(name, ""), "--check"])
         return {"scene": name, "renderer": said.strip().splitlines()[-1], **json.loads(out)["coverage"]}
 
     def mesa(self, name, algorithm):
-        out, _ = run([os.path.join(self.options.build, "strata_mesa"), *self.words(name, algorithm),
+        out, _ = run([os.path.join(self.options.build, "strata_port_beside"), *self.words(name, algorithm),
                       "--algorithm", algorithm, "--repeat", str(self.options.repeat), "--budget", str(LONG_JOB)])
         job = json.loads(out)
         return {"seconds": statistics.median(job["seconds"]), "all": job["seconds"], "passes": job["geometry_passes"]}

@@ -1,6 +1,6 @@
 // tools/strata/bench/bench_jobs.h - what `strata bench` times: one algorithm in one way of running it, from the scene
 // in memory to finished pixels in memory. Loading is outside, and so is whatever compares or writes. A job is timed
-// warm: its first frames, which make the process's memory grow, are not counted, as strata_mesa's are not.
+// warm: its first frames, which make the process's memory grow, are not counted, as strata_port_beside's are not.
 #pragma once
 #include <optional>
 #include <string>

@@ -1,15 +1,19 @@
-// tools/bench/mesa/context.h - an OpenGL 4.5 core context on llvmpipe without a window.
+// tools/port/context.h - an OpenGL 3.3 core context without a window: on Mesa's software drivers, or on a GPU's.
 #pragma once
 #include <string>
+#include <vector>
 
-namespace strata::mesa {
+namespace strata::port {
+
+// llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, and hardware: whatever else EGL finds.
+[[nodiscard]] const std::vector<std::string>& driver_names();
 
 // The context is current on the thread that made it until the object ends. All OpenGL calls of the
 // program come from that thread.
 class HeadlessContext {
   public:
-    // llvmpipe rasterizes on `threads` threads (LP_NUM_THREADS). Throws std::runtime_error where
-    // EGL gives no such context or another driver than llvmpipe.
+    // A software driver rasterizes on `threads` threads (LP_NUM_THREADS). Throws std::runtime_error where EGL gives no such
+    // context or another driver.
     explicit HeadlessContext(const std::string& driver, int threads);
     ~HeadlessContext();
     HeadlessContext(const HeadlessContext&) = delete;
@@ -26,4 +30,4 @@ class HeadlessContext {
     void* context_ = nullptr;
 };
 
-}  // namespace strata::mesa
+}  // namespace strata::port

@@ -1,5 +1,5 @@
-// tools/bench/mesa/main.cpp - strata_mesa: a scene by OpenGL on llvmpipe, one line of JSON a job; fragments and
-// pictures compared with Strata's on request.
+// tools/port/beside/main.cpp - strata_port_beside: a scene by the port, one line of JSON a job; fragments and pictures compared with
+// Strata's on request.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,11 +13,11 @@
 #include "scenes/camera.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/profile_json.h"
-#include "tools/bench/mesa/context.h"
-#include "tools/bench/mesa/job.h"
-#include "tools/bench/mesa/reference.h"
+#include "tools/port/algorithms/frame.h"
+#include "tools/port/beside/reference.h"
+#include "tools/port/context.h"
 
-namespace strata::mesa {
+namespace strata::port {
 
 namespace {
 
@@ -25,7 +25,7 @@ using nlohmann::ordered_json;
 
 // The command line. Empty texts: not given. `budget` and `warm_up` are seconds.
 struct Options {
-    std::string scene, camera, size = "1024x1024", driver = "llvmpipe", profile, coverage, image;
+    std::string scene, camera, size = "1024x1024", driver = "llvmpipe", profile, coverage, image, mistakes;
     std::optional<float> alpha;
     std::vector<std::string> algorithms;
     int threads = 2, repeat = 3;
@@ -59,17 +59,6 @@ Subject load(const Options& options) {
     return subject;
 }
 
-// The words that a job left as an image of its format: channels lie in them from the lowest bits on.
-pipeline::Image as_image(const Job& job, Size size, const std::vector<std::uint32_t>& words) {
-    pipeline::Image image(job.format, size.width, size.height);
-    const auto channels = static_cast<std::size_t>(image.channels());
-    const std::size_t in_a_word = channels * size.area() / words.size(), bits = 32 / in_a_word;
-    const std::uint32_t mask = in_a_word == 1 ? ~0u : (1u << bits) - 1;
-    for (std::size_t i = 0; i < image.codes.size(); ++i)
-        image.codes[i] = words[i / in_a_word] >> (bits * (i % in_a_word)) & mask;
-    return image;
-}
-
 // The largest difference of two codes at the same place: 1/255 for colours. Codes of float depths
 // are their bits, which for depths from 0 to 1 differ by units in the last place.
 std::uint32_t largest_difference(const pipeline::Image& a, const pipeline::Image& b) {
@@ -101,15 +90,15 @@ ordered_json first_difference(const pipeline::Image& theirs, const pipeline::Ima
 
 // Wall-clock seconds of one run. Reading the pixels back ends it, so nothing is left in llvmpipe's
 // queues.
-double seconds_of(const Job& job, std::vector<std::uint32_t>& pixels, int most_passes, int& passes) {
+double seconds_of(const Job& job, Image& pixels, int most_passes, int& passes) {
     const auto start = std::chrono::steady_clock::now();
-    passes = job.draw(pixels, most_passes);
+    passes = job.draw(pixels, most_passes, nullptr);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Two passes compile every program and touch every target; the job goes on for `warm_up`. Then one time after another
 // until `budget` is spent.
-ordered_json measure(const Job& job, const Options& options, std::vector<std::uint32_t>& pixels) {
+ordered_json measure(const Job& job, const Options& options, Image& pixels) {
     // More passes than any scene has layers.
     constexpr int all = 1000000;
     ordered_json seconds = ordered_json::array();
@@ -127,21 +116,21 @@ ordered_json measure(const Job& job, const Options& options, std::vector<std::ui
 // Peels that end after 1, 2, 3 ... geometry passes on both sides: their pictures hold every layer as soon as it is there.
 ordered_json compare_each_pass(const Job& job, const Options& options, const Subject& subject,
                                const pipeline::DeviceProfile& profile, int passes) {
-    std::vector<std::uint32_t> pixels;
+    Image pixels;
     std::size_t differ = 0, pictures = 0;
     for (int most = 1; most < std::min(passes, options.each_pass + 1); ++most, ++pictures) {
-        static_cast<void>(job.draw(pixels, most));
+        static_cast<void>(job.draw(pixels, most, nullptr));
         const Rendered ours = render(subject, profile, job.name, options.formats, most);
-        differ += pixels_that_differ(as_image(job, subject.size, pixels), ours.image);
+        differ += pixels_that_differ(as_image(pixels), ours.image);
     }
     return {{"pictures", pictures}, {"differ", differ}};
 }
 
 // Measures a job and prints its line of JSON, at once: the caller pairs runs of two programs.
 void run(const Job& job, const Options& options, const Subject& subject, const pipeline::DeviceProfile& profile) {
-    std::vector<std::uint32_t> pixels;
+    Image pixels;
     ordered_json line = measure(job, options, pixels);
-    const pipeline::Image image = as_image(job, subject.size, pixels);
+    const pipeline::Image image = as_image(pixels);
     line["digest"] = pipeline::digest(image);
     if (options.compare) {
         const Rendered ours = render(subject, profile, job.name, options.formats);
@@ -154,8 +143,7 @@ void run(const Job& job, const Options& options, const Subject& subject, const p
         line["each_pass"] = compare_each_pass(job, options, subject, profile, line["geometry_passes"].get<int>());
     fmt::print("{}\n", line.dump());
     std::fflush(stdout);
-    if (!options.image.empty() && image.channels() == 4 && job.format == pipeline::Format::rgba8)
-        scenes::write_image(options.image, {.color = image});
+    if (!options.image.empty() && pixels.format == rgba8) scenes::write_image(options.image, {.color = image});
 }
 
 // The number of pixels in which the two programs draw another number of fragments.
@@ -190,12 +178,13 @@ int run_all(const Options& options) {
     const rasterizer::TriangleSoup soup = clip_vertices(subject);
     const HeadlessContext context(options.driver, options.threads);
     std::fprintf(stderr, "%s\n", context.renderer().c_str());
-    glViewport(0, 0, subject.size.width, subject.size.height);
-    glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);  // row 0 of memory is the top, as in Strata
-    glDepthFunc(GL_LESS);
-    const GpuScene scene(soup);
-    for (const std::string& name : options.algorithms)
-        run(make_job(name, scene, subject.size, options.formats), options, subject, profile);
+    const Way way = way_with(options.mistakes);
+    set_window(subject.size, way, GL_NEGATIVE_ONE_TO_ONE);
+    const GpuScene scene(mesh_of(soup), subject.size, way);
+    for (const std::string& name : options.algorithms) {
+        const JobInput input{.scene = scene, .size = subject.size, .formats = options.formats, .way = way};
+        run(make_job(name, input), options, subject, profile);
+    }
     // --coverage alone writes the counts; a difference fails the run only where --check asks for
     // it.
     const bool counts = options.check || !options.coverage.empty();
@@ -209,7 +198,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--size", o.size, "WIDTHxHEIGHT (default 1024x1024)");
     app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
     app.add_option("--algorithm", o.algorithms,
-                   "of depth, front_to_back, dual, weighted_average, sums, with commas between")
+                   "of depth, front_to_back, dual, weighted_average, weighted_average_pow, sums, with commas between")
         ->delimiter(',')
         ->check(CLI::IsMember(job_names()));
     app.add_option("--repeat", o.repeat, "times of each (default 3)")->check(CLI::PositiveNumber);
@@ -218,17 +207,19 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--budget", o.budget, "seconds of an algorithm after which it is not repeated (default 10)");
     app.add_option("--profile", o.profile, "Strata's device for --check and --compare (default: the driver's)");
     app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add) or softpipe")
-        ->check(CLI::IsMember({"llvmpipe", "llvmpipe_sse", "softpipe"}));
+        ->check(CLI::IsMember(driver_names()));
     app.add_flag("--check", o.check, "compare the number of fragments of every pixel; exit status 1 if one differs");
-    const std::map<std::string, pipeline::Format> colors{{"rgba8", pipeline::Format::rgba8},
-                                                         {"rgba16f", pipeline::Format::rgba16f},
-                                                         {"rgba32f", pipeline::Format::rgba32f}};
-    const std::map<std::string, pipeline::Format> depths{
-        {"d16", pipeline::Format::d16}, {"d24", pipeline::Format::d24}, {"d32f", pipeline::Format::d32f}};
-    app.add_option("--color", o.formats.color, "the format of colours: rgba8 (default), rgba16f or rgba32f")
-        ->transform(CLI::CheckedTransformer(colors));
-    app.add_option("--depth", o.formats.depth, "the format of depths: d32f (default), d24 or d16")
-        ->transform(CLI::CheckedTransformer(depths));
+    const std::map<std::string, Format> colors{{"rgba8", rgba8}, {"rgba16f", rgba16f}, {"rgba32f", rgba32f}};
+    const std::map<std::string, Format> depths{{"d16", d16}, {"d24", d24}, {"d32f", d32f}};
+    app.add_option_function<std::string>(
+           "--color", [&o, colors](const std::string& name) { o.formats.color = colors.at(name); },
+           "the format of colours: rgba8 (default), rgba16f or rgba32f")
+        ->check(CLI::IsMember(colors));
+    app.add_option_function<std::string>(
+           "--depth", [&o, depths](const std::string& name) { o.formats.depth = depths.at(name); },
+           "the format of depths: d32f (default), d24 or d16")
+        ->check(CLI::IsMember(depths));
+    app.add_option("--mistake", o.mistakes, "names of `strata_port --mistakes`, with commas between");
     app.add_option("--each-pass", o.each_pass, "compare the pictures after 1, 2 ... so many passes, too")
         ->check(CLI::NonNegativeNumber);
     app.add_flag("--compare", o.compare, "compare passes and pictures with Strata's");
@@ -238,22 +229,22 @@ void add_options(CLI::App& app, Options& o) {
 
 }  // namespace
 
-}  // namespace strata::mesa
+}  // namespace strata::port
 
 int main(int count, char** words) {
-    CLI::App app{"Depth, front_to_back, dual and weighted_average by OpenGL on Mesa's llvmpipe.", "strata_mesa"};
-    strata::mesa::Options options;
-    strata::mesa::add_options(app, options);
+    CLI::App app{"Peels by OpenGL, beside Strata's.", "strata_port_beside"};
+    strata::port::Options options;
+    strata::port::add_options(app, options);
     try {
         app.parse(count, words);
-        return strata::mesa::run_all(options);
+        return strata::port::run_all(options);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     } catch (const strata::InputError& error) {
-        std::fprintf(stderr, "strata_mesa: %s\n", error.what());
+        std::fprintf(stderr, "strata_port_beside: %s\n", error.what());
         return 2;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "strata_mesa: %s\n", error.what());
+        std::fprintf(stderr, "strata_port_beside: %s\n", error.what());
         return 3;
     }
 }

@@ -1,4 +1,4 @@
-// tools/bench/mesa/reference.h - Strata's side of the comparison: the same vertices, the fragments and the pictures.
+// tools/port/beside/reference.h - Strata's side of the comparison: the same vertices, the fragments and the pictures.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -9,9 +9,9 @@
 #include "pipeline/formats/image.h"
 #include "rasterizer/set_up/geometry.h"
 #include "scenes/scene.h"
-#include "tools/bench/mesa/job.h"
+#include "tools/port/algorithms/job.h"
 
-namespace strata::mesa {
+namespace strata::port {
 
 // The picture that both programs draw: scene, camera, pixels. `threads` are those of either side; 0: all that there
 // are.
@@ -27,6 +27,8 @@ struct Subject {
 // sides start from the same bits. Throws InputError for what the OpenGL program does not draw:
 // textures, MASK, and opaque materials without --alpha.
 [[nodiscard]] rasterizer::TriangleSoup clip_vertices(const Subject& subject);
+// As the port's own buffers hold them.
+[[nodiscard]] Mesh mesh_of(const rasterizer::TriangleSoup& soup);
 
 // How many fragments of `soup` each pixel has under the profile's coverage rules, rows from the
 // top, and how many triangles were cut. No test drops any fragment.
@@ -37,6 +39,10 @@ struct FragmentCounts {
 [[nodiscard]] FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup,
                                              const pipeline::DeviceProfile& profile, Size size);
 
+// The format of Strata that stores the same bits, and the codes of a picture that was read back.
+[[nodiscard]] pipeline::Format strata_format(const Format& format);
+[[nodiscard]] pipeline::Image as_image(const Image& image);
+
 // Strata's picture of a job.
 struct Rendered {
     pipeline::Image image;  // depth: the nearest depth of every pixel; else the colours
@@ -46,4 +52,4 @@ struct Rendered {
 [[nodiscard]] Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
                               const TargetFormats& formats = {}, int max_passes = 0);
 
-}  // namespace strata::mesa
+}  // namespace strata::port

@@ -1,16 +1,20 @@
-#include "tools/bench/mesa/reference.h"
+#include "tools/port/beside/reference.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
+#include <stdexcept>
 
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "pipeline/formats/convert.h"
 #include "pipeline/stages/blend.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/walk/tile_rasterizer.h"
+#include "tools/port/beside/mesa_pow.h"
 
-namespace strata::mesa {
+namespace strata::port {
 
 namespace {
 
@@ -33,10 +37,42 @@ rasterizer::TriangleSoup clip_vertices(const Subject& subject) {
                                {.alpha_scale = subject.alpha.value_or(1.0f), .threads = subject.threads});
 }
 
+Mesh mesh_of(const rasterizer::TriangleSoup& soup) {
+    Mesh mesh;
+    for (const rasterizer::ClipVertex& v : soup.vertices)
+        mesh.vertices.push_back({{v.x, v.y, v.z, v.w}, v.front, v.back});
+    mesh.indices.assign(soup.indices.begin(), soup.indices.end());
+    for (const rasterizer::TriangleRun& run : soup.runs)
+        mesh.draws.push_back({run.first_index, run.index_count, true, run.double_sided, run.mirrored});
+    return mesh;
+}
+
+pipeline::Format strata_format(const Format& format) {
+    using enum pipeline::Format;
+    if (format == port::rgba8) return rgba8;
+    if (format == port::rgba16f) return rgba16f;
+    if (format == port::rgba32f) return rgba32f;
+    if (format == port::d16) return d16;
+    if (format == port::d24) return d24;
+    if (format == port::d32f) return d32f;
+    throw std::invalid_argument(std::string("a format that no job stores: ") + format.name);
+}
+
+pipeline::Image as_image(const Image& image) {
+    pipeline::Image codes(strata_format(image.format), image.size.width, image.size.height);
+    const auto bytes = static_cast<std::size_t>(image.format.bytes);
+    for (std::size_t i = 0; i < codes.codes.size(); ++i) {
+        std::uint32_t code = 0;
+        std::memcpy(&code, &image.bytes[i * bytes], bytes);
+        codes.codes[i] = code;
+    }
+    return codes;
+}
+
 FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipeline::DeviceProfile& profile,
                                Size size) {
     rasterizer::RasterState state;
-    // Row 0 is the top on both sides: strata_mesa sets GL_UPPER_LEFT.
+    // Row 0 is the top on both sides: the port sets GL_UPPER_LEFT.
     state.viewport = {0, 0, size.width, size.height};
     const rasterizer::Geometry geometry = rasterizer::set_up(soup, state, profile.raster, 0);
     std::vector<std::uint32_t> triangles(geometry.triangles.size()), counts(size.area());
@@ -79,20 +115,42 @@ Rendered sums(const Subject& subject, const pipeline::DeviceProfile& profile, pi
     return {std::move(image), 1};
 }
 
+// The average that ends in the driver's pow: the sums as they are stored, the count as an exact number, over black.
+Rendered average_by_pow(const Subject& subject, const pipeline::DeviceProfile& profile, pipeline::Format format,
+                        pipeline::Format sum_format) {
+    const Rendered summed = sums(subject, profile, sum_format);
+    const FragmentCounts counts = count_fragments(clip_vertices(subject), profile, subject.size);
+    const MesaPow mesa(profile.raster.plane_rule == rasterizer::PlaneRule::reciprocal_area_fused);
+    Rendered result{pipeline::Image(format, subject.size.width, subject.size.height), 1};
+    for (std::size_t pixel = 0; pixel < counts.pixels.size(); ++pixel) {
+        std::array<float, 4> sum{}, color{0, 0, 0, 1};
+        pipeline::scalar::decode(pipeline::info(sum_format).type, &summed.image.codes[4 * pixel], sum.data(), 4);
+        const auto n = static_cast<float>(counts.pixels[pixel]);
+        if (n > 0.0f && sum[3] > 0.0f) {
+            const float transmitted = mesa.pow(1.0f - sum[3] / n, n);
+            for (std::size_t c = 0; c < 3; ++c) color[c] = sum[c] / sum[3] * (1.0f - transmitted);
+        }
+        pipeline::scalar::encode(pipeline::info(format).type, profile.color_rounding(), color.data(),
+                                 &result.image.codes[4 * pixel], 4);
+    }
+    return result;
+}
+
 }  // namespace
 
 Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, const std::string& job,
                 const TargetFormats& formats, int max_passes) {
-    if (job == "sums")
-        return sums(subject, profile,
-                    formats.color == pipeline::Format::rgba32f ? formats.color : pipeline::Format::rgba16f);
+    if (job == "sums") return sums(subject, profile, strata_format(formats.color == rgba32f ? rgba32f : rgba16f));
+    if (job == "weighted_average_pow")
+        return average_by_pow(subject, profile, strata_format(formats.color),
+                              strata_format(formats.color == rgba32f ? rgba32f : rgba16f));
     const bool depth = job == "depth";
     peeling::RenderOptions options;
     options.width = subject.size.width;
     options.height = subject.size.height;
     options.alpha = subject.alpha;
-    options.color_format = formats.color;
-    options.depth = pipeline::depth_format(formats.depth);
+    options.color_format = strata_format(formats.color);
+    options.depth = pipeline::depth_format(strata_format(formats.depth));
     options.max_passes = max_passes;
     options.threads = subject.threads;
     // The audit compares nothing here, and the nearest depth is wanted for `depth` alone.
@@ -100,9 +158,10 @@ Rendered render(const Subject& subject, const pipeline::DeviceProfile& profile, 
     options.nearest_depth = depth;
     peeling::Renderer renderer(subject.scene.list, subject.view, profile, options);
     // weighted_average finds the nearest binary32 depths in one pass; codes of fixed point are those that a peel stores.
-    const char* const finder = formats.depth == pipeline::Format::d32f ? "weighted_average" : "front_to_back";
-    auto result = renderer.render(*peeling::find_algorithm(depth ? finder : job));
+    const std::string finder = formats.depth == d32f ? "weighted_average" : "front_to_back";
+    const std::string name = depth ? finder : job;
+    auto result = renderer.render(*peeling::find_algorithm(name));
     return {depth ? std::move(result.frame.depth) : std::move(result.frame.color), result.frame.passes.geometry};
 }
 
-}  // namespace strata::mesa
+}  // namespace strata::port

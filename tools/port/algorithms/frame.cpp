@@ -1,0 +1,117 @@
+#include "tools/port/algorithms/frame.h"
+
+#include <fmt/format.h>
+
+namespace strata::port {
+
+void set_window(Size size, const Way& way, GLenum clip_depth) {
+    const GLenum other = clip_depth == GL_ZERO_TO_ONE ? GL_NEGATIVE_ONE_TO_ONE : GL_ZERO_TO_ONE;
+    glViewport(0, 0, size.width, size.height);
+    glClipControl(way.origin, way.other_clip_depth ? other : clip_depth);
+    (way.scissored ? glEnable : glDisable)(GL_SCISSOR_TEST);
+    glScissor(0, 0, size.width * 3 / 4, size.height);
+}
+
+Opaque::Opaque(const JobInput& input, const Format& depth)
+    : size_{input.size},
+      format_{depth},
+      background_{input.background},
+      exists_{input.scene.has(Surfaces::opaque)},
+      tested_{input.way.opaque_tested},
+      color_{make_texture(input.formats.color, input.size)},
+      depth_{make_texture(depth, input.size)},
+      framebuffer_{make_framebuffer({color_.name()}, depth_.name())},
+      program_{input.scene.make_program("layout(location = 0) out vec4 color;\n"
+                                        "void main() { color = vec4(shade().rgb, 1.0); }\n")} {}
+
+void Opaque::draw(const GpuScene& scene) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glClearBufferfv(GL_COLOR, 0, background_.data());
+    glClearBufferfv(GL_DEPTH, 0, &far_plane);
+    if (!exists_) return;
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glUseProgram(program_.name());
+    scene.draw(Surfaces::opaque);
+    if (!tested_) glClearBufferfv(GL_DEPTH, 0, &far_plane);
+}
+
+void Opaque::copy_depth_to(const Handle& framebuffer) const {
+    if (!exists_) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+        glClearBufferfv(GL_DEPTH, 0, &far_plane);
+        return;
+    }
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
+    glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size_.width, size_.height, GL_DEPTH_BUFFER_BIT,
+                      GL_NEAREST);
+}
+
+void Opaque::copy_color_to(const Handle& framebuffer) const {
+    if (!exists_) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+        glClearBufferfv(GL_COLOR, 0, background_.data());
+        return;
+    }
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
+    glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size_.width, size_.height, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+}
+
+std::string Opaque::hidden_text() const {
+    const std::string far = format_ == d32f ? "1.0" : "stored(1.0)";
+    return exists_ ? "uniform sampler2D opaque_depth;\n"
+                     "bool hidden(float z) { return z >= texelFetch(opaque_depth, TEXEL, 0).r; }\n"
+                   : "bool hidden(float z) { return z >= " + far + "; }\n";
+}
+
+Finish::Finish(const JobInput& input, const std::string& through)
+    : input_{input},
+      encodes_{input.way.encoded_again && input.formats.color == rgba8},
+      target_{make_texture(encodes_ ? srgb8 : input.formats.color, input.size)},
+      framebuffer_{make_framebuffer({target_.name()})},
+      program_{make_full_screen_program(
+          fmt::format(R"(
+uniform sampler2D front_target;
+uniform sampler2D behind_target;
+layout(location = 0) out vec4 result;
+void main() {{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 front = texelFetch(front_target, pixel, 0);
+    vec3 behind = {};
+    result = vec4(front.rgb + ({}) * behind, 1.0);
+}}
+)",
+                      input.way.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)", through),
+          {"front_target", "behind_target"})} {}
+
+void Finish::draw(GLuint front, GLuint behind, Image& picture, Record* record) const {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glDisable(GL_BLEND);
+    if (encodes_) glEnable(GL_FRAMEBUFFER_SRGB);
+    bind({front, behind});
+    draw_full_screen(program_);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    show_pass(record, input_.size, "full_screen", {{"result", target_.name(), input_.formats.color}});
+    picture = read_picture(target_.name(), input_);
+}
+
+Image read_picture(GLuint texture, const JobInput& input) {
+    Format read = input.formats.color;
+    read.external = input.way.channel_order;
+    Image picture = read_back(texture, read, input.size);
+    picture.format = input.formats.color;
+    return picture;
+}
+
+std::string stored_text(const Format& depth) {
+    const std::string greatest = depth == d16 ? "65535.0" : "16777215.0";
+    const std::string stored =
+        depth == d32f ? "z" : "roundEven(clamp(z, 0.0, 1.0) * " + greatest + ") * (1.0 / " + greatest + ")";
+    return "float stored(float z) { return " + stored + "; }\n";
+}
+
+}  // namespace strata::port

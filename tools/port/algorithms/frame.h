@@ -1,0 +1,58 @@
+// tools/port/algorithms/frame.h - what every algorithm starts and ends with: the opaque scene, and the finished picture.
+#pragma once
+#include "tools/port/algorithms/job.h"
+
+namespace strata::port {
+
+inline constexpr std::array<float, 4> zero{};
+inline constexpr float far_plane = 1.0f;
+
+// Viewport, clip control and scissor; `clip_depth` is the scene's.
+void set_window(Size size, const Way& way, GLenum clip_depth);
+
+// The opaque surfaces, colour over the background and depth. A scene without any has the clear values there.
+class Opaque {
+  public:
+    // Depths are stored as `depth`, which is that of the peel's keys.
+    Opaque(const JobInput& input, const Format& depth);
+    void draw(const GpuScene& scene) const;
+
+    // Copies the opaque depth into the depth of `framebuffer`, whose format must be equal.
+    void copy_depth_to(const Handle& framebuffer) const;
+    void copy_color_to(const Handle& framebuffer) const;
+    [[nodiscard]] GLuint color() const { return color_.name(); }
+    [[nodiscard]] GLuint depth() const { return depth_.name(); }
+    // GLSL: `bool hidden(float z)`, true at and behind the opaque surface, z as it is stored. The sampler opaque_depth is the
+    // program's affair, and so is stored() where depths are no floats.
+    [[nodiscard]] std::string hidden_text() const;
+
+  private:
+    Size size_;
+    Format format_;
+    std::array<float, 4> background_;
+    bool exists_, tested_;
+    Handle color_, depth_, framebuffer_, program_;
+};
+
+// The last quad: the front over what stands behind it. `through` is GLSL for the share of that which is seen through `front`.
+class Finish {
+  public:
+    Finish(const JobInput& input, const std::string& through);
+    // Draws and reads back.
+    void draw(GLuint front, GLuint behind, Image& picture, Record* record) const;
+
+  private:
+    JobInput input_;
+    bool encodes_;
+    Handle target_, framebuffer_, program_;
+};
+
+// Reads a finished target of the frame's format as the port hands it over.
+[[nodiscard]] Image read_picture(GLuint texture, const JobInput& input);
+
+// GLSL: `float stored(float z)`, a depth as the driver stores and reads it back: code times the binary32 reciprocal of the
+// greatest code, which for d24 is another float than the quotient. Compared raw, a fragment would lie behind itself and
+// the peel would never end.
+[[nodiscard]] std::string stored_text(const Format& depth);
+
+}  // namespace strata::port

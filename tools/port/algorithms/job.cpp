@@ -1,0 +1,55 @@
+#include "tools/port/algorithms/job.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace strata::port {
+
+namespace {
+
+// A name and the function that makes its job.
+struct Maker {
+    std::string name;
+    Job (*make)(const JobInput&);
+};
+
+const std::vector<Maker>& makers() {
+    static const std::vector<Maker> all{{"depth", depth_job},
+                                        {"front_to_back", front_to_back_job},
+                                        {"dual", dual_job},
+                                        {"weighted_average", weighted_average_job},
+                                        {"weighted_average_pow", weighted_average_pow_job},
+                                        {"coherent_stencil", coherent_stencil_job},
+                                        {"depth_units", depth_units_job},
+                                        {"sums", sums_job}};
+    return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& job_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const Maker& maker : makers()) all.push_back(maker.name);
+        return all;
+    }();
+    return names;
+}
+
+Job make_job(const std::string& name, const JobInput& input) {
+    const auto found = std::ranges::find(makers(), name, &Maker::name);
+    if (found == makers().end()) throw std::invalid_argument("no algorithm " + name);
+    JobInput chosen = input;
+    if (input.way.depth != nullptr) chosen.formats.depth = *input.way.depth;
+    return found->make(chosen);
+}
+
+void show_pass(Record* record, Size size, const std::string& kind, std::initializer_list<NamedTexture> targets,
+               std::optional<std::uint64_t> query) {
+    if (record == nullptr) return;
+    PassShown& shown = record->passes.emplace_back(PassShown{kind, {}, query});
+    for (const NamedTexture& target : targets)
+        shown.targets.push_back({target.name, read_back(target.texture, target.format, size)});
+}
+
+}  // namespace strata::port

@@ -1,0 +1,82 @@
+// tools/port/algorithms/job.h - an algorithm with its targets and programs made: what is left is what the clock sees.
+#pragma once
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/port/gpu_scene.h"
+
+namespace strata::port {
+
+// What a job's targets store; the pictures of `depth` are depths, those of the others colours.
+struct TargetFormats {
+    Format color = rgba8;  // or rgba16f, rgba32f
+    Format depth = d32f;   // or d16, d24
+};
+
+struct JobInput {
+    const GpuScene& scene;
+    Size size;
+    TargetFormats formats{};
+    std::array<float, 4> background{0, 0, 0, 1};
+    Way way{};
+};
+
+struct NamedTexture {
+    std::string name;
+    GLuint texture = 0;
+    Format format;
+};
+struct NamedPicture {
+    std::string name;
+    Image image;
+};
+
+// Every target after a pass, as it is read back, and what the query of that pass answered.
+struct PassShown {
+    std::string kind;  // geometry or full_screen
+    std::vector<NamedPicture> targets;
+    std::optional<std::uint64_t> query;
+};
+
+// What a run tells of itself.
+struct Record {
+    std::vector<PassShown> passes{};
+    std::vector<std::array<Image, 2>> layers{};  // colour and depth, nearest first
+};
+// Nothing is done without a record.
+void show_pass(Record* record, Size size, const std::string& kind, std::initializer_list<NamedTexture> targets,
+               std::optional<std::uint64_t> query = {});
+
+// One algorithm that is ready to run: only `draw` is timed.
+struct Job {
+    std::string name;
+    // From the first clear to finished pixels in client memory; returns the geometry passes, at most `max_passes`. `record`
+    // may be nullptr.
+    std::function<int(Image& picture, int max_passes, Record* record)> draw;
+};
+
+// depth, front_to_back, dual, weighted_average (by repeated squaring; and by GLSL's pow), coherent_stencil, depth_units, and
+// the sums of weighted averages.
+[[nodiscard]] const std::vector<std::string>& job_names();
+
+// Makes all targets and programs of the algorithm, which keeps a reference to the scene. Throws
+// std::invalid_argument for a name that is not in job_names().
+[[nodiscard]] Job make_job(const std::string& name, const JobInput& input);
+
+// The jobs by themselves, for job.cpp. Those of single_pass.cpp come first; count_fragments()
+// answers the fragments of every pixel, without depth test.
+[[nodiscard]] Job depth_job(const JobInput& input);
+[[nodiscard]] Job weighted_average_job(const JobInput& input);
+[[nodiscard]] Job weighted_average_pow_job(const JobInput& input);
+[[nodiscard]] Job sums_job(const JobInput& input);
+[[nodiscard]] std::vector<std::uint32_t> count_fragments(const GpuScene& scene, Size size);
+
+[[nodiscard]] Job front_to_back_job(const JobInput& input);     // front_to_back.cpp
+[[nodiscard]] Job dual_job(const JobInput& input);              // dual.cpp
+[[nodiscard]] Job coherent_stencil_job(const JobInput& input);  // coherent_stencil.cpp
+[[nodiscard]] Job depth_units_job(const JobInput& input);       // depth_units.cpp
+
+}  // namespace strata::port

@@ -1,0 +1,43 @@
+// tools/port/gpu_scene.h - the scene in OpenGL buffers: the vertex shader passes clip-space positions and colours on.
+#pragma once
+#include "tools/port/mesh.h"
+#include "tools/port/way.h"
+
+namespace strata::port {
+
+enum class Surfaces : std::uint8_t { opaque, transparent };
+
+// The scene in buffers of the context. It binds its vertex array when it is made and relies on it
+// in draw(): one GpuScene lives at a time.
+class GpuScene {
+  public:
+    // Uploads the mesh, which may end afterwards.
+    GpuScene(const Mesh& mesh, Size size, const Way& way);
+
+    // Draws those triangles in their order, in one call for each run of equal facing state. Sets
+    // culling and front face; program, framebuffer, textures and blending are the caller's.
+    void draw(Surfaces surfaces = Surfaces::transparent) const;
+    [[nodiscard]] bool has(Surfaces surfaces) const { return !runs_[static_cast<std::size_t>(surfaces)].empty(); }
+
+    // A program whose fragment text may call `vec4 shade()`, the interpolated straight colour of the fragment's side, and
+    // name its own texel TEXEL.
+    [[nodiscard]] Handle make_program(const std::string& fragment, const std::vector<std::string>& samplers = {}) const;
+
+  private:
+    // Neighbouring triangles with the same facing state: `count` indices from byte `first_byte` of
+    // the index buffer.
+    struct Run {
+        GLsizei count = 0;
+        std::uintptr_t first_byte = 0;
+        bool double_sided = true, mirrored = false;
+    };
+    void add_runs(const Mesh& mesh);
+
+    Way way_;
+    Size size_;
+    bool two_sided_;  // some vertex has a colour of its own for the back
+    std::array<std::vector<Run>, 2> runs_;
+    Handle vertices_, indices_, layout_;
+};
+
+}  // namespace strata::port

@@ -1,0 +1,95 @@
+// tools/port/main.cpp - strata_port: a golden pack drawn by OpenGL, a candidate written.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+
+#include "tools/port/algorithms/frame.h"
+#include "tools/port/context.h"
+#include "tools/port/pack.h"
+
+namespace strata::port {
+
+namespace {
+
+struct Options {
+    std::string pack, output, driver = "llvmpipe", mistakes;
+    std::vector<std::string> algorithms;
+    int threads = 2, max_passes = 200;
+    bool list = false, picture_only = false;
+};
+
+void list_mistakes() {
+    for (const Mistake& mistake : mistakes())
+        fmt::print("{:<24}{:<18}{}\n", mistake.name, mistake.algorithm, mistake.words);
+}
+
+// Those that were asked for, or else all of the pack's that the port has.
+std::vector<std::string> chosen(const Options& options, const Pack& pack) {
+    if (!options.algorithms.empty()) return options.algorithms;
+    std::vector<std::string> found;
+    for (const std::string& name : pack.algorithms)
+        if (std::ranges::find(job_names(), name) != job_names().end()) found.push_back(name);
+    if (found.empty())
+        throw std::runtime_error(options.pack + ": expected a result of an algorithm that the port has, found none");
+    return found;
+}
+
+int run(const Options& options) {
+    const Pack pack = read_pack(options.pack);
+    const std::vector<std::string> algorithms = chosen(options, pack);
+    const Way way = way_with(options.mistakes);
+    const HeadlessContext context(options.driver, options.threads);
+    set_window(pack.size, way, pack.zero_to_one ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    const GpuScene scene(pack.mesh, pack.size, way);
+    std::vector<Candidate> candidates;
+    for (const std::string& name : algorithms) {
+        const JobInput input{
+            .scene = scene, .size = pack.size, .formats = pack.formats, .background = pack.background, .way = way};
+        Candidate& candidate = candidates.emplace_back(Candidate{name, {}, {}});
+        const int passes =
+            make_job(name, input)
+                .draw(candidate.picture, options.max_passes, options.picture_only ? nullptr : &candidate.record);
+        check_errors(name);
+        fmt::print("{}: {} geometry passes\n", name, passes);
+    }
+    write_candidate(options.output, "strata_port, " + context.renderer(), candidates);
+    return 0;
+}
+
+void add_options(CLI::App& app, Options& o) {
+    app.add_option("PACK", o.pack, "a golden pack (oracle/PACK.md)");
+    app.add_option("-o,--output", o.output, "the candidate: a folder that does not exist");
+    app.add_option("--algorithm", o.algorithms, "of the pack's, with commas between (default: all that the port has)")
+        ->delimiter(',')
+        ->check(CLI::IsMember(job_names()));
+    app.add_option("--driver", o.driver, "llvmpipe, llvmpipe_sse (without fused multiply-add), softpipe, or hardware")
+        ->check(CLI::IsMember(driver_names()));
+    app.add_option("--threads", o.threads, "threads that rasterize (default 2)")->check(CLI::Range(1, 16));
+    app.add_option("--mistake", o.mistakes, "be wrong: names with commas between");
+    app.add_flag("--mistakes", o.list, "list them");
+    app.add_option("--max-passes", o.max_passes, "geometry passes at most (default 200)")->check(CLI::PositiveNumber);
+    app.add_flag("--picture-only", o.picture_only, "write neither targets nor layers");
+}
+
+}  // namespace
+
+}  // namespace strata::port
+
+int main(int count, char** words) {
+    CLI::App app{"Draws a golden pack by OpenGL and writes a candidate.", "strata_port"};
+    strata::port::Options options;
+    strata::port::add_options(app, options);
+    try {
+        app.parse(count, words);
+        if (options.list) return strata::port::list_mistakes(), 0;
+        if (options.pack.empty() || options.output.empty()) throw CLI::RequiredError("PACK and -o");
+        return strata::port::run(options);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "strata_port: %s\n", error.what());
+        return 2;
+    }
+}

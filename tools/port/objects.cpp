@@ -1,0 +1,173 @@
+#include "tools/port/objects.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+namespace strata::port {
+
+namespace {
+
+// A shader of this kind. Throws std::runtime_error with the compiler's log and the text.
+Handle compile(GLenum kind, const std::string& text) {
+    const GLuint shader = glCreateShader(kind);
+    Handle handle{shader, [](GLuint name) { glDeleteShader(name); }};
+    const char* const start = text.c_str();
+    glShaderSource(shader, 1, &start, nullptr);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok != 0) return handle;
+    std::string log(4096, '\0');
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    throw std::runtime_error("GLSL: " + log.substr(0, log.find('\0')) + "in\n" + text);
+}
+
+Handle texture_of(GLenum sized, GLenum external, GLenum type, Size size) {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    Handle handle{name, [](GLuint n) { glDeleteTextures(1, &n); }};
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(sized), size.width, size.height, 0, external, type, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    return handle;
+}
+
+// Binds a new framebuffer; the caller attaches.
+Handle new_framebuffer() {
+    GLuint name = 0;
+    glGenFramebuffers(1, &name);
+    glBindFramebuffer(GL_FRAMEBUFFER, name);
+    return {name, [](GLuint n) { glDeleteFramebuffers(1, &n); }};
+}
+
+void attach(GLenum place, GLuint texture) { glFramebufferTexture2D(GL_FRAMEBUFFER, place, GL_TEXTURE_2D, texture, 0); }
+
+void require_complete() {
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw std::runtime_error("OpenGL: expected a complete framebuffer");
+}
+
+}  // namespace
+
+const Format* find_format(const std::string& name) {
+    static constexpr std::array all{rgba8, rgba16f, rgba32f, rg32f, r16f, r32f, d16, d24, d32f, s8};
+    for (const Format& format : all)
+        if (name == format.name) return &format;
+    return nullptr;
+}
+
+Handle make_texture(const Format& format, Size size) {
+    return texture_of(format.sized, format.external, format.type, size);
+}
+
+Handle make_depth_stencil(const Format& depth, Size size) {
+    if (depth == d32f)
+        return texture_of(GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, size);
+    if (depth == d24) return texture_of(GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, size);
+    throw std::runtime_error(fmt::format("OpenGL has no depth {} with a stencil; expected d24 or d32f", depth.name));
+}
+
+Handle make_query() {
+    GLuint name = 0;
+    glGenQueries(1, &name);
+    return {name, [](GLuint n) { glDeleteQueries(1, &n); }};
+}
+
+Handle make_framebuffer(std::initializer_list<GLuint> color, GLuint depth) {
+    Handle handle = new_framebuffer();
+    std::vector<GLenum> buffers;
+    for (const GLuint texture : color) {
+        buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
+        attach(buffers.back(), texture);
+    }
+    if (depth != 0) attach(GL_DEPTH_ATTACHMENT, depth);
+    if (buffers.empty()) buffers.push_back(GL_NONE);
+    glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+    require_complete();
+    return handle;
+}
+
+Handle make_stencil_framebuffer(GLuint depth_stencil) {
+    Handle handle = new_framebuffer();
+    attach(GL_DEPTH_STENCIL_ATTACHMENT, depth_stencil);
+    glDrawBuffer(GL_NONE);
+    require_complete();
+    return handle;
+}
+
+Handle make_program(const ProgramText& text) {
+    const std::string head = "#version 330 core\n" + text.head;
+    const Handle stages[] = {compile(GL_VERTEX_SHADER, head + text.vertex),
+                             compile(GL_FRAGMENT_SHADER, head + text.fragment)};
+    const GLuint name = glCreateProgram();
+    Handle program{name, [](GLuint n) { glDeleteProgram(n); }};
+    for (const Handle& stage : stages) glAttachShader(name, stage.name());
+    glLinkProgram(name);
+    GLint ok = 0;
+    glGetProgramiv(name, GL_LINK_STATUS, &ok);
+    if (ok == 0) throw std::runtime_error("GLSL: expected a program that links");
+    glUseProgram(name);
+    for (GLint unit = 0; text.units_set && unit < static_cast<GLint>(text.samplers.size()); ++unit)
+        glUniform1i(glGetUniformLocation(name, text.samplers[static_cast<std::size_t>(unit)].c_str()), unit);
+    return program;
+}
+
+Handle make_full_screen_program(const std::string& fragment, const std::vector<std::string>& samplers) {
+    constexpr auto vertex =
+        "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); }";
+    return make_program({.head = "", .vertex = vertex, .fragment = fragment, .samplers = samplers});
+}
+
+void draw_full_screen(const Handle& program) {
+    glUseProgram(program.name());
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void bind(std::initializer_list<GLuint> textures) {
+    GLenum unit = GL_TEXTURE0;
+    for (const GLuint texture : textures) {
+        glActiveTexture(unit++);
+        glBindTexture(GL_TEXTURE_2D, texture);
+    }
+}
+
+std::uint64_t samples_passed(const Handle& query) {
+    GLuint64 samples = 0;
+    glGetQueryObjectui64v(query.name(), GL_QUERY_RESULT, &samples);
+    return samples;
+}
+
+Image read_back(GLuint texture, const Format& format, Size size) {
+    Image image{format, size, {}};
+    image.bytes.resize(size.area() * static_cast<std::size_t>(format.channels * format.bytes));
+    const bool is_depth = format.external == GL_DEPTH_COMPONENT, is_stencil = format == s8;
+    const Handle framebuffer = new_framebuffer();
+    attach(is_stencil ? GL_DEPTH_STENCIL_ATTACHMENT : is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, texture);
+    glReadBuffer(is_depth || is_stencil ? GL_NONE : GL_COLOR_ATTACHMENT0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.width, size.height, format.external, format.type, image.bytes.data());
+    if (format == d24)
+        for (std::size_t i = 0; i < image.bytes.size(); i += 4) {
+            std::uint32_t word = 0;
+            std::memcpy(&word, &image.bytes[i], 4);
+            word >>= 8;
+            std::memcpy(&image.bytes[i], &word, 4);
+        }
+    return image;
+}
+
+void check_errors(const std::string& doing) {
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+        throw std::runtime_error(fmt::format("OpenGL: {}: expected no error, found 0x{:04x}", doing, error));
+}
+
+}  // namespace strata::port

@@ -1,0 +1,114 @@
+// tools/port/objects.h - OpenGL 3.3 objects that end with their owner, and the few calls the algorithms share.
+#pragma once
+#include <GL/glcorearb.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace strata::port {
+
+struct Size {
+    int width = 0, height = 0;
+    [[nodiscard]] std::size_t area() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+};
+
+// How a target is stored, and how its codes are read back.
+struct Format {
+    const char* name = "";
+    GLenum sized = 0, external = 0, type = 0;
+    int channels = 0, bytes = 0;  // of a channel in client memory
+    friend bool operator==(const Format&, const Format&) = default;
+};
+inline constexpr Format rgba8{"rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
+inline constexpr Format rgba16f{"rgba16f", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 4, 2};
+inline constexpr Format rgba32f{"rgba32f", GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 4};
+inline constexpr Format rg16f{"rg16f", GL_RG16F, GL_RG, GL_HALF_FLOAT, 2, 2};
+inline constexpr Format rg32f{"rg32f", GL_RG32F, GL_RG, GL_FLOAT, 2, 4};
+inline constexpr Format r8{"r8", GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, 1};
+inline constexpr Format r16f{"r16f", GL_R16F, GL_RED, GL_HALF_FLOAT, 1, 2};
+inline constexpr Format r32f{"r32f", GL_R32F, GL_RED, GL_FLOAT, 1, 4};
+inline constexpr Format srgb8{"srgb8", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 1};
+inline constexpr Format d16{"d16", GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, 1, 2};
+// Read back as the upper bits of a word; read_back() shifts them down.
+inline constexpr Format d24{"d24", GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 1, 4};
+inline constexpr Format d32f{"d32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4};
+inline constexpr Format s8{"s8", 0, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, 1};  // beside a depth alone
+
+// nullptr for a name that no format above has.
+[[nodiscard]] const Format* find_format(const std::string& name);
+
+// Codes as they lie in memory: rows from row 0 on, channels beside each other, little endian.
+struct Image {
+    Format format;
+    Size size;
+    std::vector<std::uint8_t> bytes;
+};
+
+// An OpenGL name that `destroy` gives back. The context must still be current when the handle ends.
+// A default one owns nothing.
+class Handle {
+  public:
+    Handle() = default;
+    Handle(GLuint name, void (*destroy)(GLuint)) : name_{name}, destroy_{destroy} {}
+    Handle(Handle&& other) noexcept
+        : name_{std::exchange(other.name_, 0)}, destroy_{std::exchange(other.destroy_, nullptr)} {}
+    // A swap: what this handle owned ends with `other`.
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(name_, other.name_);
+        std::swap(destroy_, other.destroy_);
+        return *this;
+    }
+    ~Handle() {
+        if (destroy_ != nullptr) destroy_(name_);
+    }
+    [[nodiscard]] GLuint name() const noexcept { return name_; }
+
+  private:
+    GLuint name_ = 0;
+    void (*destroy_)(GLuint) = nullptr;
+};
+
+// A two-dimensional texture without mipmaps, nearest lookups, contents undefined.
+[[nodiscard]] Handle make_texture(const Format& format, Size size);
+// A depth texture with a stencil beside it; d24 or d32f.
+[[nodiscard]] Handle make_depth_stencil(const Format& depth, Size size);
+// A query of GL_SAMPLES_PASSED.
+[[nodiscard]] Handle make_query();
+
+// A framebuffer whose draw buffer k is color[k]; without colours it has none. Throws std::runtime_error if OpenGL calls
+// it incomplete.
+[[nodiscard]] Handle make_framebuffer(std::initializer_list<GLuint> color, GLuint depth = 0);
+[[nodiscard]] Handle make_stencil_framebuffer(GLuint depth_stencil);
+
+// Sampler k of `samplers` reads unit k, unless `units_set` is false. std::runtime_error with the compiler's words.
+struct ProgramText {
+    std::string head, vertex, fragment;
+    std::vector<std::string> samplers;
+    bool units_set = true;
+};
+[[nodiscard]] Handle make_program(const ProgramText& text);
+
+// A program that runs once a pixel. The samplers are those of units 0, 1, ...
+[[nodiscard]] Handle make_full_screen_program(const std::string& fragment, const std::vector<std::string>& samplers);
+
+// One triangle over the viewport with `program`; depth test off. Blending and targets are the caller's.
+void draw_full_screen(const Handle& program);
+
+// Textures on units 0, 1, ...
+void bind(std::initializer_list<GLuint> textures);
+
+// The query's answer. The call waits until every draw inside the query is finished.
+[[nodiscard]] std::uint64_t samples_passed(const Handle& query);
+
+// A texture's codes; s8: the stencil of a depth-stencil texture.
+[[nodiscard]] Image read_back(GLuint texture, const Format& format, Size size);
+
+// Throws std::runtime_error with OpenGL's error, if there is one, and what was being done.
+void check_errors(const std::string& doing);
+
+}  // namespace strata::port

@@ -1,0 +1,8 @@
+#!/bin/bash
+# Builds the port and Strata, draws packs of every profile on every OpenGL driver that there is, and writes RESULTS.md.
+# usage: tools/port/validate.sh [options of validate.py]
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+cmake --preset release -DSTRATA_PORT=ON > /dev/null
+cmake --build --preset release --target strata strata_port
+exec python3 tools/port/validate.py "$@"
