@@ -185,7 +185,10 @@ DeviceProfile parse_profile(const std::string& document_text, const std::string&
     DeviceProfile profile = base != nullptr ? *base : DeviceProfile{};
     profile.name = text(document, "name", longest_name, file);
     // A file always has a name of its own, so that a picture's attributes do not claim the base's.
-    if (profile.name.empty()) throw InputError(file, "/name", "a name", "\"\"");
+    // It stands in tables and sentences: a line's end or a zero would break them.
+    const bool breaks = std::ranges::any_of(profile.name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    if (profile.name.empty() || breaks)
+        throw InputError(file, "/name", "a name without control characters", shown(document["name"]));
     // A description may be inherited, a name may not.
     if (base == nullptr || document.contains("description"))
         profile.description = text(document, "description", longest_description, file);

@@ -13,6 +13,7 @@
 #include "scenes/files/unfinished_files.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/names.h"
+#include "tools/strata/options/printable.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -23,7 +24,7 @@ enum Exit : int { bad_input = 2, system_failed = 3 };
 
 // Prints the one line of a failure and answers its status.
 int fail(const std::string& sentence, Exit status) {
-    std::fprintf(stderr, "strata: %s\n", sentence.c_str());
+    std::fprintf(stderr, "strata: %s\n", printable(sentence).c_str());
     return status;
 }
 
@@ -71,7 +72,9 @@ std::string sentence(const CLI::ParseError& error, const CLI::App& root) {
         return missing + ": expected one, found none; strata " + app.get_name() + " --help says more";
     }
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
-        const std::string option = std::string(error.what()).substr(0, std::string(error.what()).find(':'));
+        const std::string said = error.what();
+        const std::string option = said.substr(0, said.find_first_of(": "));
+        if (said.ends_with("flag override")) return "--" + option + ": expected no value, found one";
         return option + ": expected one value, found none or several";
     }
     return error.what();
@@ -85,6 +88,13 @@ std::string short_help(const std::vector<Command>& commands) {
     return to_text(table) +
            "Begin with: strata render teapot --size 400x300 -o teapot.png\n"
            "More about a command: strata COMMAND --help\n";
+}
+
+// CLI11 would take --json=-1 for the contrary of --json.
+void refuse_values_of_flags(const std::vector<Command>& commands) {
+    for (const Command& command : commands)
+        for (CLI::Option* option : command.app->get_options({}))
+            if (option->get_items_expected_max() == 0) option->disable_flag_override();
 }
 
 // The first word is checked here: CLI11 would call a misspelt command an extra argument.
@@ -126,6 +136,7 @@ int run(int count, char** words) {
         add_hardware_check(root), add_scene(root),    add_digest(root),     add_compare(root),   add_golden(root),
         add_algorithms(root),     add_profiles(root), add_scenes(root),
     };
+    refuse_values_of_flags(commands);
     return parse_and_run(root, commands, count, words);
 }
 

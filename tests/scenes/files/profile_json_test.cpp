@@ -91,7 +91,10 @@ TEST_CASE("without a base every key must be there") {
           "my.json: /raster/subpixel_bits: expected a number from 4 to 12 in steps of 4, found nothing, and no "
           "\"base\" to take it from");
     CHECK(error_of(R"({"base": "ideal"})") == "my.json: /name: expected a string of at most 64 bytes, found nothing");
-    CHECK(error_of(R"({"base": "ideal", "name": ""})") == "my.json: /name: expected a name, found \"\"");
+    CHECK(error_of(R"({"base": "ideal", "name": ""})") ==
+          "my.json: /name: expected a name without control characters, found \"\"");
+    CHECK(error_of(R"({"base": "ideal", "name": "a\nb"})") ==
+          "my.json: /name: expected a name without control characters, found \"a\\nb\"");
 }
 
 TEST_CASE("text that is no JSON object is refused with its place") {

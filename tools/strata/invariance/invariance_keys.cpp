@@ -13,7 +13,7 @@ namespace {
 // Whether a file or a name exists is checked when the cell is: CellRunner::check().
 bool set_name(std::string& target, const std::string& text) {
     target = text;
-    return !text.empty();
+    return !text.empty() && text.find('\0') == std::string::npos;  // no file has such a name
 }
 
 // Stores the value of an option if it was given, and says whether it was.

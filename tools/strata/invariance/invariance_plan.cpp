@@ -33,6 +33,7 @@ std::vector<std::string> key_names() {
 // A value as the options would spell it: numbers in their shortest form.
 std::string text_of(const json& value, const Source& source, const std::string& place) {
     if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_unsigned()) return fmt::format("{}", value.get<std::uint64_t>());
     if (value.is_number_integer()) return fmt::format("{}", value.get<std::int64_t>());
     if (value.is_number()) return fmt::format("{}", value.get<double>());
     source.fail(place, "a string, a number, or a list of them", value.dump());
@@ -115,6 +116,7 @@ std::vector<Cell> parse_plan(const std::string& text, const std::string& file, c
     for (const auto& [name, value] : plan.items())
         if (name != "common" && name != "grids" && name != "about")
             source.fail("/", "keys about, common or grids", found_but_near(name, {"about", "common", "grids"}));
+    if (plan.contains("about") && !plan["about"].is_string()) source.fail("/about", "a text", plan["about"].dump());
     if (!plan.contains("grids") || !plan["grids"].is_array() || plan["grids"].empty())
         source.fail("/grids", "a list of at least one grid", plan.contains("grids") ? plan["grids"].dump() : "none");
     // A grid's own values win over /common, these over the options, these over the defaults.

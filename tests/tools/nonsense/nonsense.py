@@ -1,0 +1,142 @@
+#!/usr/bin/env python3
+"""Gives the program nonsense: in every option of every command, every parameter of every built-in scene and every field of a
+profile, a camera and a plan.
+
+    tests/tools/nonsense/nonsense.py build/release/strata          # a choice of each, some seconds
+    tests/tools/nonsense/nonsense.py build/release/strata --all    # every option with every value
+
+Model: the help texts say which options there are, the printed profile which fields. Nonsense ends with exit status 2 and one
+sentence that names the option or the place, prints nothing else and leaves no file. The few values that only look like
+nonsense stand in ACCEPTED with the reason why they are none.
+"""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from fields import camera_cases, plan_cases, profile_cases  # noqa: E402
+from trial import Trial, output_of  # noqa: E402
+
+VALUES = ["", "nan", "-nan(0)", "inf", "-inf", "0x1p4", "0x10", "1e308", "1e999", "-1e308", "9223372036854775808",
+          "18446744073709551616", "-9223372036854775809", "4294967297", "-1", "-0", "+1", " 1", "1 ", "1\n", "1e", "1.5.2",
+          "1_000", "1'000", "1,", ",", "-", "\u0663", "\uff11\uff12", "\u00bd", b"\xff\xfe", "%s%n", "null", "x" * 300]
+
+SMALL = ["planes:count=1", "--size", "8x8"]
+OUT = ["-o", "out"]
+# What a command needs beside the option that is tried.
+NEEDS = {
+    "render": SMALL + ["--no-audit"], "layers": SMALL + ["--no-audit", "-o", "out.exr"], "passes": SMALL + OUT,
+    "explain": SMALL + ["--pixel", "1,1"], "bench": SMALL + ["--repeat", "1", "--warm-up", "0", "--algorithm", "depth"],
+    "effects": SMALL + ["--repeat", "1"], "cost": SMALL + ["--dry-run"], "invariance": SMALL + ["--dry-run"],
+    "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "hardware-check": ["."], "scene": SMALL[:1],
+    "digest": ["none.png"], "compare": ["a.png", "b.png"], "profiles": ["ideal"], "algorithms": [], "scenes": [],
+}
+
+# (command or *, option, value): why it is no nonsense. Options that take a file or folder of any name are left out of all
+# but the empty name.
+ACCEPTED = {
+    ("*", "--fragment-memory", "4294967297"): "a size of 4 GiB",
+    ("*", "--fragment-memory", "9223372036854775808"): "a limit that no machine reaches",
+    ("*", "--alpha", "-0"): "zero",
+    ("*", "--compare-epsilon", "-0"): "zero",
+    ("bench", "--warm-up", "-0"): "zero",
+}
+ANY_NAME = ("FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml")
+
+
+def options_of(program, command):
+    """(option, type) as --help lists them; the type of a flag is empty."""
+    found, inside = [], False
+    for line in output_of(program, [command, "--help"]).splitlines():
+        if not line.startswith(" "):
+            inside = line == "Options:"
+        elif inside and line.startswith("  -"):
+            words = line.split()
+            name = words[0].split(",")[-1]
+            kind = line[2:].split("  ")[0].partition(" ")[2].strip().split("=")[0].removesuffix(" REQUIRED")
+            if name not in ("--help", "--version"):
+                found.append((name, kind))
+    return found
+
+
+def without(words, option):
+    """The words but for the option and its value, so that the option is given once."""
+    short = {"--output": "-o"}.get(option, option)
+    kept = list(words)
+    while short in kept:
+        at = kept.index(short)
+        del kept[at:at + (1 if short in ("--no-audit", "--dry-run", "--list") else 2)]
+    return kept
+
+
+def given(option, value):
+    """A short option takes its value as a word of its own."""
+    return [joined(option, value)] if option.startswith("--") else [option, value]
+
+
+def joined(option, value):
+    return option.encode() + b"=" + (value if isinstance(value, bytes) else value.encode())
+
+
+def option_cases(program, commands):
+    for command in commands:
+        for option, kind in options_of(program, command):
+            values = [""] if kind in ANY_NAME else VALUES
+            for value in values:
+                if kind == "" and value == "":
+                    continue  # an empty value of a flag is none
+                if {("*", option, value), (command, option, value)} & ACCEPTED.keys():
+                    continue
+                words = [command] + without(NEEDS[command], option) + given(option, value)
+                yield Trial(f"{command} {option}", words, names=(option.lstrip('-'),))
+
+
+def scene_cases(program):
+    for line in output_of(program, ["scenes"]).splitlines()[1:]:
+        scene, _, parameters = line.split()[0].partition(":")
+        for parameter in filter(None, parameters.split(",")):
+            key = parameter.partition("=")[0]
+            for value in VALUES:
+                if value in ("4294967297", "9223372036854775808") and key == "seed":
+                    continue  # seeds have 64 bits
+                yield Trial(f"scene {scene}:{key}", ["scene", b"%s:%s" % (scene.encode(), joined(key, value))], names=(scene,))
+
+
+def choice(cases, seed):
+    """Of each group a few, by a rule that takes other values for other groups: all values are met often."""
+    groups = {}
+    for case in cases:
+        groups.setdefault(case.group, []).append(case)
+    for number, group in enumerate(groups.values()):
+        for k in range(min(2, len(group))):
+            yield group[(seed + 7 * number + 17 * k) % len(group)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=lambda p: str(pathlib.Path(p).resolve()))
+    parser.add_argument("--all", action="store_true", help="every option with every value")
+    parser.add_argument("--seed", type=int, default=1, help="which values the choice takes (default 1)")
+    arguments = parser.parse_args()
+    listed = output_of(arguments.program, ["--help"]).partition("Subcommands:\n")[2].partition("\n\n")[0]
+    commands = [line.split()[0] for line in listed.splitlines()]
+    if missing := [c for c in commands if c not in NEEDS]:
+        sys.exit(f"nonsense.py: NEEDS lacks what {', '.join(missing)} needs")
+    of_options = list(option_cases(arguments.program, commands)) + list(scene_cases(arguments.program))
+    of_fields = [case for make in (profile_cases, camera_cases, plan_cases) for case in make(arguments.program)]
+    cases = of_options + of_fields if arguments.all else list(choice(of_options, arguments.seed)) + list(
+        choice(of_fields, arguments.seed))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        faults = list(filter(None, pool.map(lambda case: case.fault(arguments.program), cases)))
+    for fault in faults:
+        print(fault)
+    print(f"{len(cases)} cases of nonsense, {len({case.group for case in cases})} places; {len(faults)} not refused as they should be")
+    if len(cases) < 500:
+        sys.exit("nonsense.py: fewer than 500 cases: the lists of options or fields are read no more")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
