@@ -2,8 +2,9 @@
 """Opens a report in headless Chromium, moves everything that moves, and holds what it shows against the program: report_page.py STRATA
 
 The page must draw without an error on the console, its numbers must be those of `strata explain` and `strata render`, it must work by keyboard
-alone and load nothing from anywhere. With STRATA_SCREENSHOTS=FOLDER it leaves pictures, for people. Exit status 77, said aloud, without
-Chromium, its driver or Selenium (Debian: chromium, chromium-driver, python3-selenium).
+alone and load nothing from anywhere. With STRATA_AXE=FILE (axe.min.js of the npm package axe-core) it is searched for what keeps people
+out; with STRATA_SCREENSHOTS=FOLDER it leaves pictures. Exit status 77, said aloud, without Chromium, its driver or Selenium (Debian:
+chromium, chromium-driver, python3-selenium).
 """
 import json
 import os
@@ -129,6 +130,17 @@ class Page:
             self.expect("passes and ends of the fragments are explain's", taken, told_takes)
         self.expect("explain took some", takes > 0, True)
 
+    def check_access(self):
+        """No rule of axe-core is broken, where STRATA_AXE names its axe.min.js."""
+        if "STRATA_AXE" not in os.environ:
+            return
+        with open(os.environ["STRATA_AXE"], encoding="utf-8") as file:
+            self.js(file.read())
+        self.driver.set_script_timeout(120)
+        broken = self.driver.execute_async_script(
+            "const done = arguments[0]; axe.run().then((r) => done(r.violations.map((v) => v.id + ': ' + v.help)))")
+        self.expect("axe-core finds nothing", broken, [])
+
     def check_quiet(self):
         # That pictures are read back is this test's own doing.
         errors = [e["message"] for e in self.driver.get_log("browser")
@@ -154,6 +166,8 @@ def main():
     if not shutil.which("chromedriver") or not shutil.which("chromium"):
         print("SKIPPED: chromium or chromium-driver was not found")
         return 77
+    if "STRATA_AXE" not in os.environ:
+        print("SKIPPED: axe-core, for STRATA_AXE names no file")
     driver, wrong = browser(), []
     try:
         for number, scene in enumerate(SCENES):
@@ -163,6 +177,7 @@ def main():
                 names = page.check_pictures()
                 page.check_controls()
                 page.check_quiet()
+                page.check_access()
                 wrong += page.wrong
                 print(json.dumps({"scene": scene[0], "algorithms": len(names), "wrong": len(page.wrong)}))
                 if "STRATA_SCREENSHOTS" in os.environ:

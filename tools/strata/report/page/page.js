@@ -119,7 +119,7 @@ function buildSheet() {
     const error = element("canvas", undefined, { role: "img", "aria-label": "Difference of " + algorithm.name + " from the A-buffer" });
     const s = algorithm.stats;
     const words = s.max_difference_from_a_buffer === null ? "" : "at most " + s.max_difference_from_a_buffer.toFixed(3) + "/255 off; ";
-    card.append(picture, error, element("p", words + s.geometry_passes + " passes" +
+    card.append(picture, error, element("p", words + s.geometry_passes + (s.geometry_passes === 1 ? " pass" : " passes") +
       (s.order_errors ? "; " + s.order_errors + " fragments out of order" : "") + (s.lost_by_ties ? "; " + s.lost_by_ties + " lost by ties" : "")));
     paint(picture, (p) => colorAt(algorithm, p));
     picture.addEventListener("click", (event) => { at("right").value = algorithm.name; drawCompare(); pick(event, picture); });
