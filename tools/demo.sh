@@ -31,7 +31,9 @@ render() {  # render SCENE NAME [OPTIONS]: every algorithm's picture as out/NAME
 }
 render teapot teapot --alpha 0.4 --background 1,1,1
 render volume-beam:slices=16 volume-beam
+echo
+build/release/strata report teapot --alpha 0.4 --profile geforce8_dx101 --camera tools/docs/pictures/teapot.json -o out
 
 echo
-echo "Look at out/: teapot.dual.png is the teapot by dual depth peeling; the other names say scene and algorithm."
+echo "Open out/report.html in a browser, or look at out/: teapot.dual.png is the teapot by dual depth peeling; the other names say scene and algorithm."
 echo "Then try: build/release/strata render MODEL.glb --alpha 0.3 -o out/model.png"

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""Opens a report in headless Chromium, moves everything that moves, and holds what it shows against the program: report_page.py STRATA
+
+The page must draw without an error on the console, its numbers must be those of `strata explain` and `strata render`, it must work by keyboard
+alone and load nothing from anywhere. With STRATA_AXE=FILE (axe.min.js of the npm package axe-core) it is searched for what keeps people
+out; with STRATA_SCREENSHOTS=FOLDER it leaves pictures. Exit status 77, said aloud, without Chromium, its driver or Selenium (Debian:
+chromium, chromium-driver, python3-selenium).
+"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SCENES = [
+    ["teapot", "--size", "96x72"],
+    ["volume-beam:slices=8", "--size", "64x48", "--profile", "ideal", "--colour", "linear"],
+    ["random:triangles=200", "--size", "48x64", "--profile", "geforce3"],
+]
+
+
+def browser():
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    options = Options()
+    for argument in ["--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,1000"]:
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+
+
+class Page:
+    """A report in a browser, and the program that made it."""
+
+    def __init__(self, driver, strata, scene, folder):
+        self.driver, self.strata, self.scene, self.wrong = driver, strata, scene, []
+        subprocess.run([strata, "report", *scene, "-o", folder], check=True, stdout=subprocess.DEVNULL)
+        driver.get("file://" + os.path.join(folder, "report.html"))
+        from selenium.webdriver.support.ui import WebDriverWait
+        WebDriverWait(driver, 60).until(lambda d: d.execute_script("return document.body.dataset.ready"))
+
+    def expect(self, what, found, expected):
+        if found != expected:
+            self.wrong.append(f"{self.scene[0]}: {what}: expected {str(expected)[:300]!r}, found {str(found)[:300]!r}")
+
+    def js(self, text, *arguments):
+        return self.driver.execute_script(text, *arguments)
+
+    def pixels(self, canvas):
+        return self.js("const c = document.getElementById(arguments[0]);"
+                       "return Array.from(c.getContext('2d').getImageData(0, 0, c.width, c.height).data)", canvas)
+
+    def set(self, control, value):
+        self.js("const e = document.getElementById(arguments[0]); e.value = arguments[1];"
+                "e.dispatchEvent(new Event('input')); e.dispatchEvent(new Event('change'))", control, str(value))
+
+    def text(self, place):
+        return self.js("return document.getElementById(arguments[0]).textContent", place)
+
+    def check_pictures(self):
+        """The picture by the last algorithm, at the right of a divider at 0, is what render writes."""
+        names = [c for c in self.js("return [...document.getElementById('right').options].map((o) => o.value)")]
+        self.set("divide", 0)
+        for name in names:
+            self.set("right", name)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "out.png")
+                subprocess.run([self.strata, "render", *self.scene, "--algorithm", name, "--no-audit", "-o", path], check=True,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                drawn = self.pixels("compare")
+                wanted = self.js("""const done = arguments[arguments.length - 1]; return new Promise((resolve) => { const i = new Image();
+                    i.onload = () => { const c = document.createElement('canvas'); c.width = i.width; c.height = i.height;
+                    const x = c.getContext('2d'); x.drawImage(i, 0, 0);
+                    resolve(Array.from(x.getImageData(0, 0, c.width, c.height).data)); };
+                    i.src = 'data:image/png;base64,' + arguments[0]; })""", base64_of(path))
+                apart = max(abs(a - b) for a, b in zip(drawn, wanted)) if len(drawn) == len(wanted) else 256
+                # Linear light is encoded by the script's own pow.
+                limit = 1 if "linear" in self.scene else 0
+                if apart > limit:
+                    self.wrong.append(f"{self.scene[0]}: {name}: the page's picture differs from render's by {apart}")
+        return names
+
+    def check_controls(self):
+        """Whatever can be moved changes what it says it changes."""
+        before = self.pixels("layer-color")
+        if int(self.js("return document.getElementById('layer').max")) > 0:
+            self.set("layer", 1)
+            self.expect("the layer slider moves", self.pixels("layer-color") != before, True)
+        depth = self.pixels("layer-depth")
+        self.set("far", float(self.js("return document.getElementById('near').value")) + 1e-3)
+        self.expect("the depth range moves", self.pixels("layer-depth") != depth, True)
+        self.js("document.getElementById('fit').click()")
+        self.expect("fit gives the range back", self.pixels("layer-depth"), depth)
+        seen = set()
+        for name in self.js("return [...document.getElementById('map').options].map((o) => o.value)"):
+            self.set("map", name)
+            seen.add(self.text("map-text"))
+        self.expect("every map has a text of its own", len(seen), len(self.js("return [...document.getElementById('map').options]")))
+        self.js("document.querySelectorAll('#numbers th button')[1].click()")
+        column = [int(v) for v in self.js("return [...document.querySelectorAll('#numbers tr td:nth-child(2)')].map((c) => c.textContent)")]
+        self.expect("passes are sorted", column, sorted(column))
+
+    def check_pixel(self):
+        """The pixel that is chosen first, by mouse and keyboard, against strata explain."""
+        from selenium.webdriver.common.keys import Keys
+        x, y = int(self.js("return document.getElementById('x').value")), int(self.js("return document.getElementById('y').value"))
+        canvas = self.driver.find_element("id", "map-canvas")
+        canvas.send_keys(Keys.ARROW_RIGHT)
+        self.expect("the arrow key moves", int(self.js("return document.getElementById('x').value")), min(x + 1, self.js("return width") - 1))
+        self.set("x", x)
+        algorithm = self.js("return history.algorithm")
+        told = subprocess.run([self.strata, "explain", *self.scene, "--algorithm", algorithm, "--pixel", f"{x},{y}"], check=True,
+                              capture_output=True, text=True).stdout
+        found = self.text("history")
+        if not found.startswith("The whole history"):
+            self.expect("the history is explain's", found, told)
+        bits = sorted(re.findall(r"z [^ ]+ \(([0-9a-f]{8})\)", told))
+        shown = sorted(self.js("return [...document.querySelectorAll('#fragments tr td:nth-child(6)')].map((c) => c.textContent)"))
+        self.expect("depths in hexadecimal are explain's", shown, bits)
+        # What dual merges is told of each fragment; the others by name.
+        takes = len(re.findall(r"takes #", told))
+        table = self.js("return [...document.querySelectorAll('#fragments tr')].map((r) => [...r.cells].map((c) => c.textContent))")
+        column = table[0].index(algorithm) if algorithm in table[0] else None
+        if column is not None:
+            taken = {row[column] for row in table[1:] if row[column] != "never"}
+            told_takes = {f"pass {p}, {end} end" for p, end in re.findall(r"pass (\d+): takes .* at the (near|far) end", told)}
+            self.expect("passes and ends of the fragments are explain's", taken, told_takes)
+        self.expect("explain took some", takes > 0, True)
+
+    def check_access(self):
+        """No rule of axe-core is broken, where STRATA_AXE names its axe.min.js."""
+        if "STRATA_AXE" not in os.environ:
+            return
+        with open(os.environ["STRATA_AXE"], encoding="utf-8") as file:
+            self.js(file.read())
+        self.driver.set_script_timeout(120)
+        broken = self.driver.execute_async_script(
+            "const done = arguments[0]; axe.run().then((r) => done(r.violations.map((v) => v.id + ': ' + v.help)))")
+        self.expect("axe-core finds nothing", broken, [])
+
+    def check_quiet(self):
+        # That pictures are read back is this test's own doing.
+        errors = [e["message"] for e in self.driver.get_log("browser")
+                  if e["level"] in ("SEVERE", "WARNING") and "willReadFrequently" not in e["message"]]
+        self.expect("the console is empty", errors, [])
+        self.expect("nothing was loaded", self.js("return performance.getEntriesByType('resource').map((e) => e.name)"
+                                                 ".filter((n) => !n.startsWith('data:'))"), [])
+
+
+def base64_of(path):
+    import base64
+    with open(path, "rb") as file:
+        return base64.b64encode(file.read()).decode()
+
+
+def main():
+    strata = os.path.abspath(sys.argv[1])
+    try:
+        import selenium  # noqa: F401
+    except ImportError:
+        print("SKIPPED: python3-selenium was not found")
+        return 77
+    if not shutil.which("chromedriver") or not shutil.which("chromium"):
+        print("SKIPPED: chromium or chromium-driver was not found")
+        return 77
+    if "STRATA_AXE" not in os.environ:
+        print("SKIPPED: axe-core, for STRATA_AXE names no file")
+    driver, wrong = browser(), []
+    try:
+        for number, scene in enumerate(SCENES):
+            with tempfile.TemporaryDirectory() as folder:
+                page = Page(driver, strata, scene, folder)
+                page.check_pixel()
+                names = page.check_pictures()
+                page.check_controls()
+                page.check_quiet()
+                page.check_access()
+                wrong += page.wrong
+                print(json.dumps({"scene": scene[0], "algorithms": len(names), "wrong": len(page.wrong)}))
+                if "STRATA_SCREENSHOTS" in os.environ:
+                    os.makedirs(os.environ["STRATA_SCREENSHOTS"], exist_ok=True)
+                    driver.set_window_size(1280, 5200)
+                    driver.save_screenshot(os.path.join(os.environ["STRATA_SCREENSHOTS"], f"report.{number}.png"))
+                    driver.set_window_size(1280, 1000)
+    finally:
+        driver.quit()
+    print("\n".join(wrong))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,14 @@
+# cmake -D OUT=FILE.cpp -D FOLDER=page -P text_to_source.cmake: the page's files as functions that answer their text.
+set(source "#include \"tools/strata/report/page_parts.h\"\n\nnamespace strata::tools {\n")
+foreach(part page.html:page_html style.css:page_css page.js:page_js)
+  string(REPLACE ":" ";" part ${part})
+  list(GET part 0 file)
+  list(GET part 1 name)
+  file(READ ${FOLDER}/${file} text HEX)
+  # As numbers, a line of 64: literals of text have a greatest length.
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${text}")
+  string(APPEND source "static constexpr unsigned char ${name}_bytes[] = {${bytes}};\n"
+    "std::string_view ${name}() { return {reinterpret_cast<const char*>(${name}_bytes), sizeof ${name}_bytes}; }\n")
+endforeach()
+string(APPEND source "}  // namespace strata::tools\n")
+file(WRITE ${OUT} "${source}")

@@ -1,0 +1,11 @@
+// tools/strata/report/page_parts.h - the files of page/ as text, put into the program by the build.
+#pragma once
+#include <string_view>
+
+namespace strata::tools {
+
+[[nodiscard]] std::string_view page_html();
+[[nodiscard]] std::string_view page_css();
+[[nodiscard]] std::string_view page_js();
+
+}  // namespace strata::tools

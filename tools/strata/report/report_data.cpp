@@ -1,0 +1,264 @@
+#include "tools/strata/report/report_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "pipeline/device/check.h"
+#include "rasterizer/base/input_error.h"
+#include "tools/oracle/history_report.h"
+#include "tools/strata/progress.h"
+#include "tools/strata/render/stats.h"
+#include "tools/strata/report/survey.h"
+
+namespace strata::tools {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// Of the page's bytes: fragments, with 30 bytes each of which about 20 are left, and whole histories.
+constexpr std::size_t most_fragments = 150'000, most_history_bytes = std::size_t{5} << 19;
+// Lines of histories that are held at once, a kilobyte each.
+constexpr std::size_t most_lines = 150'000;
+
+struct Kept {
+    std::uint32_t nearest = 0;                  // of every pixel that has as many
+    std::vector<std::uint32_t> fragments{};     // their numbers in the columns
+    std::vector<std::uint16_t> count{}, all{};  // of each pixel: kept, and all
+};
+
+std::size_t number_with(const Columns& columns, std::uint32_t nearest) {
+    std::size_t number = 0;
+    for (std::size_t pixel = 0; pixel + 1 < columns.first.size(); ++pixel)
+        number += std::min(columns.first[pixel + 1] - columns.first[pixel], nearest);
+    return number;
+}
+
+// The nearest fragments of every pixel, as many as there is room for.
+Kept keep(const Columns& columns) {
+    Kept kept;
+    for (std::size_t pixel = 0; pixel + 1 < columns.first.size(); ++pixel)
+        kept.nearest = std::max(kept.nearest, columns.first[pixel + 1] - columns.first[pixel]);
+    while (kept.nearest > 1 && number_with(columns, kept.nearest) > most_fragments) --kept.nearest;
+    for (std::size_t pixel = 0; pixel + 1 < columns.first.size(); ++pixel) {
+        const std::uint32_t all = columns.first[pixel + 1] - columns.first[pixel], count = std::min(all, kept.nearest);
+        kept.all.push_back(static_cast<std::uint16_t>(std::min<std::uint32_t>(all, 0xffff)));
+        kept.count.push_back(static_cast<std::uint16_t>(count));
+        for (std::uint32_t f = 0; f < count; ++f) kept.fragments.push_back(columns.first[pixel] + f);
+    }
+    return kept;
+}
+
+template <class Word, class Of>
+std::vector<Word> of_kept(const Kept& kept, const Of& of) {
+    std::vector<Word> values;
+    values.reserve(kept.fragments.size());
+    for (const std::uint32_t f : kept.fragments) values.push_back(of(f));
+    return values;
+}
+
+ordered_json fragments_of(const Columns& columns, const Kept& kept, Blobs& blobs) {
+    const auto words = [&](const auto& of) { return blobs.add(of_kept<std::uint32_t>(kept, of)); };
+    ordered_json document{
+        {"count", blobs.add(kept.count)},
+        {"all", blobs.add(kept.all)},
+        {"z", words([&](std::uint32_t f) { return std::bit_cast<std::uint32_t>(columns.fragments[f].shader_z); })},
+        {"code", words([&](std::uint32_t f) { return columns.fragments[f].code; })},
+        {"primitive", words([&](std::uint32_t f) { return columns.fragments[f].primitive; })},
+        {"arrival", words([&](std::uint32_t f) { return columns.arrival[f]; })},
+        {"color", ordered_json::array()}};
+    for (std::size_t c = 0; c < 4; ++c)
+        document["color"].push_back(
+            words([&](std::uint32_t f) { return std::bit_cast<std::uint32_t>(columns.fragments[f].color[c]); }));
+    return document;
+}
+
+// Which meshes the numbers of triangles belong to, in the order of submission.
+ordered_json meshes_of(const RunOptions& options, const pipeline::DrawList& list) {
+    ordered_json meshes = ordered_json::array();
+    std::uint64_t first = 0;
+    for (const pipeline::Instance& instance : list.instances) {
+        const bool is_drawn = options.render.alpha.has_value() ||
+                              list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
+        if (!is_drawn) continue;
+        const pipeline::Mesh& mesh = list.meshes[instance.mesh];
+        meshes.push_back({{"name", mesh.name}, {"first", first}});
+        first += mesh.indices.size() / 3;
+    }
+    return meshes;
+}
+
+ordered_json picture_of(const pipeline::Image& image, Blobs& blobs) {
+    return {{"format", pipeline::info(image.format).name},
+            {"channels", pipeline::info(image.format).channels},
+            {"codes", blobs.add(image.codes)},
+            {"digest", pipeline::digest(image)}};
+}
+
+ordered_json algorithm_of(const peeling::Algorithm& algorithm) {
+    return {{"name", algorithm.name},       {"summary", algorithm.summary},     {"paper", algorithm.paper},
+            {"section", algorithm.section}, {"passes", algorithm.pass_formula}, {"exact", algorithm.exact}};
+}
+
+class Builder {
+  public:
+    Builder(const RunOptions& options, const Session& session)
+        : options_{options},
+          session_{session},
+          renderer_{session.scene.list, session.view, session.profile, options.render} {}
+
+    ReportData build() {
+        ordered_json& document = data_.document;
+        document = {
+            {"scene", options_.scene},
+            {"version", STRATA_VERSION},
+            {"profile", session_.profile.name},
+            {"width", options_.render.width},
+            {"height", options_.render.height},
+            {"depth_format", pipeline::info(pipeline::target_format(renderer_.depth_format())).name},
+            {"colour", options_.scene_options.color_space == pipeline::ColorSpace::linear ? "linear" : "encoded"},
+            {"most_bytes", most_bytes},
+            {"left_out", ordered_json::array()},
+            {"meshes", meshes_of(options_, session_.scene.list)},
+            {"fragments", nullptr},
+            {"history", nullptr},
+            {"algorithms", ordered_json::array()}};
+        add_fragments();
+        for (const peeling::Algorithm* algorithm : options_.algorithms) add(*algorithm);
+        if (inspected_ != nullptr) add_history(*inspected_);
+        data_.has_run = inspected_ != nullptr;
+        return std::move(data_);
+    }
+
+  private:
+    [[nodiscard]] oracle::RunInput input() const {
+        return {session_.scene.list, session_.view, session_.profile, options_.render};
+    }
+
+    void leave_out(const std::string& sentence) { data_.document["left_out"].push_back(sentence); }
+
+    // By the A-buffer, which every device runs: all fragments, with the depth that this device gives them.
+    void add_fragments() {
+        columns_ = columns_of(
+            renderer_.fragments(*peeling::find_algorithm("a_buffer")).all,
+            static_cast<std::size_t>(options_.render.width) * static_cast<std::size_t>(options_.render.height));
+        kept_ = keep(columns_);
+        data_.document["fragments"] = fragments_of(columns_, kept_, data_.blobs);
+        if (kept_.fragments.size() < columns_.fragments.size())
+            leave_out(fmt::format(
+                "of {} fragments those behind the nearest {} of their pixel, {} in all: layers and "
+                "pixels show the nearest",
+                columns_.fragments.size(), kept_.nearest, columns_.fragments.size() - kept_.fragments.size()));
+    }
+
+    void add(const peeling::Algorithm& algorithm) {
+        Progress progress(algorithm.name);
+        ordered_json entry = algorithm_of(algorithm);
+        entry["command"] = canonical_command("render", options_, algorithm);
+        const peeling::RenderResult result = renderer_.render(algorithm, [&](double share) { progress.show(share); });
+        if (result.outcome == peeling::Outcome::refused) {
+            entry["refusal"] = result.refusal->sentence(session_.profile);
+            data_.document["algorithms"].push_back(std::move(entry));
+            return;
+        }
+        if (inspected_ == nullptr || (algorithm.name == "dual" && inspected_->name != "dual")) inspected_ = &algorithm;
+        entry["refusal"] = nullptr;
+        entry["stats"] = to_row(
+            {&algorithm, result, pipeline::digest(result.frame.color), ""},
+            {.profile = session_.profile.name, .width = options_.render.width, .height = options_.render.height});
+        entry["stats"].erase("seconds");  // the same command gives the same bytes
+        entry["picture"] = picture_of(result.frame.color, data_.blobs);
+        if (!algorithm.is_oracle) add_survey(algorithm, entry);
+        data_.document["algorithms"].push_back(std::move(entry));
+    }
+
+    void add_survey(const peeling::Algorithm& algorithm, ordered_json& entry) {
+        const Survey found = survey(input(), algorithm, columns_);
+        entry["killer"] = data_.blobs.add(found.killer);
+        entry["taken"] = nullptr;
+        if (found.has_taken)
+            entry["taken"] =
+                data_.blobs.add(of_kept<std::uint16_t>(kept_, [&](std::uint32_t f) { return found.taken[f]; }));
+    }
+
+    [[nodiscard]] std::uint32_t count_at(int x, int y) const {
+        const auto pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.render.width) + static_cast<std::size_t>(x);
+        return columns_.first[pixel + 1] - columns_.first[pixel];
+    }
+
+    // Where there are fragments.
+    [[nodiscard]] rasterizer::Rect drawn() const {
+        rasterizer::Rect box{options_.render.width, options_.render.height, 0, 0};
+        for (int y = 0; y < options_.render.height; ++y)
+            for (int x = 0; x < options_.render.width; ++x)
+                if (count_at(x, y) > 0)
+                    box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+        return box;
+    }
+
+    [[nodiscard]] std::size_t lines_in(const rasterizer::Rect& box, std::size_t passes) const {
+        std::size_t lines = 0;
+        for (int y = box.y0; y < box.y1; ++y)
+            for (int x = box.x0; x < box.x1; ++x) lines += (count_at(x, y) + 4) * (passes + 1);
+        return lines;
+    }
+
+    static void shrink(rasterizer::Rect& box) {
+        if (box.width() >= box.height()) {
+            const int cut = std::max(1, box.width() / 4);
+            box.x0 += cut / 2, box.x1 -= cut - cut / 2;
+        } else {
+            const int cut = std::max(1, box.height() / 4);
+            box.y0 += cut / 2, box.y1 -= cut - cut / 2;
+        }
+    }
+
+    // Whole histories of a rectangle in the middle of what is drawn, as large as there is room for.
+    void add_history(const peeling::Algorithm& algorithm) {
+        std::size_t passes = 1;
+        for (const ordered_json& entry : data_.document["algorithms"])
+            if (entry["name"] == algorithm.name) passes = entry["stats"]["geometry_passes"];
+        rasterizer::Rect box = drawn();
+        while (box.width() > 0 && box.height() > 0 && lines_in(box, passes) > most_lines) shrink(box);
+        for (; box.width() > 0 && box.height() > 0; shrink(box))
+            if (try_history(algorithm, box)) return;
+        leave_out("whole histories of pixels: not one has room, or nothing is drawn");
+    }
+
+    bool try_history(const peeling::Algorithm& algorithm, const rasterizer::Rect& box) {
+        std::string text;
+        std::vector<std::uint32_t> begin;
+        for (const oracle::History& history : oracle::explain(input(), algorithm, box)) {
+            begin.push_back(static_cast<std::uint32_t>(text.size()));
+            if (!history.fragments.empty()) text += oracle::to_text(history);
+        }
+        begin.push_back(static_cast<std::uint32_t>(text.size()));
+        if (packed_size(text) > most_history_bytes) return false;
+        data_.document["history"] = {{"algorithm", algorithm.name},
+                                     {"box", {box.x0, box.y0, box.x1, box.y1}},
+                                     {"begin", data_.blobs.add(begin)},
+                                     {"text", data_.blobs.add_text(text)}};
+        const rasterizer::Rect all = drawn();
+        if (box.width() < all.width() || box.height() < all.height())
+            leave_out(fmt::format("whole histories outside columns {} to {} and rows {} to {}", box.x0, box.x1 - 1,
+                                  box.y0, box.y1 - 1));
+        return true;
+    }
+
+    const RunOptions& options_;
+    const Session& session_;
+    peeling::Renderer renderer_;
+    ReportData data_;
+    Columns columns_;
+    Kept kept_;
+    const peeling::Algorithm* inspected_ = nullptr;  // dual where it runs, else the first that does
+};
+
+}  // namespace
+
+ReportData report_data(const RunOptions& options, const Session& session) { return Builder{options, session}.build(); }
+
+}  // namespace strata::tools
