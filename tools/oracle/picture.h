@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "pipeline/formats/format.h"
 #include "tools/oracle/codes.h"
 
 namespace strata::oracle {
@@ -36,6 +37,9 @@ struct Target {
         return value(stored.code, stored.word);
     }
 };
+
+// Of a target's codes.
+[[nodiscard]] Code code_of(pipeline::Format format);
 
 struct Picture {
     std::string file{};
