@@ -55,6 +55,7 @@ void fields(Io& io, O& o) {
     });
     io.texts("sorted", o.sorted);
     auto& raster = o.raster;
+    io.choice("depth_order", raster.depth_order);
     io.choice("clip_depth", raster.clip_depth);
     io.nested("depth_range", raster, [](auto& inner, auto& range) {
         inner.real("near", range.depth_near);

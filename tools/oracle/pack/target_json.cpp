@@ -13,23 +13,6 @@ using pipeline::Image;
 using scenes::Element;
 using scenes::NumberArray;
 
-Element element_of(Format format) noexcept {
-    switch (pipeline::info(format).type) {
-        case ChannelType::unorm8:
-        case ChannelType::stencil: return Element::u1;
-        case ChannelType::half: return Element::f2;
-        case ChannelType::single: return Element::f4;
-        case ChannelType::depth: break;
-    }
-    switch (pipeline::depth_format(format)) {
-        case pipeline::DepthFormat::d16:
-        case pipeline::DepthFormat::d16f: return Element::u2;
-        case pipeline::DepthFormat::d24: return Element::u4;
-        case pipeline::DepthFormat::d32f: break;
-    }
-    return Element::f4;
-}
-
 Image part_of(const Image& image, int x0, int y0) {
     Image part{image.format, std::min(pack_tile_px, image.width - x0), std::min(pack_tile_px, image.height - y0),
                image.samples};
@@ -60,6 +43,23 @@ ordered_json tile_digests(const Image& image) {
 }
 
 }  // namespace
+
+Element element_of(Format format) noexcept {
+    switch (pipeline::info(format).type) {
+        case ChannelType::unorm8:
+        case ChannelType::stencil: return Element::u1;
+        case ChannelType::half: return Element::f2;
+        case ChannelType::single: return Element::f4;
+        case ChannelType::depth: break;
+    }
+    switch (pipeline::depth_format(format)) {
+        case pipeline::DepthFormat::d16:
+        case pipeline::DepthFormat::d16f: return Element::u2;
+        case pipeline::DepthFormat::d24: return Element::u4;
+        case pipeline::DepthFormat::d32f: break;
+    }
+    return Element::f4;
+}
 
 NumberArray as_array(const Image& image) {
     NumberArray array{.element = element_of(image.format),

@@ -14,6 +14,9 @@ namespace strata::oracle {
 
 inline constexpr int pack_tile_px = 16;
 
+// The type of its codes in a file.
+[[nodiscard]] scenes::Element element_of(pipeline::Format format) noexcept;
+
 // The array of a target; and the target again, whose format and samples are known. Nothing where they do not fit.
 [[nodiscard]] scenes::NumberArray as_array(const pipeline::Image& image);
 [[nodiscard]] std::optional<pipeline::Image> as_image(const scenes::NumberArray& array, pipeline::Format format,

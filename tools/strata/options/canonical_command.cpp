@@ -85,6 +85,10 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
     if (render.depth) add(words, "--depth", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
     add_comparison(words, render);
+    if (render.raster.depth_order != rasterizer::DepthOrder::less)
+        add(words, "--depth-order", name_of(depth_orders, render.raster.depth_order));
+    if (render.raster.clip_depth != rasterizer::ClipDepth::minus_one_to_one)
+        add(words, "--clip-depth", name_of(clip_depths, render.raster.clip_depth));
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));

@@ -161,6 +161,10 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
                 "two numbers such as 1,1, each from -16777216 to 16777216"},
                to_polygon_offset);
+    add_choice(app, options.raster.depth_order, "--depth-order", depth_orders,
+               "the depth test that keeps the nearer fragment; greater: reversed depth, near at 1 (default less)");
+    add_choice(app, options.raster.clip_depth, "--clip-depth", clip_depths,
+               "where z of clip space ends (default minus-one-to-one; zero-to-one: glClipControl, Direct3D)");
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
     add_choice(app, options.average_count, "--average-count", count_formats,

@@ -13,6 +13,7 @@ void take_pack_state(RunOptions& options, const std::string& scene) {
     options.profile = folder + "/profile.json";
     options.scene_options.color_space = scenes::color_space_of(folder, manifest);
     options.has_frame_background = true;
+    options.view_convention = {options.render.raster.clip_depth, options.render.raster.depth_order};
 }
 
 }  // namespace strata::tools
