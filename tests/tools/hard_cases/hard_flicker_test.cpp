@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "peeling/registry.h"
+#include "tools/strata/hard_cases/hard_exact.h"
 #include "tools/strata/hard_cases/hard_moved.h"
 
 namespace {

@@ -9,6 +9,7 @@
 #include "peeling/render.h"
 #include "scenes/procedural/hard_cases/build_case.h"
 #include "tests/tools/hard_cases/broken_peel.h"
+#include "tools/strata/hard_cases/hard_exact.h"
 #include "tools/strata/hard_cases/hard_run.h"
 
 namespace {

@@ -2,7 +2,15 @@
 
 #include <algorithm>
 
+#include "tools/strata/hard_cases/hard_exact.h"
+
 namespace strata::tools {
+
+struct PathCase::Frame {
+    ExactCase exact;
+    Seen seen;
+    std::vector<bool> open;
+};
 
 namespace {
 
@@ -34,6 +42,8 @@ PathCase::PathCase(const scenes::HardCase& hard) : scene_{make_hard_case({}, har
         frames_.push_back({std::move(exact), std::move(seen), std::move(open)});
     }
 }
+
+PathCase::~PathCase() = default;
 
 Flicker PathCase::flicker(const std::function<Seen(std::size_t frame)>& seen_at) const {
     Flicker flicker;

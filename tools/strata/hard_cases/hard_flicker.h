@@ -22,16 +22,13 @@ struct Flicker {
 class PathCase {
   public:
     explicit PathCase(const scenes::HardCase& hard);
+    ~PathCase();
     [[nodiscard]] Flicker flicker(const Look& look) const;
     // The visible fragments of `look`, in the order of their exact depths.
     [[nodiscard]] Flicker flicker_of_exact_depths(const Look& look) const;
 
   private:
-    struct Frame {
-        ExactCase exact;
-        Seen seen;
-        std::vector<bool> open;
-    };
+    struct Frame;
     [[nodiscard]] Flicker flicker(const std::function<Seen(std::size_t frame)>& seen_at) const;
 
     scenes::Scene scene_;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tools/strata/hard_cases/hard_exact.h"
+
 namespace strata::tools {
 
 using nlohmann::ordered_json;
@@ -83,15 +85,20 @@ Changes SizeRow::all() const {
 }
 
 MovedCase::MovedCase(const scenes::HardCase& hard)
-    : hard_{&hard}, scene_{make_hard_case({}, hard)}, exact_{hard, scene_, *scene_.own_view}, seen_{exact_.seen()} {
+    : hard_{&hard},
+      scene_{make_hard_case({}, hard)},
+      exact_{std::make_unique<const ExactCase>(hard, scene_, *scene_.own_view)},
+      seen_{exact_->seen()} {
     for (const Move& move : moves_of(scene_))
         draws_.push_back({move, ExactCase{hard, moved(scene_, move), *scene_.own_view}.seen()});
 }
 
+MovedCase::~MovedCase() = default;
+
 std::vector<PixelClass> MovedCase::classes(const Looker& looker, MoveSize size) const {
     const Slack move{.relative = share_of(size)};
     const Slack device{.relative = share_of(size), .pixels = looker.grid, .depth = 2 * looker.depth + 0x1p-22};
-    const std::vector<bool> in_move = exact_.open_pixels(move), in_device = exact_.open_pixels(device);
+    const std::vector<bool> in_move = exact_->open_pixels(move), in_device = exact_->open_pixels(device);
     std::vector<PixelClass> classes;
     for (std::size_t p = 0; p < in_move.size(); ++p)
         classes.push_back(in_move[p]     ? PixelClass::within_move

@@ -17,14 +17,18 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "tools/strata/hard_cases/hard_exact.h"
+#include "scenes/procedural/hard_cases/hard_case.h"
 #include "tools/strata/hard_cases/hard_moves.h"
+#include "tools/strata/hard_cases/hard_seen.h"
 
 namespace strata::tools {
+
+class ExactCase;  // hard_exact.h
 
 // Somebody who draws a scene and says what is seen.
 using Look = std::function<Looked(const scenes::Scene& scene, const pipeline::View& view)>;
@@ -64,6 +68,7 @@ struct StabilityRow {
 class MovedCase {
   public:
     explicit MovedCase(const scenes::HardCase& hard);
+    ~MovedCase();
     [[nodiscard]] StabilityRow stability(const Looker& looker, const Look& look) const;
     [[nodiscard]] const scenes::HardCase& hard() const noexcept { return *hard_; }
     [[nodiscard]] const scenes::Scene& scene() const noexcept { return scene_; }
@@ -78,7 +83,7 @@ class MovedCase {
 
     const scenes::HardCase* hard_;
     scenes::Scene scene_;
-    ExactCase exact_;
+    std::unique_ptr<const ExactCase> exact_;
     Seen seen_;
     std::vector<Draw> draws_;
 };
