@@ -28,3 +28,48 @@ TEST_CASE("the page counts each verdict a device, and tells the first trouble of
     CHECK_THAT(page, Catch::Contains("![coincident](pictures/coincident.png)"));
     CHECK_THAT(page, Catch::Contains("Exact geometry has 3072 visible fragments, 3 at the deepest pixel, 1 layers"));
 }
+
+TEST_CASE(
+    "the page sets two devices side by side, and its sentence has the figures of their rows and names their rules") {
+    const tools::HardSweep sweep{.cases = {scenes::find_hard_case("planes-1-unit")},
+                                 .profiles = {*pipeline::find_profile("geforce3"), *pipeline::find_profile("geforce8"),
+                                              *pipeline::find_profile("llvmpipe")},
+                                 .formats = {pipeline::DepthFormat::d24},
+                                 .algorithms = {peeling::find_algorithm("depth_units")}};
+    const auto moved = [](std::uint64_t device, double depth, std::uint64_t order) {
+        tools::MovedRow row;
+        tools::SizeRow& unit = row.stability.by_size[0];
+        unit.exact = {.gained = 4, .lost = 4, .depth = 0.25};
+        unit.ours[0] = {.gained = 3, .depth = depth / 4};
+        unit.ours[1] = {.lost = device};
+        unit.ours[2] = {.reordered = 2};
+        row.own = {.compared = 1000, .order = order, .coverage = 5};
+        return row;
+    };
+    const tools::Lines lines{to_line(sweep, 0, {}, moved(77, 12, 40)), to_line(sweep, 1, {}, moved(1, 2, 30)),
+                             to_line(sweep, 2, {}, moved(90, 16, 33))};
+    const std::string page = page_of(sweep, lines);
+    // 3 within the move, 77 within the device, 2 beyond: 82 of 8 exact ones.
+    CHECK_THAT(page, Catch::Contains("| geforce3 | d24 | 82 | 8 | 10.25 | 12 | 3 | 77 | 2 | 40 | 5 | stable |\n"));
+    CHECK_THAT(page, Catch::Contains("| llvmpipe | 1 | 0 | 0 | 0 | 33 | 5 |\n"));
+    CHECK_THAT(page, Catch::Contains("At d24 llvmpipe changes 90 times within a step of the device and 2 times beyond, "
+                                     "geforce8 1 and 2 times; along the path llvmpipe flips 33 times in order and 5 in "
+                                     "coverage, geforce8 30 and 5. The reason: llvmpipe begins each plane at the "
+                                     "window's corner"));
+    CHECK_THAT(page,
+               Catch::Contains("llvmpipe moves a depth up to 16 times as far as the exact answer, geforce8 2 times."));
+    const tools::HardSweep chips{.cases = sweep.cases,
+                                 .profiles = {sweep.profiles[0], sweep.profiles[1]},
+                                 .formats = sweep.formats,
+                                 .algorithms = sweep.algorithms};
+    CHECK_THAT(page_of(chips, {lines[0], lines[1]}),
+               Catch::Contains("the grid of geforce3 has steps of 1/16 pixel, that of geforce8 1/256"));
+}
+
+TEST_CASE("a page of cases that are not moved tells nothing of movements") {
+    const tools::HardSweep sweep{.cases = {scenes::find_hard_case("coincident")},
+                                 .profiles = {*pipeline::find_profile("geforce8")},
+                                 .formats = {pipeline::DepthFormat::d24},
+                                 .algorithms = {peeling::find_algorithm("dual")}};
+    CHECK_THAT(page_of(sweep, {to_line(sweep, 0, {})}), !Catch::Contains("oved"));
+}

@@ -3,14 +3,14 @@
 
 #include <catch2/catch.hpp>
 
-#include "peeling/programs/programs.h"
 #include "peeling/registry.h"
-#include "pipeline/region/region.h"
+#include "tests/tools/hard_cases/broken_peel.h"
 
 namespace {
 
 using namespace strata;
 using namespace strata::pipeline;
+using strata::test::peel_by_less;
 using tools::HardMachine;
 using tools::HardRow;
 using tools::HardVerdict;
@@ -20,42 +20,6 @@ HardRow run(const char* hard, const char* profile, DepthFormat format, const pee
 }
 HardRow run(const char* hard, const char* profile, DepthFormat format, const char* algorithm) {
     return run(hard, profile, format, *peeling::find_algorithm(algorithm));
-}
-
-// Front to back with < where <= belongs: a fragment does not lie behind its own depth, so that the nearest layer is
-// found again and again. Four passes.
-void peel_by_less(peeling::Algorithm& algorithm) {
-    algorithm.name = "by-less";
-    algorithm.closed_form = nullptr;
-    algorithm.run = [](Region& region) {
-        const Target result = region.make_color();
-        Target peeled = region.make_depth(), nearest = region.make_depth();
-        region.copy(region.opaque_color(), result);
-        for (int number = 0; number < 4; ++number) {
-            region.begin_iteration();
-            region.copy(region.opaque_depth(), nearest);
-            PassState state;
-            state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
-            state.depth_target = nearest;
-            if (number > 0) state.reads[0] = peeled;
-            static_cast<void>(region.draw(state, [number](const FragmentBatch& in, const Loads& own, Outputs& out) {
-                for (std::size_t i = 0; number > 0 && i < peeling::lanes(in); ++i)
-                    if (in.code[i] < own.depth(0)[i]) out.discard(static_cast<int>(i));
-            }));
-            PassState show;
-            show.color[0] = result;
-            show.reads = {nearest, region.opaque_depth()};
-            static_cast<void>(region.full_screen(show, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-                out.traced = true;
-                for (std::size_t i = 0; i < peeling::lanes(in); ++i) {
-                    out.side[i] = own.depth(0)[i] != own.depth(1)[i] ? Side::front : Side::none;
-                    out.key[i] = own.depth(0)[i];
-                }
-            }));
-            std::swap(peeled, nearest);
-        }
-        region.publish(result);
-    };
 }
 
 }  // namespace

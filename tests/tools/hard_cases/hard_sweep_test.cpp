@@ -64,3 +64,17 @@ TEST_CASE("a sweep of hard cases in which every combination is refused has exit 
     sweep.cases = {scenes::find_hard_case("reversed-range")};
     CHECK(run_sweep(hard_work(sweep), folder.path, {}) == 2);
 }
+
+TEST_CASE("a combination that a movement shows to be unstable is told, and fails the sweep") {
+    tools::HardSweep sweep = small_sweep();
+    tools::MovedRow moved;
+    const auto line = [&] { return to_line(sweep, 0, {}, moved); };
+    CHECK_FALSE(tools::has_failed({line()}));
+    moved.stability.verdict = tools::StabilityVerdict::breaks;
+    CHECK_FALSE(tools::has_failed({line()}));
+    moved.stability.verdict = tools::StabilityVerdict::unstable;
+    moved.stability.reasons = {"everything moves", "at once"};
+    CHECK(tools::has_failed({line()}));
+    CHECK_THAT(summary(sweep, {line()}),
+               Catch::Contains("unstable: frame-1x1 by dual on geforce3 at d16: everything moves; at once\n"));
+}

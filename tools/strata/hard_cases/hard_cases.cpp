@@ -26,7 +26,7 @@ struct HardOptions {
     std::vector<std::string> algorithms;  // empty: all
     Shard shard;
     int merge = 0;
-    bool list = false, json = false, dry_run = false;
+    bool list = false, json = false, dry_run = false, moves = true;
 };
 
 int list_cases(const HardOptions& options) {
@@ -135,6 +135,9 @@ Command add_hard_cases(CLI::App& root) {
                {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
     add_option(*app, options->merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},
                to_positive);
+    app->add_flag_callback(
+        "--no-moves", [options] { options->moves = false; },
+        "neither stability nor flicker of the cases that name them");
     app->add_flag("--dry-run", options->dry_run, "print the cells and how long they would take");
     app->footer(
         footer("  strata hard-cases --list\n"

@@ -10,6 +10,7 @@
 #include "peeling/render.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
+#include "tools/strata/hard_cases/hard_moved_page.h"
 
 namespace strata::tools {
 
@@ -78,7 +79,7 @@ std::string section(const HardSweep& sweep, const scenes::HardCase& hard, bool h
             if ((*line)["profile"] == profile.name) count(*line, own);
         text += page_row(profile.name, own);
     }
-    return text + troubles(lines);
+    return text + troubles(lines) + moved_tables(sweep, lines);
 }
 
 std::string in_folder(const std::string& folder, const std::string& name) {
@@ -101,7 +102,7 @@ std::string page_of(const HardSweep& sweep, const Lines& lines) {
         "{} scenes by {} algorithms on {} devices at {} depth formats. Pictures are the exact A-buffer of the profile "
         "ideal.\n\n",
         sweep.cases.size(), sweep.algorithms.size(), sweep.profiles.size(), sweep.formats.size());
-    text += page_head("") + page_row("all", all);
+    text += page_head("") + page_row("all", all) + moved_overview(sweep, lines);
     for (const scenes::HardCase* hard : sweep.cases)
         text += section(sweep, *hard, !is_refused(*hard), by_case[std::string{hard->name}]);
     return text;

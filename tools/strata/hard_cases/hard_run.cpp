@@ -27,15 +27,28 @@ std::string_view name_of(HardVerdict verdict) noexcept {
     return "";  // unreachable: the enum is closed
 }
 
-// A renderer that no bit of the result may depend on.
-struct HardMachine::Way {
-    std::string name;
-    std::unique_ptr<peeling::Renderer> renderer;
-};
+bool misplaces(Fault fault) noexcept {
+    switch (fault) {
+        case Fault::endless:
+        case Fault::early_end:
+        case Fault::truncated:
+        case Fault::as_published:
+        case Fault::buffer_overflow:
+        case Fault::stencil_saturated:
+        case Fault::unlike_depths:
+        case Fault::out_of_order: return true;
+        case Fault::half_saturated:
+        case Fault::merged_ties:
+        case Fault::depth_quantized:
+        case Fault::non_finite_vertices:
+        case Fault::count_limit:
+        case Fault::equal_at_bound:
+        case Fault::emulator_extension: return false;
+    }
+    return false;  // unreachable: the enum is closed
+}
 
-namespace {
-
-peeling::RenderOptions options_of(const scenes::HardCase& hard, std::optional<DepthFormat> depth) {
+peeling::RenderOptions hard_options(const scenes::HardCase& hard, std::optional<DepthFormat> depth) {
     peeling::RenderOptions options;
     options.width = hard.width;
     options.height = hard.height;
@@ -45,6 +58,14 @@ peeling::RenderOptions options_of(const scenes::HardCase& hard, std::optional<De
     options.raster.depth_far = hard.depth_far;
     return options;
 }
+
+// A renderer that no bit of the result may depend on.
+struct HardMachine::Way {
+    std::string name;
+    std::unique_ptr<peeling::Renderer> renderer;
+};
+
+namespace {
 
 // Names and settings, the default way first.
 std::vector<std::pair<std::string, peeling::RenderOptions>> ways_of(const peeling::RenderOptions& options) {
@@ -81,26 +102,8 @@ bool has(const std::vector<Diagnostic>& all, Fault fault) {
 
 // Whether a diagnostic that explains fragments in wrong places names exactly so many pixels.
 bool is_named(const std::vector<Diagnostic>& all, std::uint64_t pixels) {
-    return std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) {
-        switch (d.fault) {
-            case Fault::endless:
-            case Fault::early_end:
-            case Fault::truncated:
-            case Fault::as_published:
-            case Fault::buffer_overflow:
-            case Fault::stencil_saturated:
-            case Fault::unlike_depths:
-            case Fault::out_of_order: return d.pixels == pixels;
-            case Fault::half_saturated:
-            case Fault::merged_ties:
-            case Fault::depth_quantized:
-            case Fault::non_finite_vertices:
-            case Fault::count_limit:
-            case Fault::equal_at_bound:
-            case Fault::emulator_extension: return false;
-        }
-        return false;  // unreachable: the enum is closed
-    });
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Diagnostic& d) { return misplaces(d.fault) && d.pixels == pixels; });
 }
 
 // The verdict only rises.
@@ -176,7 +179,7 @@ HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& prof
     : hard_{hard},
       profile_{profile},
       scene_{make_hard_case({}, hard)},
-      options_{options_of(hard, depth)},
+      options_{hard_options(hard, depth)},
       truth_{std::make_unique<const HardTruth>(scene_, profile_, options_)} {
     for (auto& [name, options] : ways_of(options_))
         ways_.push_back({name, std::make_unique<peeling::Renderer>(scene_.list, *scene_.own_view, profile_, options)});
@@ -234,7 +237,7 @@ HardRow HardMachine::run(const peeling::Algorithm& algorithm) {
 peeling::RenderResult picture_of(const scenes::HardCase& hard, const DeviceProfile& profile,
                                  const peeling::Algorithm& algorithm) {
     const scenes::Scene scene = make_hard_case({}, hard);
-    peeling::Renderer renderer{scene.list, *scene.own_view, profile, options_of(hard, {})};
+    peeling::Renderer renderer{scene.list, *scene.own_view, profile, hard_options(hard, {})};
     return renderer.render(algorithm);
 }
 

@@ -17,6 +17,7 @@
 // Tests    tests/tools/hard_cases/hard_run_test.cpp
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,13 @@ class HardMachine {
     std::unique_ptr<const HardTruth> truth_;
     std::vector<Way> ways_;
 };
+
+// The frame, the depth range and one thread: how every machine sees the case.
+[[nodiscard]] peeling::RenderOptions hard_options(const scenes::HardCase& hard,
+                                                  std::optional<pipeline::DepthFormat> depth);
+
+// Whether the fault explains fragments in wrong places.
+[[nodiscard]] bool misplaces(pipeline::Fault fault) noexcept;
 
 // The picture and everything else of the default run, for who wants to look at it.
 [[nodiscard]] peeling::RenderResult picture_of(const scenes::HardCase& hard, const pipeline::DeviceProfile& profile,

@@ -41,7 +41,8 @@ ordered_json hard_description(const HardSweep& sweep, std::size_t number) {
             {"case", cell.hard->name},
             {"profile", cell.profile->name},
             {"depth", name_of(depth_formats, cell.format)},
-            {"algorithm", cell.algorithm->name}};
+            {"algorithm", cell.algorithm->name},
+            {"moves", sweep.moves && cell.hard->is_moved && is_moved(*cell.algorithm)}};
 }
 
 ordered_json counts_of(const Composited& found) {
@@ -61,7 +62,21 @@ ordered_json faults_of(const std::vector<pipeline::Diagnostic>& diagnostics) {
 std::vector<std::string> hard_keys() {
     return {"cell",    "case",       "profile", "depth",       "algorithm",  "outcome",
             "refusal", "verdict",    "reasons", "fragments",   "difference", "difference_at_ties",
-            "bound",   "nan_values", "unlike",  "diagnostics", "digest"};
+            "bound",   "nan_values", "unlike",  "diagnostics", "digest",     "stability",
+            "flicker"};
+}
+
+void add_moved_columns(std::vector<std::string>& columns) {
+    columns.emplace_back("/stability/verdict");
+    for (const MoveSize size : move_sizes)
+        for (const char* part : {"exact", "ours", "amplification", "within_move", "within_device", "beyond"})
+            for (const char* figure : {"gained", "lost", "reordered", "color", "depth"})
+                columns.push_back(fmt::format("/stability/{}/{}/{}", name_of(size), part, figure));
+    for (const char* figure : {"/stability/permuted", "/stability/permuted_ties", "/flicker/compared", "/flicker/order",
+                               "/flicker/coverage"})
+        columns.emplace_back(figure);
+    for (const auto& path : depth_paths()) columns.push_back(fmt::format("/flicker/paths/{}/order", path.name));
+    columns.emplace_back("/flicker/paths/exact_unstored/order");
 }
 
 std::vector<std::string> hard_columns() {
@@ -71,6 +86,7 @@ std::vector<std::string> hard_columns() {
     for (const auto& [key, value] : counts.items()) columns.push_back("/fragments/" + key);
     for (const char* key : {"/difference", "/difference_at_ties", "/bound", "/nan_values", "/digest"})
         columns.emplace_back(key);
+    add_moved_columns(columns);
     return columns;
 }
 
@@ -78,7 +94,16 @@ std::vector<std::string> hard_columns() {
 struct HardCache {
     std::size_t group = 0;
     std::optional<HardMachine> machine;
+    const scenes::HardCase* hard = nullptr;
+    std::optional<MovedMachine> moved;
 };
+
+std::optional<MovedRow> moved_row(const HardSweep& sweep, const HardCell& cell, const HardRow& row, HardCache& cache) {
+    if (!sweep.moves || !cell.hard->is_moved || !is_moved(*cell.algorithm) || !row.refusal.empty()) return {};
+    if (cache.hard != cell.hard) cache.moved.emplace(*cell.hard);
+    cache.hard = cell.hard;
+    return cache.moved->run(*cell.profile, cell.format, *cell.algorithm, row);
+}
 
 Measured hard_measured(const HardSweep& sweep, std::size_t number, HardCache& cache) {
     const auto start = std::chrono::steady_clock::now();
@@ -87,14 +112,16 @@ Measured hard_measured(const HardSweep& sweep, std::size_t number, HardCache& ca
         cache.machine.emplace(*cell.hard, *cell.profile, cell.format);
         cache.group = cell.group;
     }
-    const ordered_json line = to_line(sweep, number, cache.machine->run(*cell.algorithm));
+    const HardRow row = cache.machine->run(*cell.algorithm);
+    const ordered_json line = to_line(sweep, number, row, moved_row(sweep, cell, row, cache));
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     return {.line = line, .timing = {{"cell", number}, {"seconds", taken.count()}}, .seconds = taken.count()};
 }
 
 }  // namespace
 
-ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row) {
+ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row,
+                     const std::optional<MovedRow>& moved) {
     ordered_json line = hard_description(sweep, number);
     const bool ran = row.refusal.empty();
     const auto if_ran = [&](const ordered_json& value) { return ran ? value : ordered_json(nullptr); };
@@ -110,6 +137,8 @@ ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& 
     line["unlike"] = if_ran(row.unlike);
     line["diagnostics"] = if_ran(faults_of(row.diagnostics));
     line["digest"] = if_ran(row.digest);
+    line["stability"] = moved ? to_json(moved->stability) : ordered_json(nullptr);
+    line["flicker"] = moved ? flicker_json(*moved) : ordered_json(nullptr);
     return line;
 }
 
@@ -125,9 +154,28 @@ Work hard_work(const HardSweep& sweep) {
             .alike = [&sweep](std::size_t i) { return std::string{hard_cell(sweep, i).hard->name}; }};
 }
 
+namespace {
+
+bool is_unstable(const ordered_json& line) {
+    return !line["stability"].is_null() && line["stability"]["verdict"] == name_of(StabilityVerdict::unstable);
+}
+
+// What a reader has to look at: the combination and all reasons.
+std::string failure_of(const ordered_json& line, const std::string& word, const ordered_json& reasons) {
+    std::string text = fmt::format("{}: {} by {} on {} at {}:", word, line["case"].get<std::string>(),
+                                   line["algorithm"].get<std::string>(), line["profile"].get<std::string>(),
+                                   line["depth"].get<std::string>());
+    for (const auto& reason : reasons) text += " " + reason.get<std::string>() + ";";
+    text.back() = '\n';
+    return text;
+}
+
+}  // namespace
+
 bool has_failed(const Lines& lines) {
-    return std::any_of(lines.begin(), lines.end(),
-                       [](const ordered_json& line) { return line["verdict"] == name_of(HardVerdict::failed); });
+    return std::any_of(lines.begin(), lines.end(), [](const ordered_json& line) {
+        return line["verdict"] == name_of(HardVerdict::failed) || is_unstable(line);
+    });
 }
 
 std::string summary(const HardSweep& sweep, const Lines& lines) {
@@ -148,12 +196,8 @@ std::string summary(const HardSweep& sweep, const Lines& lines) {
     }
     std::string text = to_text(table);
     for (const ordered_json& line : lines) {
-        if (line["verdict"] != name_of(HardVerdict::failed)) continue;
-        text += fmt::format("failed: {} by {} on {} at {}:", line["case"].get<std::string>(),
-                            line["algorithm"].get<std::string>(), line["profile"].get<std::string>(),
-                            line["depth"].get<std::string>());
-        for (const auto& reason : line["reasons"]) text += " " + reason.get<std::string>() + ";";
-        text.back() = '\n';
+        if (line["verdict"] == name_of(HardVerdict::failed)) text += failure_of(line, "failed", line["reasons"]);
+        if (is_unstable(line)) text += failure_of(line, "unstable", line["stability"]["reasons"]);
     }
     return text;
 }

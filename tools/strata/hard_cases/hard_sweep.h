@@ -6,10 +6,11 @@
 // Tests    tests/tools/hard_cases/hard_sweep_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "tools/strata/hard_cases/hard_run.h"
+#include "tools/strata/hard_cases/hard_moved.h"
 #include "tools/strata/sweep/sweep.h"
 
 namespace strata::tools {
@@ -19,17 +20,19 @@ struct HardSweep {
     std::vector<pipeline::DeviceProfile> profiles;
     std::vector<pipeline::DepthFormat> formats;
     std::vector<const peeling::Algorithm*> algorithms;
+    bool moves = true;  // stability and flicker of the cases that name them (hard_moved.h)
 };
 
-// One line. The keys up to `algorithm` are known beforehand.
-[[nodiscard]] nlohmann::ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row);
+// One line. The keys up to `moves` are known beforehand.
+[[nodiscard]] nlohmann::ordered_json to_line(const HardSweep& sweep, std::size_t number, const HardRow& row,
+                                             const std::optional<MovedRow>& moved = {});
 
 // Cells one after the other share what is prepared for a case, profile and format. `sweep` must outlive it.
 [[nodiscard]] Work hard_work(const HardSweep& sweep);
 
-// A row a case, how many combinations of it have which verdict; then every combination that failed.
+// A row a case, how many combinations of it have which verdict; then every combination that failed or is unstable.
 [[nodiscard]] std::string summary(const HardSweep& sweep, const Lines& lines);
-// Whether one of them failed.
+// Whether one of them failed or is unstable.
 [[nodiscard]] bool has_failed(const Lines& lines);
 
 }  // namespace strata::tools

@@ -1,0 +1,106 @@
+// The model: rational arithmetic over the corners (tests/support/exact_fragments.h), which shares no function with the code.
+#include "tools/strata/hard_cases/hard_exact.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/support/exact_fragments.h"
+#include "tools/strata/hard_cases/hard_moves.h"
+
+namespace {
+
+using namespace strata;
+using tools::ExactCase;
+using tools::Seen;
+using tools::SeenPixel;
+using RationalPixels = std::vector<std::vector<testing::ExactFragment>>;
+
+RationalPixels by_rationals(const scenes::HardCase& hard, const scenes::Scene& scene) {
+    return testing::ExactScene{scene, hard}.visible();
+}
+
+// Every fragment is there, and none else; a nearer one never has a later place.
+bool is_answer(const SeenPixel& seen, std::vector<testing::ExactFragment> exact) {
+    std::ranges::sort(exact, {}, &testing::ExactFragment::triangle);
+    if (seen.fragments.size() != exact.size()) return false;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        if (seen.fragments[i].primitive != exact[i].triangle) return false;
+        for (std::size_t k = 0; k < i; ++k) {
+            const int order = seen.fragments[i].place - seen.fragments[k].place;
+            if (exact[i].depth < exact[k].depth   ? order >= 0
+                : exact[i].depth > exact[k].depth ? order <= 0
+                                                  : order != 0)
+                return false;
+        }
+    }
+    return true;
+}
+
+// The same triangles in the same order.
+bool is_same_answer(std::vector<testing::ExactFragment> a, std::vector<testing::ExactFragment> b) {
+    const auto near_to_far = [](const testing::ExactFragment& x, const testing::ExactFragment& y) {
+        return x.depth != y.depth ? x.depth < y.depth : x.triangle < y.triangle;
+    };
+    std::ranges::sort(a, near_to_far);
+    std::ranges::sort(b, near_to_far);
+    return std::ranges::equal(a, b, {}, &testing::ExactFragment::triangle, &testing::ExactFragment::triangle);
+}
+
+}  // namespace
+
+TEST_CASE("the answer that movements are measured from is that of rational arithmetic, ties included", "[slow]") {
+    int cases = 0;
+    for (const scenes::HardCase& hard : scenes::hard_cases()) {
+        if (!hard.is_moved) continue;
+        INFO(hard.name);
+        ++cases;
+        const scenes::Scene scene = make_hard_case({}, hard);
+        const Seen seen = ExactCase{hard, scene, *scene.own_view}.seen();
+        const RationalPixels exact = by_rationals(hard, scene);
+        REQUIRE(seen.size() == exact.size());
+        int wrong = 0;
+        for (std::size_t p = 0; p < seen.size(); ++p)
+            if (!is_answer(seen[p], exact[p])) ++wrong;
+        CHECK(wrong == 0);
+    }
+    CHECK(cases >= 20);
+}
+
+TEST_CASE("no movement changes the rational answer at a pixel that is not open to it, and few pixels are", "[slow]") {
+    int changed_open = 0;
+    for (const char* name : {"crossing-along-a-row", "rotated-quad", "through-near-and-far", "planes-1-unit",
+                             "opaque-crossing", "cyclic-overlap"}) {
+        INFO(name);
+        const scenes::HardCase& hard = *scenes::find_hard_case(name);
+        const scenes::Scene scene = make_hard_case({}, hard);
+        const RationalPixels before = by_rationals(hard, scene);
+        for (const tools::MoveSize size : tools::move_sizes) {
+            const auto open = ExactCase{hard, scene, *scene.own_view}.open_pixels({.relative = share_of(size)});
+            CHECK(std::ranges::count(open, true) < static_cast<std::ptrdiff_t>(open.size()) / 8);
+            for (const std::uint64_t seed : {3U, 4U}) {
+                const RationalPixels after = by_rationals(hard, tools::moved(scene, {size, seed}));
+                int wrong = 0;
+                for (std::size_t p = 0; p < open.size(); ++p)
+                    if (!is_same_answer(before[p], after[p])) ++(open[p] ? changed_open : wrong);
+                CHECK(wrong == 0);
+            }
+        }
+    }
+    // The movements do change something, so that the first count could have been other than 0.
+    CHECK(changed_open > 100);
+}
+
+TEST_CASE("triangles of the cases that are moved have one colour each, which the exact picture blends") {
+    for (const scenes::HardCase& hard : scenes::hard_cases()) {
+        if (!hard.is_moved) continue;
+        const scenes::Scene scene = make_hard_case({}, hard);
+        for (const pipeline::Mesh& mesh : scene.list.meshes)
+            for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+                REQUIRE(mesh.colors[mesh.indices[i]] == mesh.colors[mesh.indices[i - i % 3]]);
+    }
+    // Colours of build_case.h: two layers of alpha 1/2 over black, the second plane in front.
+    const scenes::HardCase& hard = *scenes::find_hard_case("planes-1-unit");
+    const scenes::Scene scene = make_hard_case({}, hard);
+    const double front = 0.875, back = 0.5;  // red of the colours 2 and 1
+    CHECK(ExactCase{hard, scene, *scene.own_view}.seen()[33].color[0] == 0.5 * front + 0.25 * back);
+}

@@ -1,0 +1,97 @@
+// The model: lookers whose flips are known, and counts of fragments by the exact answer.
+#include "tools/strata/hard_cases/hard_flicker.h"
+
+#include <catch2/catch.hpp>
+#include <memory>
+
+#include "peeling/registry.h"
+#include "tools/strata/hard_cases/hard_exact.h"
+#include "tools/strata/hard_cases/hard_moved.h"
+
+namespace {
+
+using namespace strata;
+using tools::Flicker;
+using tools::Look;
+using tools::Looked;
+using tools::PathCase;
+
+const scenes::HardCase& hard_named(const char* name) { return *scenes::find_hard_case(name); }
+
+Look look_exactly(const scenes::HardCase& hard) {
+    return [&hard](const scenes::Scene& scene, const pipeline::View& view) {
+        return Looked{.seen = tools::ExactCase{hard, scene, view}.seen(), .refusal = {}};
+    };
+}
+
+}  // namespace
+
+TEST_CASE("the exact answer never flips where it stays, and pixels are compared in 63 pairs of frames") {
+    const scenes::HardCase& hard = hard_named("crossing-between-rows");
+    const Flicker flicker = PathCase{hard}.flicker(look_exactly(hard));
+    CHECK(flicker.order == 0);
+    CHECK(flicker.coverage == 0);
+    // All but some that the planes' line and the square's diagonal pass.
+    CHECK(flicker.compared <= 63 * 1024);
+    CHECK(flicker.compared > 63 * 1024 * 9 / 10);
+}
+
+TEST_CASE("one who turns all layers round in every second frame flips in order wherever two are seen") {
+    const scenes::HardCase& hard = hard_named("crossing-between-rows");
+    const auto frame = std::make_shared<int>(0);
+    const Look turning = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
+        Looked looked = look_exactly(hard)(scene, view);
+        if (++*frame % 2 != 0) return looked;
+        for (auto& pixel : looked.seen)
+            for (auto& f : pixel.fragments) f.place = -f.place + 9;
+        return looked;
+    };
+    const PathCase path{hard};
+    const Flicker flicker = path.flicker(turning);
+    CHECK(flicker.coverage == 0);
+    CHECK(flicker.compared == path.flicker(look_exactly(hard)).compared);
+    // The camera's shift leaves some pixels at the side with fewer than two fragments.
+    CHECK(flicker.order > flicker.compared * 9 / 10);
+    // The order by exact depths does not know of it.
+    CHECK(path.flicker_of_exact_depths(turning).order == 0);
+}
+
+TEST_CASE("one who loses a triangle in every second frame flips in coverage, and not in order") {
+    const scenes::HardCase& hard = hard_named("crossing-between-rows");
+    const auto frame = std::make_shared<int>(0);
+    const Look losing = [&hard, frame](const scenes::Scene& scene, const pipeline::View& view) {
+        Looked looked = look_exactly(hard)(scene, view);
+        if (++*frame % 2 != 0) return looked;
+        for (auto& pixel : looked.seen) std::erase_if(pixel.fragments, [](const auto& f) { return f.primitive < 2; });
+        return looked;
+    };
+    const Flicker flicker = PathCase{hard}.flicker(losing);
+    CHECK(flicker.order == 0);
+    CHECK(flicker.coverage > flicker.compared * 9 / 10);
+}
+
+// Stored depths flicker at one unit's distance, whatever the format, and exact ones do not.
+TEST_CASE("a device's stored depths flicker where planes are one unit apart, by path; exact depths never do",
+          "[slow]") {
+    const scenes::HardCase& hard = hard_named("planes-1-unit");
+    const tools::MovedMachine machine{hard};
+    const pipeline::DeviceProfile& eight = *pipeline::find_profile("geforce8");
+    const peeling::Algorithm& peel = *peeling::find_algorithm("front_to_back");
+    const tools::MovedRow row = machine.run(eight, pipeline::DepthFormat::d24, peel, {});
+    CHECK(row.own.order > 0);
+    const nlohmann::ordered_json json = flicker_json(row);
+    CHECK(json["paths"]["float32"]["order"] == row.own.order);
+    CHECK(json["paths"]["float32_plane"]["order"] > row.own.order);
+    CHECK(json["paths"]["window_z"].is_null());  // geforce8 has no such path
+    CHECK(json["paths"]["exact_unstored"]["order"] == 0);
+    CHECK(row.stability.verdict == tools::StabilityVerdict::stable);
+    // Other algorithms have no table of paths.
+    const auto other = machine.run(eight, pipeline::DepthFormat::d24, *peeling::find_algorithm("depth_units"), {});
+    CHECK(flicker_json(other)["paths"].is_null());
+}
+
+TEST_CASE("five algorithms take part in movements") {
+    int moved = 0;
+    for (const peeling::Algorithm& algorithm : peeling::algorithms()) moved += tools::is_moved(algorithm) ? 1 : 0;
+    CHECK(moved == 5);
+}

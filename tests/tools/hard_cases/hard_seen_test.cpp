@@ -1,0 +1,60 @@
+// The model: pixels typed by hand, and the changes that a reader counts in them.
+#include "tools/strata/hard_cases/hard_seen.h"
+
+#include <catch2/catch.hpp>
+
+using strata::tools::SeenPixel;
+using strata::tools::Shown;
+
+namespace {
+
+// Triangle 0 in front of 1, 2 and 3 behind in one layer, 5 lost.
+SeenPixel five_fragments() {
+    return {.fragments = {{0, 0, 0.25}, {1, 1, 0.5}, {2, 2, 0.75}, {3, 2, 0.75}, {5, -1, 0.75}},
+            .layers = 3,
+            .color = {0.5, 0.5, 0.5}};
+}
+
+}  // namespace
+
+TEST_CASE("a pixel that stays changes nothing, and its colour counts in 255ths") {
+    SeenPixel after = five_fragments();
+    CHECK(changes(five_fragments(), after) == strata::tools::Changes{});
+    after.color = {0.5, 0.25, 0.5};
+    CHECK(changes(five_fragments(), after).color == 0.25 * 255);
+    CHECK_FALSE(changes(five_fragments(), after).is_any());
+}
+
+TEST_CASE("a fragment is gained or lost by being composited, not by being there") {
+    SeenPixel after = five_fragments();
+    after.fragments = {{0, 0, 0.25}, {1, -1, 0.5}, {2, 1, 0.5}, {3, 1, 0.75}, {4, 0, 0.25}, {5, 1, 0.75}};
+    after.color = {1, 1, 1};
+    const auto found = changes(five_fragments(), after);
+    CHECK(found.gained == 2);  // 4 and 5
+    CHECK(found.lost == 1);    // 1
+    CHECK(found.reordered == 0);
+    CHECK(found.color == 0);  // fragments came and went
+    CHECK(found.depth == 0.25);
+}
+
+TEST_CASE("pairs are reordered when they change places, fall into one layer, or part") {
+    SeenPixel after = five_fragments();
+    after.fragments[0].place = 1;  // now with 1
+    after.fragments[3].place = 3;  // now behind 2
+    CHECK(changes(five_fragments(), after).reordered == 2);
+    after.fragments[1].place = 0;  // now before 0
+    CHECK(changes(five_fragments(), after).reordered == 2);
+}
+
+TEST_CASE("a pixel shows another if it composites its fragments once each, in its order where that counts") {
+    SeenPixel other = five_fragments();
+    CHECK(shows(other, five_fragments(), Shown::in_order));
+    std::swap(other.fragments[0].place, other.fragments[1].place);
+    CHECK_FALSE(shows(other, five_fragments(), Shown::in_order));
+    CHECK(shows(other, five_fragments(), Shown::in_any_order));
+    other.layers = 4;  // one of them twice
+    CHECK_FALSE(shows(other, five_fragments(), Shown::in_any_order));
+    other = five_fragments();
+    other.fragments[2].place = -1;
+    CHECK_FALSE(shows(other, five_fragments(), Shown::in_any_order));
+}
