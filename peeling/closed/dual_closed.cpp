@@ -203,27 +203,34 @@ void trace_pixel(Region& region, const ColumnBlock& block, std::size_t lane) {
     }
 }
 
-// The histogram from which every query is answered when all blocks have been visited.
-struct DepthCounts {
-    std::vector<std::uint64_t>
-        pixels_by_depths{};  // sixteen counts, one a lane, for every number of depths: so many pixels have it
-
+// How many pixels have how many depths: every query is answered from it when all blocks have been visited.
+class DepthCounts {
+  public:
     // Lane by lane, so that no count waits for the one before it; those of 0 depths are nobody's.
     void add(const ColumnBlock& block) {
-        if (pixels_by_depths.size() <= (block.height + 1) * block_lanes)
-            pixels_by_depths.resize((block.height + 1) * block_lanes);
+        if (by_depths_.size() <= (block.height + 1) * block_lanes) by_depths_.resize((block.height + 1) * block_lanes);
         LaneWords depths = block.visible;
         for (std::size_t lane = 0; lane < block_lanes; ++lane)
             if (block.has_ties[lane] != 0) depths[lane] = distinct(block, lane);
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) ++pixels_by_depths[depths[lane] * block_lanes + lane];
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) ++by_depths_[depths[lane] * block_lanes + lane];
     }
 
+    // Sums from the deepest pixels on, once: an answer must not cost the frame's depth.
+    void finish() {
+        at_least_.assign(by_depths_.size() / block_lanes + 1, 0);
+        for (std::size_t depths = at_least_.size() - 1; depths-- > 0;) {
+            const auto first = by_depths_.begin() + static_cast<std::ptrdiff_t>(depths * block_lanes);
+            at_least_[depths] = std::accumulate(first, first + block_lanes, at_least_[depths + 1]);
+        }
+    }
     // Pixels that have something left after `passes` peels.
     [[nodiscard]] std::uint64_t left(std::size_t passes) const {
-        const std::size_t first = std::min((2 * passes + 1) * block_lanes, pixels_by_depths.size());
-        return std::accumulate(pixels_by_depths.begin() + static_cast<std::ptrdiff_t>(first), pixels_by_depths.end(),
-                               std::uint64_t{0});
+        return at_least_[std::min(2 * passes + 1, at_least_.size() - 1)];
     }
+
+  private:
+    std::vector<std::uint64_t> by_depths_;  // sixteen counts, one a lane, for every number of depths
+    std::vector<std::uint64_t> at_least_;   // pixels of so many depths or more
 };
 
 // The blocks of an rgba8 frame, from fragments to the last quad.
@@ -348,6 +355,7 @@ bool peel_region(Region& region) {
         shortcuts.trace().shorten(traced);
         return false;
     }
+    depths.finish();
     shortcuts.book(of_copy(bytes_a_color, area) + of_clear(bytes_a_color + rg32f_bytes, area),
                    {.copies = 1});  // front, back, min-max
     shortcuts.book(of_initialize(*fragments), {.geometry = 1});
