@@ -3,7 +3,7 @@
 // Rule     Arrivals are put down band by band, a band being whole rows of the region whose fragments fit into a
 //          second-level cache. First the whole region is tried as one band, which most tiles are; a region that does not
 //          fit is counted and cut. One row that exceeds the fragment memory makes the closed form decline.
-// Numbers  At most 65,535 fragments at a pixel, or the form declines, too. A place has 32 bits. Every column takes a
+// Numbers  At most 2^24 - 1 fragments at a pixel, or the form declines, too. A place has 32 bits. Every column takes a
 //          word of 8 bytes for each fragment of the tallest one, and every place 16 bytes of colour: Band::bytes.
 #include "peeling/closed/columns.h"
 
@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t word_bytes = sizeof(std::uint64_t), color_bytes = 4 * sizeof(float);
 constexpr std::size_t cached_bytes = std::size_t{1}
-                                     << 20;  // what a second-level cache holds of them beside the targets
-constexpr std::uint32_t most_ranks = 0xffff;
+                                     << 20;         // what a second-level cache holds of them beside the targets
+constexpr std::uint32_t most_ranks = 0xffffff;      // 2 GiB of words in the narrowest row
 constexpr std::uint64_t most_places = 0xffffff00;   // a place has 32 bits
 constexpr std::uint32_t first_place = block_lanes;  // what rows would write before it, and does not count
 static_assert(rasterizer::row_padding <= block_lanes);

@@ -24,14 +24,17 @@ RenderOptions frame_of_many_tiles() {
     return options;
 }
 
-// `layers` at every pixel, in an order of arrival that is no order of depth.
-FragmentScene deep_scene(std::uint32_t layers) {
+enum class Arrival : std::uint8_t { shuffled, near_to_far, far_to_near };
+
+// `layers` at every pixel, by default in an order of arrival that is no order of depth.
+FragmentScene deep_scene(std::uint32_t layers, Arrival arrival = Arrival::shuffled) {
     FragmentScene scene{16, 16};
     Random random{5};
     for (auto& pixel : scene.pixels) {
         std::vector<std::uint32_t> order(layers);
         for (std::uint32_t k = 0; k < layers; ++k) order[k] = k;
-        std::shuffle(order.begin(), order.end(), random);
+        if (arrival == Arrival::shuffled) std::shuffle(order.begin(), order.end(), random);
+        if (arrival == Arrival::far_to_near) std::reverse(order.begin(), order.end());
         for (const std::uint32_t k : order)
             pixel.fragments.push_back(
                 {static_cast<float>(k + 1) / 2048.0f, {random_channel(random), 0.5f, 0.25f, 0.5f}});
@@ -42,6 +45,9 @@ FragmentScene deep_scene(std::uint32_t layers) {
 const std::vector<Machine> one_layer_peels{{"geforce3", "depth_units"},
                                            {"geforce3", "shadow_map_depth_replace"},
                                            {"geforce8", "layer_peel"},
+                                           {"geforce8", "hybrid"},
+                                           {"geforce8", "batched"},
+                                           {"ideal", "shadow_map"},
                                            {"geforce8_dx101", "dual_independent"}};
 
 }  // namespace
@@ -61,6 +67,36 @@ TEST_CASE("every selection keeps the promise that it makes of its program, on ev
                     CHECK_NOTHROW(
                         render(scene.list, scene.view, {profile, algorithm.name}, options, {.check_selections = true}));
                 }
+}
+
+TEST_CASE("selections by another depth, with codes to spare and as published keep their promises, too", "[slow]") {
+    const TriangleScene scene = random_triangles(92, 24);
+    const auto check = [&](const char* algorithm, const RenderOptions& options, const char* what) {
+        for (const char* profile : {"geforce3", "geforce8", "ideal"}) {
+            if (refusal(*strata::peeling::find_algorithm(algorithm), *find_profile(profile))) continue;
+            INFO(algorithm << " on " << profile << ", " << what);
+            CHECK_NOTHROW(render(scene.list, scene.view, {profile, algorithm}, options, {.check_selections = true}));
+        }
+    };
+    for (const char* algorithm : {"depth_units", "shadow_map", "front_to_back", "dual"}) {
+        RenderOptions by_reference = frame_of_many_tiles();
+        by_reference.reference_path = strata::rasterizer::DepthPath::perspective_rq;
+        check(algorithm, by_reference, "by a reference path");
+        RenderOptions raised = by_reference;
+        raised.compare_epsilon.ulps = 3;
+        check(algorithm, raised, "by a reference path and three codes more");
+        RenderOptions own = frame_of_many_tiles();
+        own.depth = DepthFormat::d24;
+        own.compare_epsilon.ulps = 2;
+        check(algorithm, own, "two codes more");
+        own.compare_epsilon.absolute = 0x1p-12;
+        check(algorithm, own, "a part of the range more");
+    }
+    for (const char* algorithm : {"layer_peel", "hybrid", "coherent_stencil", "coherent_blend", "coherent_ideal"}) {
+        RenderOptions published = frame_of_many_tiles();
+        published.formulation = Formulation::published;
+        check(algorithm, published, "as published");
+    }
 }
 
 TEST_CASE("a selection that its program does not keep is found where selections are checked") {
@@ -100,6 +136,22 @@ TEST_CASE("stencil routing visits every fragment once, however many passes it ta
         CHECK(result.frame.passes.geometry == static_cast<int>((layers + 7) / 8));
         CHECK(result.frame.work.visited == std::uint64_t{layers} * scene.pixels.size());
     }
+}
+
+TEST_CASE("coherent peeling visits what its iterations keep, not all that is left in each", "[slow]") {
+    // Far to near an iteration composites two fragments, after it has found them: six passes visit seven at most.
+    for (const char* algorithm : {"coherent_stencil", "coherent_blend"})
+        for (const std::uint32_t layers : {16u, 64u, 250u}) {
+            const FragmentScene scene = deep_scene(layers, Arrival::far_to_near);
+            RenderOptions options = options_for(scene);
+            options.tile_size = 8;
+            options.audit = false;
+            const auto frame = render(scene, {"geforce8", algorithm}, options).frame;
+            INFO(algorithm << ", " << layers << " layers");
+            CHECK(frame.iterations == static_cast<int>(layers / 2));
+            CHECK(frame.work.visited >= std::uint64_t{layers} * scene.pixels.size());
+            CHECK(frame.work.visited <= std::uint64_t{4} * layers * scene.pixels.size());
+        }
 }
 
 TEST_CASE("the fragments that a peel visits grow with its layers, and not with their square", "[slow]") {
