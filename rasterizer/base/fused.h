@@ -16,7 +16,8 @@ inline namespace strict {
 [[nodiscard]] constexpr float fused_multiply_add(float a, float b, float c) noexcept {
     const TwoTerms sum = two_sum(double{a} * b, double{c});
     auto bits = std::bit_cast<std::uint64_t>(sum.high);
-    if (sum.low != 0.0 && (bits & 1) == 0)
+    // An infinite sum leaves NaN below it, which is neither: the sum stands.
+    if ((sum.low < 0.0 || sum.low > 0.0) && (bits & 1) == 0)
         bits += (sum.low > 0.0) == (sum.high > 0.0) ? 1 : ~std::uint64_t{0};  // to odd
     return static_cast<float>(std::bit_cast<double>(bits));
 }

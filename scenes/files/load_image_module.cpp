@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "rasterizer/base/parallel.h"
+#include "rasterizer/base/thread_loop.h"
 #include "scenes/files/system_error.h"
 
 namespace strata::scenes {
@@ -66,7 +68,20 @@ ImageModuleEntry find_entry() {
                       "expected in " + looked_in + ", found in neither; image files need it");
 }
 
+// OpenImageIO's libraries start threads as they are loaded, and the process aborts or hangs where one is refused: four of
+// its log library, one a processor of OpenEXR (found by counting them, OpenImageIO 2.4 of Debian 12).
+void require_threads() {
+    constexpr int log_threads = 4;
+    constexpr std::size_t usual_stack = std::size_t{8} << 20;
+    const int wanted = log_threads + thread_count(0);
+    if (const int found = threads_to_be_had(wanted, usual_stack); found < wanted)
+        throw SystemError(file_name, "load the image module",
+                          "expected " + std::to_string(wanted) + " threads for the image library, the system gives " +
+                              std::to_string(found));
+}
+
 const ImageModule& load() {
+    require_threads();
     const ImageModule& module = *find_entry()();
     // The table's layout has no version of its own: program and module must come from one build of the project.
     if (module.version != std::string{STRATA_VERSION})

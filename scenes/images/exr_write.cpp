@@ -119,14 +119,14 @@ std::string write_exr(const ByteSink& sink, const PartSource& part) {
     output->set_ioproxy(&proxy);
     if (!write_all(*output, sink.path, {&part, 1})) return output->geterror();
     // Seeking flushes the bytes, so that the file can be read by its name.
-    return sink.seek(0) && rename_color_space(sink.path) ? "" : not_whole;
+    return sink.seek(0) && finish_headers(sink.path) ? "" : not_whole;
 }
 
 std::string write_exr_parts(const std::string& path, std::span<const PartSource> parts) {
     const auto output = OIIO::ImageOutput::create("openexr");
     if (output == nullptr) return "OpenImageIO has no writer of EXR";
     if (!write_all(*output, path, parts)) return output->geterror();
-    return rename_color_space(path) && has_last_row(path) ? "" : not_whole;
+    return finish_headers(path) && has_last_row(path) ? "" : not_whole;
 }
 
 }  // namespace strata::scenes::images

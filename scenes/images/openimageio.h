@@ -26,10 +26,11 @@ class SinkProxy : public OIIO::Filesystem::IOProxy {
 [[nodiscard]] OIIO::ImageSpec base_spec(int width, int height, const std::map<std::string, std::string>& attributes);
 
 // The name that OpenImageIO reads a colour space from is one that its version 2.4 does not write. So a name of the same
-// length is written, and rename_color_space() puts the right one in its place in every header of the file.
+// length is written, and finish_headers() puts the right one in its place in every header of the file. It answers whether
+// the file could be written and holds the places of all its chunks.
 inline constexpr std::string_view color_space_name = "oiio:ColorSpace", color_space_stand_in = "oiio.ColorSpace";
 static_assert(color_space_name.size() == color_space_stand_in.size());
-[[nodiscard]] bool rename_color_space(const std::string& path);
+[[nodiscard]] bool finish_headers(const std::string& path);
 
 [[nodiscard]] std::string write_png(const ByteSink& sink, const StraightPicture& picture);
 [[nodiscard]] std::string write_exr(const ByteSink& sink, const PartSource& part);

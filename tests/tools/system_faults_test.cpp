@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include "tests/tools/program.h"
 
@@ -71,13 +72,18 @@ TEST_CASE("whichever call of the system fails, a command says so and leaves each
     const Files whole = files_under(clean);
     std::string wrong;
     int told = 0;
-    for (const std::string call : {"open", "write", "fsync", "rename", "close"})
+    // A full disk stays full; one that fails once loses what it was given then.
+    struct Fault {
+        std::string call, further;
+        int error;
+    };
+    const auto faults = {Fault{"open", "", EIO},  Fault{"write", "+", ENOSPC}, Fault{"write", "", ENOSPC},
+                         Fault{"fsync", "", EIO}, Fault{"rename", "", EIO},    Fault{"close", "", EIO}};
+    for (const auto& [call, further, error] : faults)
         for (std::ptrdiff_t n = 1; n <= std::count(calls.begin(), calls.end(), call); ++n) {
             const Folder folder;
             for (const std::string& output : writing.outputs) std::ofstream(folder / output) << "old";
-            // A full disk stays full.
-            const std::string fault =
-                call == "write" ? "write:" + std::to_string(n) + "+:" + std::to_string(ENOSPC) : fault_of(call, n, EIO);
+            const std::string fault = call + ":" + std::to_string(n) + further + ":" + std::to_string(error);
             const Ended ended = run_failing(folder, words, fault);
             // Files with times in them cannot be compared.
             Files found = files_under(folder);
@@ -171,4 +177,33 @@ TEST_CASE("threads that the system refuses are fewer threads, a warning and the 
         CHECK(ended.err == (most == 3 ? "" : warning));
         CHECK(digest_in(ended) == digest_in(plain));
     }
+}
+
+TEST_CASE("however few threads the system gives, a picture is written whole, or the command says what it lacks") {
+    const std::string output = GENERATE("out.png", "out.exr");
+    const int threads = GENERATE(1, 4);
+    const Folder clean;
+    const std::vector<std::string> words{
+        "render", "planes:count=2", "--size", "24x16", "--no-audit", "--threads", "1", "-o", output};
+    REQUIRE(run_strata(clean, words).status == 0);
+    const std::string whole = content_of(clean / output);
+    auto asked = words;
+    asked[6] = std::to_string(threads);
+    int written = 0, refused = 0;
+    const int most_of_all = 8 + static_cast<int>(std::thread::hardware_concurrency());
+    for (int most = 0; most <= most_of_all; ++most) {
+        const Folder folder;
+        const Ended ended = run_strata(
+            folder, asked,
+            {.environment = {{"LD_PRELOAD", STRATA_FAILING_CALLS}, {"STRATA_MOST_THREADS", std::to_string(most)}}});
+        INFO(most << " threads beside the first: " << ended.status << " " << ended.err);
+        const bool is_written = ended.status == 0;
+        CHECK((is_written || ended.status == 3));
+        CHECK(std::filesystem::exists(folder / output) == is_written);
+        if (is_written) CHECK(content_of(folder / output) == whole);
+        if (!is_written) CHECK(ended.err.find("threads for the image library") != std::string::npos);
+        ++(is_written ? written : refused);
+    }
+    CHECK(written > 0);
+    CHECK(refused > 0);
 }

@@ -1,8 +1,11 @@
 // The model: the steps of float_planes.h's rule over rationals, each rounded to binary32 by definition.
 #include "rasterizer/values/float_planes.h"
 
+#include <array>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/scene.h"
@@ -148,6 +151,23 @@ TEST_CASE("a fused multiply-add is the host's std::fma, to the bit") {
     }
     CHECK(wrong == 0);
     CHECK(unfused > 1000);
+}
+
+TEST_CASE("a fused multiply-add of every three special values is std::fma's: infinities, zeros, denormals, NaN") {
+    constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+    constexpr std::array<float, 13> special{inf,    -inf,   0.0f,    -0.0f,          1.0f, -1.0f, 3e38f,
+                                            -3e38f, 1e-45f, -1e-45f, 1.1754944e-38f, 3.5f, nan};
+    std::uint64_t wrong = 0, infinite = 0;
+    for (const float a : special)
+        for (const float b : special)
+            for (const float c : special) {
+                const float found = fused_multiply_add(a, b, c), expected = std::fma(a, b, c);
+                const bool same = std::bit_cast<std::uint32_t>(found) == std::bit_cast<std::uint32_t>(expected);
+                wrong += same || (std::isnan(found) && std::isnan(expected)) ? 0 : 1;
+                infinite += std::isinf(expected) ? 1 : 0;
+            }
+    CHECK(wrong == 0);
+    CHECK(infinite > 100);
 }
 
 TEST_CASE("clockwise corners change places, so that either winding of a triangle has planes of its own") {

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Runs the console blocks of a page and compares what they print: blocks.py PAGE PROGRAM_FOLDER
+
+A block is a fence of the language `console`. A line `$ COMMAND` is run by bash, the lines up to the next one are what it prints,
+standard output and standard error together. `...` stands for any text within a line, a line of it alone for any lines. A command that
+a line ends with a backslash goes on in the next one. All blocks of a page run one after the other in one empty folder, with
+PROGRAM_FOLDER first on the path. A command that ends with another status than 0 must say so itself (`|| echo "status $?"`).
+Exit status 1, and what was printed, where a page is wrong; 77 where the program is not there.
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+
+def blocks_of(text):
+    """The console blocks as pairs: the line of the fence, from 1, and the lines within it."""
+    found, block, start = [], None, 0
+    for number, line in enumerate(text.splitlines(), 1):
+        if block is None and line.strip() == "```console":
+            block, start = [], number
+        elif block is not None and line.strip() == "```":
+            found.append((start, block))
+            block = None
+        elif block is not None:
+            block.append(line)
+    if block is not None:
+        raise SystemExit(f"line {start}: a console block without an end")
+    return found
+
+
+def steps_of(first, block):
+    """The commands of a block: line, command, expected lines."""
+    steps, goes_on = [], False
+    for number, line in enumerate(block, first + 1):
+        if goes_on:
+            steps[-1][1] += "\n" + line
+        elif line.startswith("$ "):
+            steps.append([number, line[2:], []])
+        elif steps:
+            steps[-1][2].append(line)
+        else:
+            raise SystemExit(f"line {number}: a console block begins with '$ COMMAND', found {line!r}")
+        goes_on = (goes_on or line.startswith("$ ")) and line.endswith("\\")
+    return steps
+
+
+def pattern_of(lines):
+    """A regular expression of all that is printed."""
+    parts = []
+    for line in lines:
+        if line.strip() == "...":
+            parts.append(r"(?:[^\n]*\n)*?")
+        else:
+            parts.append(r"[^\n]*?".join(re.escape(part) for part in line.rstrip().split("...")) + r"[ ]*\n")
+    return re.compile("".join(parts))
+
+
+def run_page(page, programs):
+    """The complaints about a page, and how many commands it has."""
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    environment = dict(os.environ, PATH=programs + os.pathsep + os.environ["PATH"], LC_ALL="C.UTF-8")
+    complaints, count = [], 0
+    with tempfile.TemporaryDirectory() as folder:
+        for first, block in blocks_of(text):
+            for number, command, expected in steps_of(first, block):
+                count += 1
+                ended = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=folder, env=environment,
+                                       stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                printed = ended.stdout.decode("utf-8", "replace")
+                if printed and not printed.endswith("\n"):
+                    printed += "\n"
+                if ended.returncode != 0:
+                    complaints.append(f"{page}:{number}: {command}\nended with status {ended.returncode}:\n{printed}")
+                elif not pattern_of(expected).fullmatch(printed):
+                    complaints.append(f"{page}:{number}: {command}\nexpected\n" + "\n".join(expected) + f"\nfound\n{printed}")
+    return complaints, count
+
+
+def main():
+    page, programs = sys.argv[1], os.path.abspath(sys.argv[2])
+    if not os.access(os.path.join(programs, "strata"), os.X_OK):
+        print(f"SKIPPED: no program strata in {programs}")
+        return 77
+    complaints, count = run_page(page, programs)
+    print("\n".join(complaints) if complaints else f"{page}: {count} commands run as printed")
+    return 1 if complaints or count == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
