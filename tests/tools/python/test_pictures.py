@@ -115,7 +115,7 @@ def test_a_difference_is_told_by_kind_and_place():
     found = strata.compare(picture.color, mine)
     assert not found.equal and found.differing == 1
     assert "first at 7,7" in found.text
-    assert found.distance[7, 7] == 3 and found.distance.sum() == 3
+    assert not found.distance.flags.writeable and found.distance[7, 7] == 3 and found.distance.sum() == 3
     assert found.heat.shape == (12, 16, 4)
     assert strata.compare(picture.color, mine, color=3).accepted
 

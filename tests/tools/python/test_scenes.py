@@ -38,6 +38,16 @@ def test_a_loaded_scene_takes_cameras_and_further_triangles():
     assert scene.triangles == triangles + 2 and scene.warnings == []
 
 
+def test_a_camera_sees_what_its_matrices_see():
+    scene, same = strata.Scene().add(CORNERS), strata.Scene().add(CORNERS)
+    scene.look_at((0, 0, 2), fovy=90, near=1, far=3)
+    projection = [1 / 1.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, -2, -1, 0, 0, -3, 0]  # of 24 x 16 pixels, by columns
+    same.look([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1], projection)
+    assert np.array_equal(strata.render(scene, width=24, height=16).color, strata.render(same, width=24, height=16).color)
+    with pytest.raises(strata.InputError, match="camera: fovy_degrees: expected a number between 0 and 180"):
+        scene.look_at((0, 0, 2), fovy=0)
+
+
 @pytest.mark.parametrize("arguments, said", [
     (dict(positions=CORNERS.astype(np.float64)), "triangles: positions: expected float32, found float64"),
     (dict(positions=CORNERS[:5]), "positions.count: expected three a triangle, found 5"),

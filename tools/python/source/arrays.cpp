@@ -8,15 +8,6 @@ namespace strata::python {
 
 namespace {
 
-// Memory that an array shares with `owner`.
-template <class Owner>
-py::array sharing(const py::dtype& type, const std::vector<py::ssize_t>& shape, const void* data, const Owner& owner) {
-    py::capsule keeper(new Owner{owner}, [](void* held) { delete static_cast<Owner*>(held); });
-    py::array array(type, shape, data, keeper);
-    array.attr("flags").attr("writeable") = false;
-    return array;
-}
-
 template <class Narrow>
 py::array packed(const py::dtype& type, const std::vector<py::ssize_t>& shape, const std::uint32_t* codes,
                  std::size_t count) {
@@ -33,7 +24,7 @@ py::array of_codes(const char* type, const std::vector<py::ssize_t>& shape, cons
     switch (element.itemsize()) {
         case 1: return packed<std::uint8_t>(element, shape, codes, count);
         case 2: return packed<std::uint16_t>(element, shape, codes, count);
-        default: return sharing(element, shape, codes, owner);
+        default: return shared_array(element, shape, {}, codes, owner);
     }
 }
 

@@ -14,6 +14,18 @@ namespace strata::python {
 
 namespace py = pybind11;
 
+// A read-only array in memory that `owner` keeps; no strides: one element behind the other.
+template <class Owner>
+[[nodiscard]] py::array shared_array(const py::dtype& type, std::vector<py::ssize_t> shape,
+                                     std::vector<py::ssize_t> strides, const void* first,
+                                     const std::shared_ptr<Owner>& owner) {
+    using Held = std::shared_ptr<Owner>;
+    const py::capsule keeper(new Held{owner}, [](void* held) { delete static_cast<Held*>(held); });
+    py::array array(type, std::move(shape), std::move(strides), first, keeper);
+    array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
 // (height, width) or (height, width, channels) of the stored codes; samples are a further axis before the channels.
 [[nodiscard]] py::array as_array(const std::shared_ptr<const Image>& image);
 // An image that is a part of what `owner` holds.

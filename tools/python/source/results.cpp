@@ -111,17 +111,6 @@ void bind_layers(py::module_& module) {
     });
 }
 
-// An array of the field of every fragment, inside the fragments' own memory.
-template <class Field>
-py::array field_of(const std::shared_ptr<std::vector<CapturedFragment>>& all, const char* type, const Field* first,
-                   std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides) {
-    using Held = std::shared_ptr<std::vector<CapturedFragment>>;
-    py::capsule keeper(new Held{all}, [](void* held) { delete static_cast<Held*>(held); });
-    py::array array(py::dtype{std::string{type}}, std::move(shape), std::move(strides), first, keeper);
-    array.attr("flags").attr("writeable") = false;
-    return array;
-}
-
 void bind_fragments(py::module_& module) {
     module.def("_fragments", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
                                 const py::kwargs& keywords) {
@@ -132,11 +121,11 @@ void bind_fragments(py::module_& module) {
         const CapturedFragment none{};
         const CapturedFragment& first = all->empty() ? none : all->front();
         py::dict found;
-        found["pixel"] = field_of(all, "u4", &first.pixel, {count}, {stride});
-        found["primitive"] = field_of(all, "u4", &first.primitive, {count}, {stride});
-        found["code"] = field_of(all, "u4", &first.code, {count}, {stride});
-        found["z"] = field_of(all, "f4", &first.shader_z, {count}, {stride});
-        found["color"] = field_of(all, "f4", &first.color.x, {count, 4}, {stride, 4});
+        found["pixel"] = shared_array(py::dtype{"u4"}, {count}, {stride}, &first.pixel, all);
+        found["primitive"] = shared_array(py::dtype{"u4"}, {count}, {stride}, &first.primitive, all);
+        found["code"] = shared_array(py::dtype{"u4"}, {count}, {stride}, &first.code, all);
+        found["z"] = shared_array(py::dtype{"f4"}, {count}, {stride}, &first.shader_z, all);
+        found["color"] = shared_array(py::dtype{"f4"}, {count, 4}, {stride, 4}, &first.color.x, all);
         return found;
     });
 }
@@ -188,9 +177,7 @@ void bind_compare(py::module_& module) {
         .def_property_readonly(
             "heat", [](const Comparison& c) { return as_array(std::make_shared<const Image>(oracle::heat_map(c))); })
         .def_property_readonly("distance", [](const Held& c) {
-            py::capsule keeper(new Held{c}, [](void* held) { delete static_cast<Held*>(held); });
-            return py::array(py::dtype{"u4"}, std::vector<py::ssize_t>{c->height, c->width}, c->distance_of.data(),
-                             keeper);
+            return shared_array(py::dtype{"u4"}, {c->height, c->width}, {}, c->distance_of.data(), c);
         });
     module.def("_compare", [](const Picture& reference, const Picture& candidate, const Tolerances& tolerances) {
         return unlocked([&] { return compare(reference, candidate, tolerances); });

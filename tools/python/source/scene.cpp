@@ -55,6 +55,16 @@ void bind_scene(py::module_& module) {
             },
             py::arg("view"), py::arg("projection"), "Both matrices by columns.")
         .def(
+            "look_at",
+            [](Scene& scene, const std::array<double, 3>& eye, const std::array<double, 3>& center,
+               const std::array<double, 3>& up, double fovy, double near, double far) {
+                const auto vector = [](const std::array<double, 3>& v) { return Vec3d{v[0], v[1], v[2]}; };
+                scene.look_at({vector(eye), vector(center), vector(up), fovy, near, far});
+            },
+            py::arg("eye"), py::arg("center") = std::array<double, 3>{0, 0, 0},
+            py::arg("up") = std::array<double, 3>{0, 1, 0}, py::kw_only(), py::arg("fovy") = 45, py::arg("near") = 0.1,
+            py::arg("far") = 100, "As gluLookAt and gluPerspective.")
+        .def(
             "orbit", [](Scene& scene, double azimuth, double elevation) { scene.orbit(azimuth, elevation); },
             py::arg("azimuth"), py::arg("elevation"), "Sees the whole scene; degrees.")
         .def_property_readonly("warnings", [](const Scene& scene) { return scene.warnings(); })
