@@ -25,3 +25,11 @@ expect(alone TRUE ${SOURCE})
 expect(empty FALSE ${SOURCE} -DCMAKE_BUILD_TYPE=)
 expect(debug FALSE ${SOURCE} -DCMAKE_BUILD_TYPE=Debug)
 expect(part FALSE ${FOLDER}/host)
+
+# As a part, the whole project is its library: neither tests nor the command.
+list(REMOVE_ITEM core -DSTRATA_CORE_ONLY=ON -DSTRATA_BUILD_TESTS=OFF)
+expect(whole_part FALSE ${FOLDER}/host)
+file(READ ${FOLDER}/whole_part/compile_commands.json commands)
+if(NOT commands MATCHES "tools/library" OR commands MATCHES "tools/strata/|${SOURCE}/tests/")
+  message(FATAL_ERROR "as a part of another project: expected the library without tests and command")
+endif()

@@ -110,6 +110,21 @@ Scene& Scene::look(const View& view) {
 }
 
 Scene& Scene::look_at(const LookAt& camera) {
+    const auto require = [](bool holds, const char* field, const char* expected, double found) {
+        if (!holds) throw InputError("camera", field, expected, std::to_string(found));
+    };
+    const auto finite = [&](const char* field, const Vec3d& v) {
+        for (const double component : components(v))
+            require(std::isfinite(component), field, "finite numbers", component);
+    };
+    finite("eye", camera.eye);
+    finite("center", camera.center);
+    finite("up", camera.up);
+    require(camera.eye != camera.center, "center", "another point than the eye", camera.center.x);
+    require(camera.fovy_degrees > 0 && camera.fovy_degrees < 180, "fovy_degrees", "a number between 0 and 180",
+            camera.fovy_degrees);
+    require(camera.near > 0 && std::isfinite(camera.near), "near", "a finite number above 0", camera.near);
+    require(camera.far > camera.near && std::isfinite(camera.far), "far", "a finite number above near", camera.far);
     own_view_.reset();
     look_at_ = camera;
     orbit_.reset();

@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <type_traits>
 
 #include "strata/strata.h"
 
@@ -116,6 +118,32 @@ TEST_CASE("a field of triangles that cannot be is named, and nothing is added") 
     CHECK_THAT(said_of([](Triangles& t) { t.model.emplace().fill(INFINITY); }),
                Contains("model[0]: expected a finite number"));
     CHECK(said_of([](Triangles&) {}) == "accepted");
+}
+
+TEST_CASE("a camera that sees nothing is refused by its field") {
+    const auto said_of_camera = [](const std::function<void(LookAt&)>& change) -> std::string {
+        LookAt camera;
+        change(camera);
+        try {
+            Scene{}.look_at(camera);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    CHECK(said_of_camera([](LookAt&) {}) == "accepted");
+    CHECK_THAT(said_of_camera([](LookAt& c) { c.eye[1] = NAN; }), Contains("camera: eye: expected finite numbers"));
+    CHECK_THAT(said_of_camera([](LookAt& c) { c.center = c.eye; }), Contains("center: expected another point"));
+    CHECK_THAT(said_of_camera([](LookAt& c) { c.fovy_degrees = 180; }), Contains("fovy_degrees: expected"));
+    CHECK_THAT(said_of_camera([](LookAt& c) { c.near = 0; }), Contains("near: expected a finite number above 0"));
+    CHECK_THAT(said_of_camera([](LookAt& c) { c.far = c.near; }), Contains("far: expected a finite number above near"));
+}
+
+TEST_CASE("names stand in the namespace of their minor version") {
+    STATIC_REQUIRE(std::is_same_v<strata::Scene, strata::v0_1::Scene>);
+    STATIC_REQUIRE(std::is_same_v<strata::Rendering, strata::v0_1::Rendering>);
+    CHECK(version_major == 0);
+    CHECK(version_minor == 1);
 }
 
 TEST_CASE("a wrong name gets the nearest one, a wrong angle its limits") {

@@ -1,0 +1,82 @@
+"""Models: the same triangles given in another way; sentences typed by hand."""
+import numpy as np
+import pytest
+
+import strata
+
+CORNERS = np.array([[-1, -1, 0.25], [1, -1, 0.25], [-1, 1, 0.25], [1, -1, -0.5], [1, 1, -0.5], [-1, 1, -0.5]], np.float32)
+COLORS = np.array([[1, 0, 0, 0.5], [0, 1, 0, 0.5], [0, 0, 1, 0.5], [1, 1, 0, 0.25], [0, 1, 1, 0.75], [1, 0, 1, 0.5]], np.float32)
+
+
+def digest(scene):
+    return strata.render(scene, "dual", profile="geforce8", width=24, height=16).digest
+
+
+def test_lists_interleaved_arrays_and_indices_say_the_same():
+    plain = digest(strata.Scene().add(CORNERS, colors=COLORS))
+    together = np.concatenate([CORNERS, COLORS], axis=1)
+    assert digest(strata.Scene().add(together[:, :3], colors=together[:, 3:])) == plain
+    assert digest(strata.Scene().add(CORNERS.tolist(), colors=COLORS.tolist())) == plain
+    assert digest(strata.Scene().add(CORNERS[:3], colors=COLORS[:3], indices=[0, 1, 2]).add(CORNERS[3:], colors=COLORS[3:])) == plain
+
+
+def test_a_model_matrix_moves_as_it_is_written():
+    model = np.eye(4)
+    model[0, 3] = -0.5
+    moved = CORNERS + np.array([-0.5, 0, 0], np.float32)
+    assert digest(strata.Scene().add(CORNERS, colors=COLORS, model=model)) == digest(strata.Scene().add(moved, colors=COLORS))
+
+
+def test_a_loaded_scene_takes_cameras_and_further_triangles():
+    scene = strata.Scene("teapot")
+    own, triangles = digest(scene), scene.triangles
+    scene.orbit(30, 20)
+    assert digest(scene) == own
+    scene.orbit(120, -10)
+    assert digest(scene) != own
+    scene.add(CORNERS)
+    assert scene.triangles == triangles + 2 and scene.warnings == []
+
+
+def test_a_camera_sees_what_its_matrices_see():
+    scene, same = strata.Scene().add(CORNERS), strata.Scene().add(CORNERS)
+    scene.look_at((0, 0, 2), fovy=90, near=1, far=3)
+    projection = [1 / 1.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, -2, -1, 0, 0, -3, 0]  # of 24 x 16 pixels, by columns
+    same.look([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1], projection)
+    assert np.array_equal(strata.render(scene, width=24, height=16).color, strata.render(same, width=24, height=16).color)
+    with pytest.raises(strata.InputError, match="camera: fovy_degrees: expected a number between 0 and 180"):
+        scene.look_at((0, 0, 2), fovy=0)
+
+
+@pytest.mark.parametrize("arguments, said", [
+    (dict(positions=CORNERS.astype(np.float64)), "triangles: positions: expected float32, found float64"),
+    (dict(positions=CORNERS[:5]), "positions.count: expected three a triangle, found 5"),
+    (dict(positions=CORNERS[:, :2]), "positions: expected an array of float32 and shape"),
+    (dict(positions=CORNERS[::-1]), "positions: expected an array of float32 and shape"),
+    (dict(positions=CORNERS, colors=COLORS[:3]), "colors.count: expected 6 or none, found 3"),
+    (dict(positions=CORNERS, indices=[0, 1, 6]), r"indices\[2\]: expected less than 6, found 6"),
+    (dict(positions=CORNERS, indices=[0, 1, -1]), "indices: expected whole numbers"),
+    (dict(positions=CORNERS, indices=[0, 1]), "indices: expected three a triangle, found 2"),
+    (dict(positions=CORNERS, color=(1, 1, 1, float("nan"))), r"color\[3\]: expected a finite number"),
+])
+def test_triangles_that_cannot_be_are_named(arguments, said):
+    scene = strata.Scene()
+    with pytest.raises(strata.InputError, match=said):
+        scene.add(**arguments)
+    assert scene.triangles == 0
+
+
+def test_wrong_names_and_options_are_named():
+    scene = strata.Scene()
+    for ask, error, said in [
+        (lambda: strata.Scene("teapott"), strata.InputError, "teapot"),
+        (lambda: strata.render(scene, "duel"), strata.InputError, "did you mean 'dual'"),
+        (lambda: strata.render(scene, profile="geforc8"), strata.InputError, "did you mean 'geforce8'"),
+        (lambda: strata.render(scene, widht=3), TypeError, "did you mean 'width'"),
+        (lambda: strata.render(scene, width=0), strata.InputError, "width: expected 1 to 16384, found 0"),
+        (lambda: strata.render(scene, width="wide"), strata.InputError, "options: width: expected a value of its type, found 'wide'"),
+        (lambda: strata.render(scene, depth="d42"), strata.InputError, "options: depth: expected d16, d24, d32f"),
+        (lambda: strata.render(scene, background=(1, 0)), strata.InputError, "background"),
+    ]:
+        with pytest.raises(error, match=said):
+            ask()

@@ -1,0 +1,13 @@
+"""What a program with types may write; mypy reads it, and nothing runs it."""
+from typing import Any
+
+import numpy.typing as npt
+
+import strata
+
+scene: strata.Scene = strata.Scene().add([[0, 0, 0], [1, 0, 0], [0, 1, 0]], color=(1, 0, 0, 0.5))
+rendering: strata.Rendering = strata.render(scene, "dual", profile="geforce8", width=64)
+pixels: npt.NDArray[Any] = rendering.color
+equal: bool = strata.compare(pixels, "reference.exr").equal
+ends: list[bool] = [layer.is_from_behind for layer in strata.layers(scene)]
+words: str = strata.explain(scene, 1, 2).text

@@ -1,0 +1,43 @@
+# The recipe of RECIPES, as somebody else's continuous integration would run it: installs BUILD into FOLDER by install.sh, copies the
+# project there, and runs its check, which must pass; and fail, with kind, pixel and pictures, where the project blends wrongly.
+function(run wanted)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(NOT status STREQUAL wanted)
+    message(FATAL_ERROR "${ARGN} ended with ${status}, expected ${wanted}: ${out}")
+  endif()
+  string(REGEX REPLACE "[ \n]+" " " out "${out}")  # Catch2 breaks long lines
+  set(out "${out}" PARENT_SCOPE)
+endfunction()
+function(expect text pattern)
+  if(NOT text MATCHES "${pattern}")
+    message(FATAL_ERROR "expected '${pattern}', found ${text}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+run(0 ${CMAKE_COMMAND} -E env STRATA_PACKAGES=no STRATA_BUILD=${BUILD} ${RECIPES}/install.sh ${FOLDER}/installed)
+file(COPY ${RECIPES}/project DESTINATION ${FOLDER})
+set(check ${CMAKE_COMMAND} -E env STRATA_PREFIX=${FOLDER}/installed CXX=${COMPILER})
+
+run(0 ${check} project/check.sh)
+expect("${out}" "All tests passed")
+if(EXISTS ${FOLDER}/project/build/pictures)
+  message(FATAL_ERROR "a check that passes left pictures")
+endif()
+
+run(1 ${check} PANES_BLEND_WRONGLY=1 project/check.sh)
+expect("${out}" "color at [0-9]+ pixels, first at \\([0-9]+, [0-9]+\\)")
+expect("${out}" "reference, candidate and difference: ")
+expect("${out}" "different: [0-9]+ of 3072 pixels differ")
+if(NOT EXISTS ${FOLDER}/project/build/pictures/panes.side.png)
+  message(FATAL_ERROR "a check that fails left no picture")
+endif()
+file(READ ${FOLDER}/project/build/report.xml report)
+expect("${report}" "<failure")
+
+foreach(file Containerfile ci.yml)
+  file(READ ${RECIPES}/project/${file} text)
+  expect("${text}" "strata/tools/recipes/install.sh /usr/local")
+  expect("${text}" "\\./check\\.sh")
+endforeach()

@@ -1,0 +1,127 @@
+"""Reference pictures of transparent scenes, bit by bit, for the tests of other renderers.
+
+    scene = strata.Scene("teapot")
+    wanted = strata.render(scene, "dual", profile="geforce8", width=64, height=48)
+    print(strata.compare(wanted, my_pixels).text)
+
+Arrays are codes as they are stored: uint8 of 8-bit colours, float16 and float32 of float targets, uint16 and uint32 of D16 and D24. They
+are read-only; those of 32-bit channels share the library's memory. Options of the frame (width, height, depth, color_format, alpha,
+background, max_passes, depth_path, ...) are keywords with the names and words of the command `strata`.
+"""
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _strata
+from ._strata import (Comparison, FileError, History, InputError, Picture, Refused, Rendering, Tolerances, __version__, algorithms,
+                      profiles, read)
+
+__all__ = ["Comparison", "FileError", "History", "InputError", "Layer", "Picture", "Refused", "Rendering", "Scene", "Tolerances",
+           "__version__", "algorithms", "assert_matches", "compare", "explain", "fragments", "history_json", "layers", "passes", "picture",
+           "profiles", "read", "render"]
+
+Array = npt.NDArray[Any]
+Comparable = Union[Rendering, Picture, Array, str, "os.PathLike[str]"]
+
+
+class Scene(_strata.Scene):
+    """A .gltf or .glb file, a built-in scene, or triangles that are added; without a camera their positions are clip space."""
+
+    def add(self, positions: npt.ArrayLike, *, colors: Optional[npt.ArrayLike] = None, indices: Optional[npt.ArrayLike] = None,
+            color: Sequence[float] = (1, 1, 1, 1), transparent: bool = True, double_sided: bool = True,
+            model: Optional[npt.ArrayLike] = None, name: str = "") -> "Scene":
+        """Positions are (vertices, 3) of float32 and colors (vertices, 4), straight; indices three a triangle; model a 4 x 4 matrix."""
+        by_columns = None if model is None else np.asarray(model, dtype=np.float64).reshape(4, 4).T.ravel().tolist()
+        self._add(_floats("positions", positions), None if colors is None else _floats("colors", colors),
+                  None if indices is None else _indices(indices), list(color), transparent, double_sided, by_columns, name)
+        return self
+
+
+class Layer(NamedTuple):
+    color: Array
+    depth: Array
+    is_from_behind: bool
+
+
+def _floats(field: str, values: npt.ArrayLike) -> npt.NDArray[np.float32]:
+    if isinstance(values, np.ndarray):
+        if values.dtype != np.float32:
+            raise InputError(f"triangles: {field}: expected float32, found {values.dtype}")
+        return values
+    return np.asarray(values, dtype=np.float32)
+
+
+def _indices(values: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+    array = np.asarray(values)
+    if array.dtype.kind not in "iu" or (array.size and (array.min() < 0 or array.max() > 0xFFFFFFFF)):
+        raise InputError(f"triangles: indices: expected whole numbers from 0 to 4294967295, found {array.dtype}")
+    return np.ascontiguousarray(array.ravel(), dtype=np.uint32)
+
+
+def render(scene: _strata.Scene, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> Rendering:
+    """The picture. A Rendering that is_refused raises Refused when an array is asked of it."""
+    return _strata._render(scene, algorithm, profile, **options)
+
+
+def layers(scene: _strata.Scene, algorithm: str = "front_to_back", *, profile: str = "ideal", **options: Any) -> list[Layer]:
+    """Near to far."""
+    return [Layer(*layer) for layer in _strata._layers(scene, algorithm, profile, **options)]
+
+
+def passes(scene: _strata.Scene, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> list[dict[str, Any]]:
+    """Every pass with all targets as it leaves them: number, kind, reads, writes, passed, queries, targets."""
+    return _strata._passes(scene, algorithm, profile, **options)
+
+
+def fragments(scene: _strata.Scene, algorithm: str = "a_buffer", *, profile: str = "ideal", **options: Any) -> dict[str, Array]:
+    """All fragments of transparent triangles in submission order: pixel, primitive, code, z, color. The arrays share one memory."""
+    return _strata._fragments(scene, algorithm, profile, **options)
+
+
+def explain(scene: _strata.Scene, x: int, y: int, algorithm: str = "dual", *, profile: str = "ideal", **options: Any) -> History:
+    """What happened at a pixel, counted from the top left: text, json_text, svg."""
+    return _strata._explain(scene, x, y, algorithm, profile, **options)
+
+
+def history_json(history: History) -> Any:
+    """The history as dictionaries and lists: enough to do every step again."""
+    return json.loads(history.json_text)
+
+
+def picture(array: Array, meaning: str = "") -> Picture:
+    """An array of stored codes as a picture. A plane of 32-bit words is a depth unless `meaning` is "color"."""
+    if not isinstance(array, np.ndarray):
+        raise InputError(f"picture: array: expected a numpy.ndarray, found {type(array).__name__}")
+    return _strata._picture(array, meaning)
+
+
+def _picture_of(given: Comparable) -> Picture:
+    if isinstance(given, Picture):
+        return given
+    if isinstance(given, Rendering):
+        return given.picture()
+    if isinstance(given, np.ndarray):
+        return picture(given)
+    return read(os.fspath(given))
+
+
+def compare(reference: Comparable, candidate: Comparable, *, color: int = 0, depth: int = 0, coverage: int = 0) -> Comparison:
+    """Exact, unless codes or pixels are to be forgiven: text, json_text, heat, distance tell the difference."""
+    tolerances = Tolerances(color=color, depth=depth, coverage=coverage)
+    return _strata._compare(_picture_of(reference), _picture_of(candidate), tolerances)
+
+
+def assert_matches(candidate: Comparable, reference: Comparable, *, name: str = "", color: int = 0, depth: int = 0,
+                   coverage: int = 0) -> None:
+    """AssertionError says the kinds of mistakes and the first pixel, and where pictures are left (STRATA_PICTURES)."""
+    __tracebackhide__ = True
+    known = name or (os.fspath(reference) if isinstance(reference, (str, os.PathLike)) else "reference")
+    tolerances = Tolerances(color=color, depth=depth, coverage=coverage)
+    accepted, message = _strata._check(_picture_of(candidate), _picture_of(reference), known, tolerances)
+    if not accepted:
+        raise AssertionError(message)

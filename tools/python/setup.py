@@ -1,0 +1,24 @@
+"""Builds the extension by CMake: against the shared libraries in the folder STRATA_PREFIX of the environment, else from these sources."""
+import os
+import pathlib
+import subprocess
+import sys
+
+import setuptools
+from setuptools.command.build_ext import build_ext
+
+
+class CMakeBuild(build_ext):
+    def run(self):
+        source = pathlib.Path(__file__).resolve().parent
+        build = pathlib.Path(os.environ.get("STRATA_PYTHON_BUILD") or self.build_temp).resolve()
+        target = pathlib.Path(self.get_ext_fullpath("strata._strata")).resolve().parent
+        options = ["-DCMAKE_BUILD_TYPE=Release", f"-DPython_EXECUTABLE={sys.executable}", f"-DCMAKE_INSTALL_PREFIX={target}"]
+        if "STRATA_PREFIX" in os.environ:
+            options.append(f"-DSTRATA_PREFIX={os.environ['STRATA_PREFIX']}")
+        subprocess.run(["cmake", "-S", source, "-B", build, "-G", "Ninja", *options], check=True)
+        subprocess.run(["cmake", "--build", build], check=True)
+        subprocess.run(["cmake", "--install", build], check=True)
+
+
+setuptools.setup(ext_modules=[setuptools.Extension("strata._strata", [])], cmdclass={"build_ext": CMakeBuild})

@@ -1,0 +1,91 @@
+// source/options.cpp - keywords of a call as RenderOptions, each name and each value checked.
+#include <strata/rasterizer/base/enum_values.h>
+#include <strata/scenes/nearest_name.h>
+
+#include <functional>
+#include <map>
+
+#include "bindings.h"
+
+namespace strata::python {
+
+namespace {
+
+template <class Enum>
+Enum named(const std::string& field, const py::handle& value) {
+    const auto text = value.cast<std::string>();
+    if (const auto found = enum_named<Enum>(text)) return *found;
+    std::string list;
+    for (const std::string_view name : enum_names<Enum>) (list += list.empty() ? "" : ", ") += name;
+    throw InputError("options", field, list,
+                     scenes::quoted_with_suggestion(text, {enum_names<Enum>.begin(), enum_names<Enum>.end()}));
+}
+
+using Setter = std::function<void(RenderOptions&, const std::string& field, const py::handle& value)>;
+
+template <auto member>
+Setter number() {
+    return [](RenderOptions& options, const std::string&, const py::handle& value) {
+        using Number = std::remove_reference_t<decltype(options.*member)>;
+        options.*member = value.cast<Number>();
+    };
+}
+template <auto member, class Enum>
+Setter choice() {
+    return [](RenderOptions& options, const std::string& field, const py::handle& value) {
+        options.*member = named<Enum>(field, value);
+    };
+}
+
+const std::map<std::string, Setter>& setters() {
+    using O = RenderOptions;
+    static const std::map<std::string, Setter> all{
+        {"width", number<&O::width>()},
+        {"height", number<&O::height>()},
+        {"depth", choice<&O::depth, pipeline::DepthFormat>()},
+        {"depth_path", choice<&O::depth_path, rasterizer::DepthPath>()},
+        {"reference_path", choice<&O::reference_path, rasterizer::DepthPath>()},
+        {"quantize_reference", number<&O::quantize_reference>()},
+        {"color_format", choice<&O::color_format, pipeline::Format>()},
+        {"alpha", number<&O::alpha>()},
+        {"max_passes", number<&O::max_passes>()},
+        {"formulation", choice<&O::formulation, pipeline::Formulation>()},
+        {"execution", choice<&O::execution, pipeline::Execution>()},
+        {"fragment_memory", number<&O::fragment_memory>()},
+        {"tile_size", number<&O::tile_size>()},
+        {"threads", number<&O::threads>()},
+        {"simd", choice<&O::simd, Simd>()},
+        {"effects", choice<&O::effects, pipeline::Effects>()},
+        {"audit", number<&O::audit>()},
+        {"background",
+         [](O& options, const std::string&, const py::handle& value) {
+             const auto c = value.cast<std::array<float, 4>>();
+             options.background = {c[0], c[1], c[2], c[3]};
+         }},
+    };
+    return all;
+}
+
+}  // namespace
+
+RenderOptions options_of(const py::kwargs& keywords) {
+    RenderOptions options;
+    for (const auto& [key, value] : keywords) {
+        const auto name = key.cast<std::string>();
+        const auto found = setters().find(name);
+        if (found == setters().end()) {
+            std::vector<std::string_view> names;
+            for (const auto& [known, setter] : setters()) names.push_back(known);
+            throw py::type_error("expected an option of the frame, found " +
+                                 scenes::quoted_with_suggestion(name, names));
+        }
+        try {
+            found->second(options, name, value);
+        } catch (const py::cast_error&) {
+            throw InputError("options", name, "a value of its type", py::repr(value).cast<std::string>());
+        }
+    }
+    return options;
+}
+
+}  // namespace strata::python

@@ -1,0 +1,208 @@
+// source/results.cpp - pictures, layers, passes, fragments, histories and comparisons for Python.
+#include <strata/scenes/files/image_io.h>
+#include <strata/tools/oracle/drawings.h>
+
+#include "bindings.h"
+
+namespace strata::python {
+
+namespace {
+
+// A call of the library with the lock released, and its result in memory that arrays may share.
+template <class Work>
+auto unlocked(const Work& work) {
+    py::gil_scoped_release without_lock;
+    return std::make_shared<decltype(work())>(work());
+}
+
+struct Asked {
+    Algorithm algorithm;
+    DeviceProfile profile;
+    RenderOptions options;
+    Asked(const std::string& algorithm_name, const std::string& profile_name, const py::kwargs& keywords)
+        : algorithm{strata::algorithm(algorithm_name)},
+          profile{strata::profile(profile_name)},
+          options{options_of(keywords)} {}
+};
+
+py::dict audit_of(const AuditResult& audit) {
+    py::dict all;
+    all["layers_max"] = audit.layers_max;
+    all["fragments_max"] = audit.fragments_max;
+    all["order_errors"] = audit.order_errors;
+    all["lost_by_ties"] = audit.lost_by_ties;
+    all["max_difference"] = audit.max_difference;
+    return all;
+}
+
+py::list diagnostics_of(const Rendering& rendering) {
+    py::list all;
+    for (const Diagnostic& d : rendering.diagnostics()) {
+        py::dict one;
+        one["fault"] = std::string{pipeline::name(d.fault)};
+        one["pixels"] = d.pixels;
+        one["first"] = py::make_tuple(d.first_x, d.first_y);
+        one["detail"] = d.detail;
+        all.append(one);
+    }
+    return all;
+}
+
+void bind_rendering(py::module_& module) {
+    using Held = std::shared_ptr<Rendering>;
+    py::class_<Rendering, Held>(module, "Rendering", "A picture, or a refusal that no array can be had from.")
+        .def_property_readonly("is_refused", [](const Rendering& r) { return r.is_refused(); })
+        .def_property_readonly("refusal", [](const Rendering& r) { return r.refusal(); })
+        .def_property_readonly("color", [](const Held& r) { return as_array(r, r->color()); })
+        .def_property_readonly("depth", [](const Held& r) { return as_array(r, r->depth()); })
+        .def_property_readonly("digest", [](const Rendering& r) { return r.digest(); })
+        .def_property_readonly("audit", [](const Rendering& r) { return audit_of(r.audit()); })
+        .def_property_readonly("diagnostics", [](const Rendering& r) { return diagnostics_of(r); })
+        .def_property_readonly("geometry_passes", [](const Rendering& r) { return r.geometry_passes(); })
+        .def("picture", [](const Rendering& r) { return r.picture(); })
+        .def(
+            "save",
+            [](const Rendering& r, const std::string& path) {
+                py::gil_scoped_release without_lock;
+                scenes::write_image(path, {.color = r.color(), .depth = r.depth()});
+            },
+            py::arg("path"), "An .exr with all codes, or a .png.");
+    module.def("_render", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
+                             const py::kwargs& keywords) {
+        const Asked asked{algorithm, profile, keywords};
+        return unlocked([&] { return render(scene, asked.algorithm, asked.profile, asked.options); });
+    });
+}
+
+void bind_layers(py::module_& module) {
+    module.def("_layers", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
+                             const py::kwargs& keywords) {
+        const Asked asked{algorithm, profile, keywords};
+        const auto found = unlocked([&] { return layers(scene, asked.algorithm, asked.profile, asked.options); });
+        py::list all;
+        for (const Layer& layer : *found)
+            all.append(
+                py::make_tuple(as_array(found, layer.color), as_array(found, layer.depth), layer.is_from_behind));
+        return all;
+    });
+    module.def("_passes", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
+                             const py::kwargs& keywords) {
+        const Asked asked{algorithm, profile, keywords};
+        const auto found = unlocked([&] { return passes(scene, asked.algorithm, asked.profile, asked.options); });
+        py::list all;
+        for (const oracle::PassShown& pass : *found) {
+            py::dict targets, one;
+            for (const oracle::NamedImage& target : pass.targets)
+                targets[py::str(target.name)] = as_array(found, target.image);
+            py::list queries;
+            for (const oracle::Query& query : pass.queries) queries.append(py::make_tuple(query.count, query.goes_on));
+            one["number"] = pass.number;
+            one["kind"] = std::string{oracle::name(pass.kind)};
+            one["iteration"] = pass.iteration;
+            one["before"] = pass.before;
+            one["reads"] = pass.reads;
+            one["writes"] = pass.writes;
+            one["passed"] = pass.passed;
+            one["queries"] = queries;
+            one["targets"] = targets;
+            all.append(one);
+        }
+        return all;
+    });
+}
+
+void bind_fragments(py::module_& module) {
+    module.def("_fragments", [](const Scene& scene, const std::string& algorithm, const std::string& profile,
+                                const py::kwargs& keywords) {
+        const Asked asked{algorithm, profile, keywords};
+        const auto all = unlocked([&] { return fragments(scene, asked.algorithm, asked.profile, asked.options); });
+        const auto count = static_cast<py::ssize_t>(all->size());
+        constexpr py::ssize_t stride = sizeof(CapturedFragment);
+        const CapturedFragment none{};
+        const CapturedFragment& first = all->empty() ? none : all->front();
+        py::dict found;
+        found["pixel"] = shared_array(py::dtype{"u4"}, {count}, {stride}, &first.pixel, all);
+        found["primitive"] = shared_array(py::dtype{"u4"}, {count}, {stride}, &first.primitive, all);
+        found["code"] = shared_array(py::dtype{"u4"}, {count}, {stride}, &first.code, all);
+        found["z"] = shared_array(py::dtype{"f4"}, {count}, {stride}, &first.shader_z, all);
+        found["color"] = shared_array(py::dtype{"f4"}, {count, 4}, {stride, 4}, &first.color.x, all);
+        return found;
+    });
+}
+
+void bind_history(py::module_& module) {
+    py::class_<oracle::History>(module, "History", "What happened at a pixel, in every pass.")
+        .def_property_readonly("text", [](const oracle::History& h) { return oracle::to_text(h); })
+        .def_property_readonly("json_text", [](const oracle::History& h) { return oracle::to_json(h); })
+        .def_property_readonly("svg",
+                               [](const oracle::History& h) {
+                                   return oracle::to_svg(std::span{&h, 1});
+                               })
+        .def_property_readonly("layers", [](const oracle::History& h) { return oracle::composited(h); });
+    module.def("_explain", [](const Scene& scene, int x, int y, const std::string& algorithm,
+                              const std::string& profile, const py::kwargs& keywords) {
+        const Asked asked{algorithm, profile, keywords};
+        py::gil_scoped_release without_lock;
+        return explain(scene, x, y, asked.algorithm, asked.profile, asked.options);
+    });
+}
+
+void bind_compare(py::module_& module) {
+    py::class_<Picture>(module, "Picture", "Targets with their codes, to be compared.")
+        .def_property_readonly("arrays",
+                               [](const Picture& picture) {
+                                   py::dict all;
+                                   for (const oracle::Target& target : picture.targets)
+                                       all[py::str((target.part.empty() ? "" : target.part + ".") + target.name)] =
+                                           as_array(oracle::Target{target});
+                                   return all;
+                               })
+        .def("__repr__", [](const Picture& picture) { return "<strata.Picture " + size_text(picture) + ">"; });
+    module.def("_picture", &picture_of_array);
+    module.def(
+        "read",
+        [](const std::string& path) {
+            py::gil_scoped_release without_lock;
+            return read_picture(path);
+        },
+        py::arg("path"), "An .exr, .png or .npy file, without changing a bit.");
+    using Held = std::shared_ptr<Comparison>;
+    py::class_<Comparison, Held>(module, "Comparison", "How a candidate differs from a reference.")
+        .def_readonly("equal", &Comparison::equal)
+        .def_readonly("accepted", &Comparison::accepted)
+        .def_readonly("differing", &Comparison::differing)
+        .def_property_readonly("text", [](const Comparison& c) { return oracle::to_text(c); })
+        .def_property_readonly("json_text", [](const Comparison& c) { return oracle::to_json(c); })
+        .def_property_readonly("junit", [](const Comparison& c) { return oracle::to_junit(c); })
+        .def_property_readonly(
+            "heat", [](const Comparison& c) { return as_array(std::make_shared<const Image>(oracle::heat_map(c))); })
+        .def_property_readonly("distance", [](const Held& c) {
+            return shared_array(py::dtype{"u4"}, {c->height, c->width}, {}, c->distance_of.data(), c);
+        });
+    module.def("_compare", [](const Picture& reference, const Picture& candidate, const Tolerances& tolerances) {
+        return unlocked([&] { return compare(reference, candidate, tolerances); });
+    });
+    module.def("_check", [](const Picture& candidate, const Picture& reference, const std::string& name,
+                            const Tolerances& tolerances) {
+        py::gil_scoped_release without_lock;
+        const Checked checked = check(candidate, Reference{reference, name}, tolerances);
+        return std::make_pair(checked.is_accepted, checked.message);
+    });
+    py::class_<Tolerances>(module, "Tolerances", "What may be forgiven; nothing unless it is said.")
+        .def(py::init([](std::uint32_t color, std::uint32_t depth, std::uint64_t coverage) {
+                 return Tolerances{.color_codes = color, .depth_codes = depth, .coverage_pixels = coverage};
+             }),
+             py::kw_only(), py::arg("color") = 0, py::arg("depth") = 0, py::arg("coverage") = 0);
+}
+
+}  // namespace
+
+void bind_results(py::module_& module) {
+    bind_compare(module);
+    bind_rendering(module);
+    bind_layers(module);
+    bind_fragments(module);
+    bind_history(module);
+}
+
+}  // namespace strata::python

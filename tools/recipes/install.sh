@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Builds Strata without its tests and installs it, for a container or a machine of continuous integration.
+#   tools/recipes/install.sh [PREFIX]    default: /usr/local
+# STRATA_PACKAGES=no leaves Debian's packages alone; STRATA_BUILD=FOLDER installs what is built there.
+set -euo pipefail
+prefix=${1:-/usr/local}
+cd "$(dirname "$0")/../.."
+
+if [ "${STRATA_PACKAGES:-yes}" != no ]; then
+    mapfile -t packages < <(sed -e 's/#.*//' tools/packages.txt | awk '$1 != "?" && NF { print $1 }')
+    apt-get update -qq
+    env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}"
+fi
+if [ -z "${STRATA_BUILD:-}" ]; then
+    STRATA_BUILD=build/recipe
+    cmake -S . -B "$STRATA_BUILD" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTRATA_BUILD_TESTS=OFF -DSTRATA_WERROR=OFF
+    cmake --build "$STRATA_BUILD"
+fi
+cmake --install "$STRATA_BUILD" --prefix "$prefix"

@@ -1,0 +1,12 @@
+// What the panes look like on a GeForce 8.
+#pragma once
+#include <strata/strata.h>
+
+#include "panes.h"
+
+inline strata::Rendering wanted_panes() {
+    strata::Scene scene;
+    for (const Pane& pane : panes) scene.add({.positions = {pane.corners, 3}, .color = std::to_array(pane.color)});
+    return strata::render(scene, strata::algorithm("painter"), strata::profile("geforce8"),
+                          {.width = width, .height = height});
+}
