@@ -45,6 +45,19 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
     return *prepared;
 }
 
+rasterizer::TriangleSoup PreparedLists::opaque_soup() const {
+    return transform(s_.list, s_.view, prepare_options(Selection::opaque));
+}
+
+rasterizer::TriangleSoup PreparedLists::transparent_soup() const {
+    return transform(s_.list, s_.view, prepare_options(transparent_selection()));
+}
+
+std::vector<std::uint32_t> PreparedLists::submission(ListOrder order) const {
+    const Ordering in_order = ordering(order);
+    return in_order ? in_order(transparent_soup()).triangles : std::vector<std::uint32_t>{};
+}
+
 // Binning is apart from preparing: a list that is kept may be binned again for another tile size.
 void PreparedLists::bin(int tile_size_px) {
     const Stopwatch watch{seconds_};

@@ -6,6 +6,7 @@
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/nearest_name.h"
+#include "scenes/packs/pack_scene.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "scenes/procedural/parameters.h"
 #include "scenes/procedural/plane_stack.h"
@@ -142,7 +143,9 @@ Scene load_scene(const std::string& spec, const SceneOptions& options) {
     // file.
     if (is_procedural(spec)) return make_procedural(spec, options);
     if (is_gltf_path(spec)) return load_gltf(spec, options);
-    throw InputError(spec, "scene", fmt::format("a .gltf or .glb file, or one of {}", fmt::join(names(), ", ")),
+    if (is_pack(spec)) return load_pack(spec, options);
+    throw InputError(spec, "scene",
+                     fmt::format("a .gltf or .glb file, a folder with a pack, or one of {}", fmt::join(names(), ", ")),
                      quoted_with_suggestion(scene_name(spec), names()));
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "scenes/packs/pack_scene.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
 
@@ -101,8 +102,16 @@ void add_order(Words& words, const peeling::RenderOptions& render) {
 }  // namespace
 
 std::string canonical_command(const std::string& verb, const RunOptions& options, const peeling::Algorithm& algorithm) {
-    Words words{"strata", verb, scenes::is_procedural(options.scene) ? options.scene : file_name(options.scene)};
-    add(words, "--algorithm", algorithm.name);
+    return canonical_command(verb, options, std::vector{&algorithm});
+}
+
+std::string canonical_command(const std::string& verb, const RunOptions& options,
+                              const std::vector<const peeling::Algorithm*>& algorithms) {
+    const bool is_procedural = scenes::is_procedural(options.scene);
+    Words words{"strata", verb, is_procedural ? options.scene : file_name(scenes::pack_folder(options.scene))};
+    std::string names;
+    for (const peeling::Algorithm* algorithm : algorithms) names += (names.empty() ? "" : ",") + algorithm->name;
+    add(words, "--algorithm", names);
     add(words, "--profile", file_name(options.profile));
     add_scene(words, options);
     add_view(words, options);

@@ -24,7 +24,8 @@ struct RunOptions {
     std::string profile = "geforce8";                   // a name or a file
     std::string camera;                                 // --camera; empty: the orbit
     std::optional<Orbit> orbit;
-    bool takes_own_view = false;  // neither is given, and the scene turned out to have a view of its own
+    bool has_frame_background = false;  // the background is in the frame's colour space already: a pack's
+    bool takes_own_view = false;        // neither is given, and the scene turned out to have a view of its own
     peeling::RenderOptions render;
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     Simd simd = Simd::best;
@@ -67,6 +68,9 @@ void complete(RunOptions& options);
 // execution.
 [[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
                                             const peeling::Algorithm& algorithm);
+// The same of several.
+[[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
+                                            const std::vector<const peeling::Algorithm*>& algorithms);
 
 [[nodiscard]] std::vector<std::string> algorithm_names();
 

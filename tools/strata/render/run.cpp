@@ -86,7 +86,8 @@ Session open_session(RunOptions& options) {
     session.view = find_view(options, session.scene);
     check_sorted(options, session.scene);
     // Given as sRGB values; the frame blends in the colour space of the run.
-    options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
+    if (!options.has_frame_background)
+        options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
     return session;
 }
 
