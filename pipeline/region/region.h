@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/frame/alteration.h"
 #include "pipeline/frame/captured_fragment.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/instruments.h"
@@ -63,8 +64,9 @@ class Region {
     [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
 
-    // What people call a target, for observers.
+    // What people call a target, for observers and alterations.
     void call(Target target, std::string_view name) const {
+        if (const Alteration* a = instruments_.alteration; a != nullptr && a->named) a->named(target, name);
         if (const Observer* o = instruments_.observer; o != nullptr && o->named) o->named(target, name);
     }
     [[nodiscard]] int target_count() const noexcept { return static_cast<int>(storages_.size()); }
@@ -160,8 +162,11 @@ class Region {
 
     [[nodiscard]] Trace& traced() noexcept;  // in the scratch
 
-    enum class PassKind : std::uint8_t { geometry, full_screen };
-
+    // Null where the next step is to be taken as it is.
+    [[nodiscard]] const Alteration* alteration() const noexcept {
+        return books_.counts ? instruments_.alteration : nullptr;
+    }
+    [[nodiscard]] PassState altered(const PassState& state, PassKind kind);
     template <FragmentProgram P>
     Drawn draw_list(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>
@@ -170,8 +175,10 @@ class Region {
     Drawn draw_selected(const PassState& state, P& program);
     template <FragmentProgram P>
     Drawn draw_checked(const PassState& state, const PreparedDraw& list, P& program);
+    template <FragmentProgram P>
+    Drawn draw_screen(const PassState& state, P& program);
     template <class P>
-    void run_program(P& program, FragmentBatch& batch, Outputs& out);
+    void run_program(const PassState& state, P& program, FragmentBatch& batch, Outputs& out);
 
     void begin_pass(const PassState& state, PassKind kind);
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);

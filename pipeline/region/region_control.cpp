@@ -14,6 +14,12 @@ void Region::begin_loop() {
 
 void Region::begin_iteration() { books_.begin_iteration(); }
 
+PassState Region::altered(const PassState& state, PassKind kind) {
+    PassState changed = state;
+    if (instruments_.alteration->pass) instruments_.alteration->pass(*this, changed, kind);
+    return changed;
+}
+
 // A tile that counts nothing and has promised to be idle stops on its own word. With Idle::when_zero it first goes through one
 // more iteration, the probe, because literal execution would: its counters are those of every iteration that the frame still runs.
 bool Region::any(Count count, Idle idle) {
@@ -37,6 +43,7 @@ bool Region::any(Count count, Idle idle) {
         loop.probed = probing_;
         answer = idle == Idle::when_zero && !std::exchange(probing_, true);
     }
+    if (const Alteration* a = alteration(); a != nullptr && a->query) answer = a->query(count.own_, answer);
     loop.decisions.push_back({count.own_, idle, answer});
     show({.step = Step::query, .passed = count.own_, .answer = answer});
     if (!answer) books_.end_iterations();

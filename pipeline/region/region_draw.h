@@ -8,6 +8,11 @@ namespace strata::pipeline {
 
 template <FragmentProgram P>
 Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& program) {
+    if (alteration() != nullptr) {
+        const PassState changed = altered(state, PassKind::geometry);
+        begin_pass(changed, PassKind::geometry);
+        return draw_everything(changed, list, program);
+    }
     begin_pass(state, PassKind::geometry);
     if (state.selection.keeps == Keeps::everything || !may_select(state, list))
         return draw_everything(state, list, program);
@@ -22,7 +27,7 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
         shade_or_recall(list, batch, out);
         show(Stage::shaded, state, batch, out, out.alive);
         load(state, batch);
-        run_program(program, batch, out);
+        run_program(state, program, batch, out);
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     };
@@ -39,7 +44,7 @@ Drawn Region::draw_selected(const PassState& state, P& program) {
     while (FragmentBatch* const batch = next_selected(state)) {
         Outputs& out = start_batch(*batch);
         load(state, *batch);
-        run_program(program, *batch, out);
+        run_program(state, program, *batch, out);
         finish(state, *batch, out, drawn);
     }
     return book_selected(state, before, drawn);
@@ -59,13 +64,19 @@ Drawn Region::draw_checked(const PassState& state, const PreparedDraw& list, P& 
 
 template <FragmentProgram P>
 Drawn Region::full_screen(const PassState& state, P&& program) {
+    return alteration() != nullptr ? draw_screen(altered(state, PassKind::full_screen), program)
+                                   : draw_screen(state, program);
+}
+
+template <FragmentProgram P>
+Drawn Region::draw_screen(const PassState& state, P& program) {
     begin_pass(state, PassKind::full_screen);
     Drawn drawn;
     FragmentBatch& batch = screen_batch();
     for (std::size_t next = 0; next_screen_batch(batch, next);) {
         Outputs& out = start_batch(batch);
         load(state, batch);
-        run_program(program, batch, out);
+        run_program(state, program, batch, out);
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     }
@@ -91,10 +102,14 @@ void Region::trace_pixels(Target read, P&& program) {
 }
 
 template <class P>
-void Region::run_program(P& program, FragmentBatch& batch, Outputs& out) {
+void Region::run_program(const PassState& state, P& program, FragmentBatch& batch, Outputs& out) {
     const std::uint64_t before = alive_count(out, batch.count);
     const std::uint64_t tally = out.tally;
-    program(static_cast<const FragmentBatch&>(batch), loads(), out);
+    const auto run = [&] { program(static_cast<const FragmentBatch&>(batch), loads(), out); };
+    if (const Alteration* a = alteration(); a != nullptr && a->program)
+        a->program({state, kind_, batch, loads(), out}, run);
+    else
+        run();
     if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
     tallied_ += out.tally - tally;
     if (kind_ != PassKind::geometry) return;

@@ -52,7 +52,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapt"},
          "strata: teapt: scene: expected a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of "
          "teapot, volume-beam, random, planes, "
-         "shadow-demo, hard, found 'teapt' "
+         "shadow-demo, showroom, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},
          "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd24'?)"},

@@ -13,6 +13,10 @@
 #include "pipeline/formats/image.h"
 #include "tools/oracle/codes.h"
 
+namespace strata::pipeline {
+struct Image;
+}
+
 namespace strata::oracle {
 
 enum class Meaning : std::uint8_t { color, depth, other };
