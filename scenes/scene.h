@@ -49,7 +49,7 @@ struct SceneOptions {
 };
 
 // `spec` is a path to a .gltf or .glb file or to a pack, or a procedural scene: "teapot", "volume-beam:slices=N[,order=far|near]",
-// "random:seed=S,triangles=N", "shadow-demo", "hard:case=NAME". Throws InputError for everything that is not one of them or is malformed.
+// "random:seed=S,triangles=N", "shadow-demo", "showroom", "hard:case=NAME". Throws InputError for everything that is not one of them or is malformed.
 [[nodiscard]] Scene load_scene(const std::string& spec, const SceneOptions& options);
 
 // The two halves of load_scene.

@@ -1,5 +1,5 @@
 // pipeline/frame/instruments.h - what a caller may add to a run in order to measure or to check it. No result bit, counter or pass
-// count depends on it; a run without instruments is the usual one.
+// count depends on it, but for an alteration, whose purpose that is; a run without instruments is the usual one.
 #pragma once
 #include <cstdint>
 
@@ -21,7 +21,8 @@ enum class Effect : std::uint8_t {
     blending
 };
 
-struct Observer;  // pipeline/frame/observer.h
+struct Observer;    // pipeline/frame/observer.h
+struct Alteration;  // pipeline/frame/alteration.h
 
 struct Instruments {
     Effect once_more =
@@ -30,7 +31,8 @@ struct Instruments {
     bool check_selections =
         false;               // visit every fragment, too, and throw std::logic_error where a selection promised wrongly
     bool trust_idle = true;  // false: as if every algorithm promised Idle::no; finds promises that are not kept
-    const Observer* observer = nullptr;  // sees every step; the run is then literal
+    const Observer* observer = nullptr;      // sees every step; the run is then literal
+    const Alteration* alteration = nullptr;  // changes steps: a deliberate mistake; the run is then literal
 };
 
 }  // namespace strata::pipeline

@@ -311,10 +311,9 @@ FrameResult run(const Frame& frame, const Body& body, Execution execution, int t
     Frame rasterized = frame;  // in every pass
     rasterized.replay = {};
     const Frame& given = instruments.once_more == Effect::none ? frame : rasterized;
-    if (instruments.observer != nullptr) {
-        rasterized.trace = rasterized.trace || instruments.observer->traced;
+    if (instruments.observer != nullptr) rasterized.trace = rasterized.trace || instruments.observer->traced;
+    if (instruments.observer != nullptr || instruments.alteration != nullptr)
         return run_as(rasterized, Execution::literal);
-    }
     if (execution == Execution::literal) return run_as(given, execution);
     if (!frame.needs_frame) try {
             return run_as(given, execution);

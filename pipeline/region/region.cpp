@@ -81,7 +81,10 @@ Target Region::make(Format format, int samples) {
     return {static_cast<int>(storages_.size()) - 1};
 }
 
-void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_mask) {
+void Region::clear(Target given, const ClearValue& given_value, std::uint8_t sample_mask) {
+    Target target = given;
+    ClearValue value = given_value;
+    if (const Alteration* a = alteration(); a != nullptr && a->clear && !a->clear(*this, target, value)) return;
     opaque_depth_is_cleared_ &= target != opaque_depth_;
     TargetStorage& storage = at(target);
     const Format format = storage.format();
@@ -101,7 +104,9 @@ void Region::clear(Target target, const ClearValue& value, std::uint8_t sample_m
 }
 
 // A bit copy of codes (formats.md 5.6): it rounds nothing, and -0 and NaN stay what they are.
-void Region::copy(Target from, Target to) {
+void Region::copy(Target given_from, Target given_to) {
+    Target from = given_from, to = given_to;
+    if (const Alteration* a = alteration(); a != nullptr && a->copy && !a->copy(*this, from, to)) return;
     assert(at(from).format() == at(to).format() && at(from).samples() == at(to).samples());
     opaque_depth_is_cleared_ &= to != opaque_depth_;
     at(to) = at(from);

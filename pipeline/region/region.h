@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/frame/alteration.h"
 #include "pipeline/frame/captured_fragment.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/instruments.h"
@@ -72,8 +73,9 @@ class Region {
     [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
 
-    // What people call a target, for observers.
+    // What people call a target, for observers and alterations.
     void call(Target target, std::string_view name) const {
+        if (const Alteration* a = instruments_.alteration; a != nullptr && a->named) a->named(target, name);
         if (const Observer* o = instruments_.observer; o != nullptr && o->named) o->named(target, name);
     }
     [[nodiscard]] int target_count() const noexcept { return static_cast<int>(storages_.size()); }
@@ -167,8 +169,11 @@ class Region {
 
     [[nodiscard]] Trace& traced() noexcept;  // in the scratch
 
-    enum class PassKind : std::uint8_t { geometry, full_screen };
-
+    // Null where the next step is to be taken as it is.
+    [[nodiscard]] const Alteration* alteration() const noexcept {
+        return books_.counts ? instruments_.alteration : nullptr;
+    }
+    [[nodiscard]] PassState altered(const PassState& state, PassKind kind);
     template <FragmentProgram P>
     Drawn draw_list(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>
@@ -177,8 +182,10 @@ class Region {
     Drawn draw_selected(const PassState& state, P& program);
     template <FragmentProgram P>
     Drawn draw_checked(const PassState& state, const PreparedDraw& list, P& program);
+    template <FragmentProgram P>
+    Drawn draw_screen(const PassState& state, P& program);
     template <class P>
-    void run_program(P& program, FragmentBatch& batch, Outputs& out);
+    void run_program(const PassState& state, P& program, FragmentBatch& batch, Outputs& out);
 
     void begin_pass(const PassState& state, PassKind kind);
     void for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink);
@@ -307,6 +314,11 @@ class Region {
 
 template <FragmentProgram P>
 Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& program) {
+    if (alteration() != nullptr) {
+        const PassState changed = altered(state, PassKind::geometry);
+        begin_pass(changed, PassKind::geometry);
+        return draw_everything(changed, list, program);
+    }
     begin_pass(state, PassKind::geometry);
     if (state.selection.keeps == Keeps::everything || !may_select(state, list))
         return draw_everything(state, list, program);
@@ -321,7 +333,7 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
         shade_or_recall(list, batch, out);
         show(Stage::shaded, state, batch, out, out.alive);
         load(state, batch);
-        run_program(program, batch, out);
+        run_program(state, program, batch, out);
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     };
@@ -338,7 +350,7 @@ Drawn Region::draw_selected(const PassState& state, P& program) {
     while (FragmentBatch* const batch = next_selected(state)) {
         Outputs& out = start_batch(*batch);
         load(state, *batch);
-        run_program(program, *batch, out);
+        run_program(state, program, *batch, out);
         finish(state, *batch, out, drawn);
     }
     return book_selected(state, before, drawn);
@@ -358,13 +370,19 @@ Drawn Region::draw_checked(const PassState& state, const PreparedDraw& list, P& 
 
 template <FragmentProgram P>
 Drawn Region::full_screen(const PassState& state, P&& program) {
+    return alteration() != nullptr ? draw_screen(altered(state, PassKind::full_screen), program)
+                                   : draw_screen(state, program);
+}
+
+template <FragmentProgram P>
+Drawn Region::draw_screen(const PassState& state, P& program) {
     begin_pass(state, PassKind::full_screen);
     Drawn drawn;
     FragmentBatch& batch = screen_batch();
     for (std::size_t next = 0; next_screen_batch(batch, next);) {
         Outputs& out = start_batch(batch);
         load(state, batch);
-        run_program(program, batch, out);
+        run_program(state, program, batch, out);
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     }
@@ -390,10 +408,14 @@ void Region::trace_pixels(Target read, P&& program) {
 }
 
 template <class P>
-void Region::run_program(P& program, FragmentBatch& batch, Outputs& out) {
+void Region::run_program(const PassState& state, P& program, FragmentBatch& batch, Outputs& out) {
     const std::uint64_t before = alive_count(out, batch.count);
     const std::uint64_t tally = out.tally;
-    program(static_cast<const FragmentBatch&>(batch), loads(), out);
+    const auto run = [&] { program(static_cast<const FragmentBatch&>(batch), loads(), out); };
+    if (const Alteration* a = alteration(); a != nullptr && a->program)
+        a->program({state, kind_, batch, loads(), out}, run);
+    else
+        run();
     if (out.replaces_depth) std::copy_n(out.depth.begin(), batch.count, batch.code.begin());
     tallied_ += out.tally - tally;
     if (kind_ != PassKind::geometry) return;

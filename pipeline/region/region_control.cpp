@@ -9,6 +9,12 @@ namespace strata::pipeline {
 
 void Region::begin_iteration() { books_.begin_iteration(); }
 
+PassState Region::altered(const PassState& state, PassKind kind) {
+    PassState changed = state;
+    if (instruments_.alteration->pass) instruments_.alteration->pass(*this, changed, kind);
+    return changed;
+}
+
 // A tile that counts nothing and has promised to be idle stops on its own word. With Idle::when_zero it first goes through one
 // more iteration, the probe, because literal execution would: its counters are those of every iteration that the frame still runs.
 bool Region::any(Count count, Idle idle) {
@@ -30,6 +36,7 @@ bool Region::any(Count count, Idle idle) {
         books_.probed = probing_;
         answer = idle == Idle::when_zero && !std::exchange(probing_, true);
     }
+    if (const Alteration* a = alteration(); a != nullptr && a->query) answer = a->query(count.own_, answer);
     books_.decisions.push_back({count.own_, idle, answer});
     show({.step = Step::query, .passed = count.own_, .answer = answer});
     if (!answer) books_.end_iterations();

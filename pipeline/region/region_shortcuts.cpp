@@ -63,7 +63,7 @@ std::optional<ScreenWords> RegionShortcuts::full_screen_words(const PassState& s
     if (region_.extent_ != Extent::tile || region_.frame_.effects != Effects::needed || !is(state.color[0], color) ||
         !std::equal(reads.begin(), reads.end(), first_read, [&](Format format, Target t) { return is(t, format); }))
         return {};
-    region_.begin_pass(state, Region::PassKind::full_screen);
+    region_.begin_pass(state, PassKind::full_screen);
     ScreenWords words{{}, region_.at(state.color[0]).texels(0), region_.rect_.area()};
     for (std::size_t r = 0; r < reads.size(); ++r) {
         words.reads[r] = region_.at(state.reads[r]).texels(0);

@@ -12,6 +12,7 @@
 #include "scenes/procedural/plane_stack.h"
 #include "scenes/procedural/random_soup.h"
 #include "scenes/procedural/shadow_demo.h"
+#include "scenes/procedural/showroom.h"
 #include "scenes/procedural/teapot.h"
 #include "scenes/procedural/volume_beam.h"
 
@@ -56,6 +57,11 @@ Scene shadow_demo(const std::string& spec, const SceneOptions& options) {
     return make_shadow_demo(options);
 }
 
+Scene showroom(const std::string& spec, const SceneOptions& options) {
+    const Parameters parameters{spec, Keys{}};
+    return make_showroom(options);
+}
+
 // The first case is the default.
 Scene hard_case(const std::string& spec, const SceneOptions& options) {
     const Parameters parameters{spec, Keys{"case"}};
@@ -71,7 +77,8 @@ struct Maker {
     Scene (*make)(const std::string& spec, const SceneOptions& options);
 };
 constexpr Maker makers[] = {{"teapot", teapot},      {"volume-beam", volume_beam}, {"random", random_soup},
-                            {"planes", plane_stack}, {"shadow-demo", shadow_demo}, {"hard", hard_case}};
+                            {"planes", plane_stack}, {"shadow-demo", shadow_demo}, {"showroom", showroom},
+                            {"hard", hard_case}};
 
 Keys names() {
     Keys result;
@@ -104,6 +111,8 @@ const std::vector<ProceduralScene>& procedural_scenes() {
          "65536; 1 to 256, default 8)"},
         {"shadow-demo", "",
          "a teapot on a plane behind a pane of glass, with a light whose shadow map every pass looks at"},
+        {"showroom", "",
+         "one of everything that a renderer can get wrong, made for 64x64 pixels: strata diagnose looks at it"},
         {"hard", "case=NAME",
          "a small scene on which rasterizers and peels go wrong, seen as it is meant to be unless a camera is named "
          "(strata hard-cases --list names them)"},

@@ -51,7 +51,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
          "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, planes, "
-         "shadow-demo, hard, found 'teapt' "
+         "shadow-demo, showroom, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},
          "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd24'?)"},

@@ -4,6 +4,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "rasterizer/base/enum_values.h"
 #include "tools/oracle/history_report.h"
 
 namespace strata::oracle {
@@ -12,31 +13,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::array<std::string_view, 8> func_names{"never",   "less",     "equal",  "lequal",
-                                                     "greater", "notequal", "gequal", "always"};
-constexpr std::array<std::string_view, 8> stencil_names{"keep", "zero",   "replace",   "incr",
-                                                        "decr", "invert", "incr_wrap", "decr_wrap"};
-constexpr std::array<std::string_view, 7> equation_names{"add", "subtract",   "reverse_subtract",       "min",
-                                                         "max", "signed_add", "signed_reverse_subtract"};
-constexpr std::array<std::string_view, 15> factor_names{"zero",
-                                                        "one",
-                                                        "src_color",
-                                                        "one_minus_src_color",
-                                                        "dst_color",
-                                                        "one_minus_dst_color",
-                                                        "src_alpha",
-                                                        "one_minus_src_alpha",
-                                                        "dst_alpha",
-                                                        "one_minus_dst_alpha",
-                                                        "constant_color",
-                                                        "one_minus_constant_color",
-                                                        "constant_alpha",
-                                                        "one_minus_constant_alpha",
-                                                        "src_alpha_saturate"};
-
-template <class Enum, std::size_t count>
-std::string_view word(const std::array<std::string_view, count>& names, Enum value) {
-    return names.at(static_cast<std::size_t>(value));
+// The word of a state's value: its name in the source.
+template <class Enum>
+std::string_view word(Enum value) {
+    return enum_names<Enum>.at(static_cast<std::size_t>(value));
 }
 
 std::string bits(float value) { return fmt::format("{:08x}", std::bit_cast<std::uint32_t>(value)); }
@@ -58,9 +38,7 @@ ordered_json all_held(const std::vector<Held>& list) {
 }
 
 ordered_json json_of_term(const pipeline::BlendTerm& t) {
-    return {{"equation", word(equation_names, t.equation)},
-            {"src", word(factor_names, t.src)},
-            {"dst", word(factor_names, t.dst)}};
+    return {{"equation", word(t.equation)}, {"src", word(t.src)}, {"dst", word(t.dst)}};
 }
 
 ordered_json json_of_blend(const pipeline::Blend& b) {
@@ -72,24 +50,19 @@ ordered_json json_of_blend(const pipeline::Blend& b) {
 }
 
 ordered_json json_of_face(const pipeline::StencilFace& f) {
-    return {{"func", word(func_names, f.func)},
-            {"ref", f.ref},
-            {"func_mask", f.func_mask},
-            {"write_mask", f.write_mask},
-            {"fail", word(stencil_names, f.fail)},
-            {"depth_fail", word(stencil_names, f.depth_fail)},
-            {"pass", word(stencil_names, f.pass)}};
+    return {{"func", word(f.func)},       {"ref", f.ref},         {"func_mask", f.func_mask},
+            {"write_mask", f.write_mask}, {"fail", word(f.fail)}, {"depth_fail", word(f.depth_fail)},
+            {"pass", word(f.pass)}};
 }
 
 // The tests that the pass makes.
 ordered_json json_of_tests(const Line& line) {
     ordered_json document = ordered_json::object();
     const pipeline::PassState& state = line.state;
-    if (state.alpha.enabled)
-        document["alpha"] = {{"func", word(func_names, state.alpha.func)}, {"ref", bits(state.alpha.ref)}};
+    if (state.alpha.enabled) document["alpha"] = {{"func", word(state.alpha.func)}, {"ref", bits(state.alpha.ref)}};
     if (state.depth.enabled)
         document["depth"] = {
-            {"target", line.depth_target}, {"func", word(func_names, state.depth.func)}, {"write", state.depth.write}};
+            {"target", line.depth_target}, {"func", word(state.depth.func)}, {"write", state.depth.write}};
     if (state.stencil.enabled)
         document["stencil"] = {{"target", line.stencil_target},
                                {"two_sided", state.stencil.two_sided},

@@ -12,6 +12,10 @@
 
 #include "tools/oracle/codes.h"
 
+namespace strata::pipeline {
+struct Image;
+}
+
 namespace strata::oracle {
 
 enum class Meaning : std::uint8_t { color, depth, other };
@@ -41,6 +45,9 @@ struct Picture {
     std::string file{};
     std::vector<Target> targets{};  // at least one
 };
+
+// An image of this library's own, of one sample.
+[[nodiscard]] Target target_of(const pipeline::Image& image, const std::string& name);
 
 // The layout of a file of bare numbers: little endian, rows without padding.
 struct RawLayout {

@@ -47,15 +47,8 @@ Code code_of(scenes::StoredType type) noexcept {
 
 // A part that Strata wrote says what its codes are.
 Target of_image(const scenes::FileImage& found) {
-    const pipeline::Image& image = found.image;
-    Target target{.part = found.part,
-                  .name = found.target,
-                  .meaning = pipeline::is_depth(image.format) ? Meaning::depth : Meaning::color,
-                  .code = code_of(image.format),
-                  .width = image.width,
-                  .height = image.height,
-                  .channels = image.channels()};
-    target.codes.assign(image.codes.begin(), image.codes.end());
+    Target target = target_of(found.image, found.target);
+    target.part = found.part;
     return target;
 }
 
@@ -140,6 +133,17 @@ Picture read_png(const std::string& path) {
 }
 
 }  // namespace
+
+Target target_of(const pipeline::Image& image, const std::string& name) {
+    Target target{.name = name,
+                  .meaning = pipeline::is_depth(image.format) ? Meaning::depth : Meaning::color,
+                  .code = code_of(image.format),
+                  .width = image.width,
+                  .height = image.height,
+                  .channels = image.channels()};
+    target.codes.assign(image.codes.begin(), image.codes.end());
+    return target;
+}
 
 Picture read_picture(const std::string& path, const std::optional<RawLayout>& layout) {
     const auto ends_in = [&](std::string_view ending) {

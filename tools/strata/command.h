@@ -18,6 +18,8 @@ struct Command {
 [[nodiscard]] Command add_layers(CLI::App& root);
 [[nodiscard]] Command add_passes(CLI::App& root);
 [[nodiscard]] Command add_explain(CLI::App& root);
+[[nodiscard]] Command add_diagnose(CLI::App& root);
+[[nodiscard]] Command add_mistakes(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
 [[nodiscard]] Command add_effects(CLI::App& root);
 [[nodiscard]] Command add_cost(CLI::App& root);

@@ -11,6 +11,7 @@
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
+#include "tools/strata/tolerances.h"
 
 namespace strata::tools {
 
@@ -43,28 +44,6 @@ int compare(const CompareOptions& options) {
     return found.accepted ? 0 : 1;
 }
 
-// "color=1,depth=2,coverage=10", each at most once.
-std::optional<oracle::Tolerances> to_tolerances(std::string_view text) {
-    oracle::Tolerances tolerances;
-    std::vector<std::string_view> seen;
-    for (const std::string& part : split(text, ',')) {
-        const std::size_t is = part.find('=');
-        if (is == std::string::npos) return std::nullopt;
-        const auto amount = to_int<std::uint32_t>(std::string_view(part).substr(is + 1));
-        if (!amount) return std::nullopt;
-        const std::string kind = part.substr(0, is);
-        if (kind == "color")
-            tolerances.color_codes = *amount;
-        else if (kind == "depth")
-            tolerances.depth_codes = *amount;
-        else if (kind == "coverage")
-            tolerances.coverage_pixels = *amount;
-        else
-            return std::nullopt;
-    }
-    return tolerances;
-}
-
 }  // namespace
 
 Command add_compare(CLI::App& root) {
@@ -76,21 +55,8 @@ Command add_compare(CLI::App& root) {
     app->add_option("CANDIDATE", options->candidate, "the same; the kinds of files may differ")
         ->required()
         ->type_name("");
-    add_option(
-        *app, options->layout,
-        {"--layout", "WIDTHxHEIGHT:FORMAT[:bottom-up]", "of files of bare little-endian numbers",
-         "WIDTHxHEIGHT:FORMAT such as 640x480:rgba8, rgb16, rgba32f, d24 or d32f, and :bottom-up if the lowest row "
-         "comes first"},
-        [](std::string_view text) -> std::optional<std::optional<oracle::RawLayout>> {
-            const auto layout = oracle::raw_layout(text);
-            if (!layout) return std::nullopt;
-            return layout;
-        });
-    add_option(*app, options->tolerances,
-               {"--tolerance", "KIND=N[,KIND=N...]",
-                "forgive colours and depths N codes apart, and N pixels of other coverage; nothing without this option",
-                "color=N, depth=N and coverage=N with commas between"},
-               to_tolerances);
+    add_layout_option(*app, options->layout);
+    add_tolerance_option(*app, options->tolerances);
     add_path(*app, options->heat, {"--heat", "FILE.png", "where which kind of difference is", "a file name"});
     add_path(*app, options->side,
              {"--side", "FILE.png", "reference, candidate and heat map side by side", "a file name"});

@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "scenes/files/image_io.h"
+#include "tools/oracle/mistakes/laboratory.h"
 #include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 
 namespace strata::tools {
@@ -22,8 +24,54 @@ void write_picture(const RunOptions& options, const Finished& finished) {
                          .attributes = attributes_of("render", options, finished)});
 }
 
-int render(RunOptions& options) {
+struct RenderCommand {
+    RunOptions run;
+    std::vector<const oracle::Mistake*> mistakes;
+};
+
+// Names with commas between, as `strata mistakes` lists them.
+std::vector<const oracle::Mistake*> to_mistakes(const std::string& text) {
+    std::vector<const oracle::Mistake*> chosen;
+    std::vector<std::string> names;
+    for (const oracle::Mistake& mistake : oracle::catalogue()) names.emplace_back(mistake.name);
+    for (const std::string& name : split(text, ',')) {
+        const oracle::Mistake* const mistake = oracle::find_mistake(name);
+        if (mistake == nullptr)
+            throw CLI::ValidationError("--mistake", "expected names of mistakes (strata mistakes lists them), found " +
+                                                        found_but_near(name, names));
+        chosen.push_back(mistake);
+    }
+    return chosen;
+}
+
+// The picture of a wrong machine: without statistics, for nothing of it is to be trusted.
+int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake*>& mistakes) {
+    complete(options);
+    if (options.algorithms.size() != 1)
+        throw CLI::ValidationError("--mistake", "expected one algorithm beside it, found several");
+    if (options.output.empty()) throw CLI::ValidationError("--mistake", "expected -o beside it, found none");
+    const Session session = open_session(options);
+    const oracle::Laboratory laboratory{{session.scene.list, session.view, session.profile, options.render},
+                                        *options.algorithms[0]};
+    const auto picture = laboratory.with(mistakes);
+    if (!picture)
+        throw CLI::ValidationError("--mistake",
+                                   "expected a mistake that this scene, algorithm and profile have room "
+                                   "for, found '" +
+                                       std::string(mistakes.front()->name) + "'");
+    std::string names;
+    for (const oracle::Mistake* mistake : mistakes) names += (names.empty() ? "" : ",") + std::string(mistake->name);
+    scenes::write_image(options.output, {.color = oracle::color_image(*picture),
+                                         .premultiplied = true,
+                                         .space = options.scene_options.color_space,
+                                         .attributes = {{"mistake", names}}});
+    return 0;
+}
+
+int render(RenderCommand& command) {
+    RunOptions& options = command.run;
     check_outputs({{"-o", options.output, {".exr", ".png"}}});
+    if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
     return run_algorithms(options, [&](const Finished& finished) { write_picture(options, finished); });
 }
 
@@ -32,10 +80,14 @@ int render(RunOptions& options) {
 Command add_render(CLI::App& root) {
     auto* app = root.add_subcommand(
         "render", "render a scene by one or more algorithms and compare each with the exact A-buffer");
-    const auto options = std::make_shared<RunOptions>();
-    add_picture_options(*app, *options);
-    add_execution_options(*app, *options);
-    add_output_options(*app, *options, "the picture, .exr or .png; with several algorithms out.NAME.png");
+    const auto options = std::make_shared<RenderCommand>();
+    add_picture_options(*app, options->run);
+    add_execution_options(*app, options->run);
+    add_output_options(*app, options->run, "the picture, .exr or .png; with several algorithms out.NAME.png");
+    app->add_option_function<std::string>(
+           "--mistake", [options = options.get()](const std::string& text) { options->mistakes = to_mistakes(text); },
+           "draw like a machine with these mistakes, to try strata diagnose (strata mistakes lists them)")
+        ->type_name("NAME[,NAME...]");
     app->footer(
         footer("  strata render teapot --size 400x300 -o teapot.png\n"
                "  strata render volume-beam:slices=16 --algorithm all --profile ideal --size 200x150\n"

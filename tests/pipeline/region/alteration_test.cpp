@@ -1,0 +1,162 @@
+// Model: what a step would have left without the change, and with it, in numbers that a reader works out: a few fragments
+// a pixel, MAX and replacement.
+#include "pipeline/frame/alteration.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/frames.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+
+// Pixel p has one fragment of red p / 8, depth 1/2.
+FragmentScene ramp_of_reds() {
+    FragmentScene scene{8, 1};
+    for (int p = 0; p < 8; ++p)
+        scene.pixels[static_cast<std::size_t>(p)].fragments.push_back({0.5f, {static_cast<float>(p) / 8, 0, 0, 1}});
+    return scene;
+}
+
+struct AlteredMachine {
+    TestFrame test;
+    strata::pipeline::RegionBooks books;
+    Region region;
+    explicit AlteredMachine(const Alteration& alteration)
+        : test{ramp_of_reds(), "geforce8"},
+          region{test.frame, {test.frame.rect()}, books, {.alteration = &alteration}} {}
+};
+
+// Clears a float target to red 1/4 and draws the ramp over it.
+std::vector<float> reds_after_pass(const Alteration& alteration, bool by_quad = false) {
+    AlteredMachine m{alteration};
+    const Target target = m.region.make(Format::rgba32f);
+    m.region.call(target, "target");
+    m.region.clear(target, {.color = {0.25f, 0, 0, 0}});
+    PassState state;
+    state.color[0] = target;
+    const auto program = [by_quad](const FragmentBatch& in, const Loads&, Outputs& out) {
+        if (by_quad)
+            for (auto& channel : out.color[0]) channel.fill(0.75f);
+        else
+            out.color[0] = in.color;
+    };
+    if (by_quad)
+        static_cast<void>(m.region.full_screen(state, program));
+    else
+        static_cast<void>(m.region.draw(state, program));
+    std::vector<float> reds;
+    for (std::uint32_t p = 0; p < 8; ++p) reds.push_back(m.region.color(target, p)[0]);
+    return reds;
+}
+
+const std::vector<float> ramp{0, 0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.75f, 0.875f};
+const std::vector<float> cleared(8, 0.25f);
+
+}  // namespace
+
+TEST_CASE("an alteration without functions leaves every step as it is") {
+    CHECK(reds_after_pass({}) == ramp);
+    CHECK(reds_after_pass({}, true) == std::vector<float>(8, 0.75f));
+}
+
+TEST_CASE("a pass takes the state that its alteration leaves, geometry and quads alike") {
+    int geometry = 0, quads = 0;
+    const Alteration changed{.pass = [&](Region&, PassState& state, PassKind kind) {
+        ++(kind == PassKind::geometry ? geometry : quads);
+        state.blend[0] = blend_mode::max;
+    }};
+    CHECK(reds_after_pass(changed) == std::vector<float>{0.25f, 0.25f, 0.25f, 0.375f, 0.5f, 0.625f, 0.75f, 0.875f});
+    CHECK(reds_after_pass(changed, true) == std::vector<float>(8, 0.75f));
+    CHECK(geometry == 1);
+    CHECK(quads == 1);
+}
+
+TEST_CASE("an alteration stands in for a program, around it or without it") {
+    const Alteration behind{.program = [](const ProgramCall& call, const std::function<void()>& run) {
+        run();
+        for (std::size_t i = 0; i < static_cast<std::size_t>(call.in.count); ++i)
+            if (call.out.color[0][0][i] > 0.5f) call.out.discard(static_cast<int>(i));
+    }};
+    CHECK(reds_after_pass(behind) == std::vector<float>{0, 0.125f, 0.25f, 0.375f, 0.5f, 0.25f, 0.25f, 0.25f});
+    const Alteration nobody{.program = [](const ProgramCall& call, const std::function<void()>&) {
+        for (auto& channel : call.out.color[0]) channel.fill(0.0625f);
+    }};
+    CHECK(reds_after_pass(nobody) == std::vector<float>(8, 0.0625f));
+}
+
+TEST_CASE("a clear and a copy may be changed, turned elsewhere or left out") {
+    for (const bool is_left_out : {false, true}) {
+        const Alteration changed{.clear =
+                                     [&](Region&, Target&, ClearValue& value) {
+                                         value.color[0] *= 2;
+                                         return !is_left_out;
+                                     },
+                                 .copy = [&](Region&, Target&, Target&) { return !is_left_out; }};
+        AlteredMachine m{changed};
+        const Target from = m.region.make(Format::r32f), to = m.region.make(Format::r32f);
+        m.region.clear(from, {.color = {0.25f, 0, 0, 0}});
+        m.region.copy(from, to);
+        CHECK(m.region.color(from, 3)[0] == (is_left_out ? 0.0f : 0.5f));
+        CHECK(m.region.color(to, 3)[0] == (is_left_out ? 0.0f : 0.5f));
+    }
+    const Alteration turned{.clear = [](Region&, Target& target, ClearValue&) {
+        target = {target.id + 1};
+        return true;
+    }};
+    AlteredMachine m{turned};
+    const Target asked = m.region.make(Format::r32f), hit = m.region.make(Format::r32f);
+    m.region.clear(asked, {.color = {1, 0, 0, 0}});
+    CHECK(m.region.color(asked, 0)[0] == 0.0f);
+    CHECK(m.region.color(hit, 0)[0] == 1.0f);
+}
+
+TEST_CASE("an alteration answers queries, hears names, and sees nothing of the emulator's own work") {
+    std::uint64_t asked = 0;
+    std::string names;
+    int clears = 0;
+    const Alteration stubborn{.named = [&](Target, std::string_view name) { names += name; },
+                              .clear =
+                                  [&](Region&, Target&, ClearValue&) {
+                                      ++clears;
+                                      return true;
+                                  },
+                              .query =
+                                  [&](std::uint64_t count, bool) {
+                                      asked = count;
+                                      return false;
+                                  }};
+    AlteredMachine m{stubborn};
+    CHECK(clears == 0);  // the opaque targets have been cleared by then
+    const Target target = m.region.make_color();
+    m.region.call(target, "layer");
+    m.region.uncounted([&] { m.region.clear(target, {}); });
+    CHECK(clears == 0);
+    PassState state;
+    state.color[0] = target;
+    m.region.begin_iteration();
+    const Drawn drawn =
+        m.region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; });
+    CHECK_FALSE(m.region.any(drawn.passed, Idle::no));
+    CHECK(asked == 8);
+    CHECK(names == "layer");
+}
+
+TEST_CASE("an altered run is literal, whatever execution is asked for") {
+    TestFrame test{ramp_of_reds(), "geforce8"};
+    int regions = 0, copies = 0;
+    const Body body = [&](Region& region) {
+        ++regions;
+        const Target target = region.make_color();
+        region.copy(region.opaque_color(), target);
+        region.publish(target);
+    };
+    const Alteration counting{.copy = [&](Region&, Target&, Target&) {
+        ++copies;
+        return true;
+    }};
+    static_cast<void>(run(test.frame, body, Execution::replay, 2, {}, {.alteration = &counting}));
+    CHECK(regions == 1);
+    CHECK(copies == 1);
+}

@@ -1,0 +1,42 @@
+// Model: the picture of each mistake is a candidate like any other, so the diagnosis has to name who made it.
+#include "tools/oracle/mistakes/catalogue.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "rasterizer/base/parallel.h"
+#include "tools/oracle/mistakes/mistake_table.h"
+
+using namespace strata;
+using namespace strata::oracle;
+
+TEST_CASE("mistakes have names of their own and sentences, and are found by them") {
+    std::set<std::string_view> names, sentences;
+    for (const Mistake& mistake : catalogue()) {
+        names.insert(mistake.name);
+        sentences.insert(mistake.sentence);
+        CHECK(find_mistake(mistake.name) == &mistake);
+    }
+    CHECK(catalogue().size() >= 40);
+    CHECK(names.size() == catalogue().size());
+    CHECK(sentences.size() == catalogue().size());
+    CHECK(find_mistake("no_mistake") == nullptr);
+}
+
+TEST_CASE("every mistake is named first in a scene of the suite, none where it does not show, and no two are alike",
+          "[slow]") {
+    std::vector<TableColumn> columns(suite().size());
+    parallel_for(columns.size(), 0, [&](std::size_t i) { columns[i] = table_column(suite()[i]); });
+    int wrong = 0;
+    for (const TableColumn& column : columns)
+        for (const Cell cell : column.cells) wrong += cell == Cell::wrong || cell == Cell::accused ? 1 : 0;
+    CHECK(wrong == 0);
+    for (const Mistake* mistake : unnamed(columns)) {
+        INFO(mistake->name);
+        CHECK(is_declared_twin(*mistake));
+    }
+    for (const Twins& pair : twins(columns)) {
+        INFO(pair.first->name << " and " << pair.second->name);
+        CHECK(reason_for(pair) != nullptr);
+    }
+}

@@ -1,0 +1,112 @@
+// Model: the mistake that was put into a picture, and counts of pixels by a loop over both pictures.
+#include "tools/oracle/mistakes/diagnosis.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/oracle/mistakes/scenes_of_test.h"
+#include "tools/oracle/mistakes/diagnosis_report.h"
+
+using namespace strata;
+using namespace strata::oracle;
+using strata::test::Bench;
+
+namespace {
+
+std::uint64_t equal_pixels(const Picture& a, const Picture& b) {
+    std::uint64_t equal = 0;
+    for (std::size_t i = 0; i < a.targets[0].pixels(); ++i) {
+        bool is_equal = true;
+        for (int c = 0; c < a.targets[0].channels; ++c)
+            is_equal &= a.targets[0].at(i, c).word == b.targets[0].at(i, c).word;
+        equal += is_equal ? 1 : 0;
+    }
+    return equal;
+}
+
+std::vector<std::string_view> names_of(const Finding& finding) {
+    std::vector<std::string_view> names;
+    for (const Mistake* mistake : finding.mistakes) names.push_back(mistake->name);
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("the right picture is called right, and no mistake stands before the right machine") {
+    const Bench bench{"showroom.front_to_back"};
+    const Lineup lineup{bench.laboratory};
+    const Diagnosis found = lineup.diagnose(bench.laboratory.right());
+    CHECK(found.verdict == Verdict::right);
+    CHECK(found.differing == 0);
+    CHECK(found.findings.front().mistakes.empty());
+    CHECK(found.findings.front().agreeing == found.pixels);
+    CHECK(found.tried > 40);
+    CHECK(found.tried + found.hidden + found.impossible == static_cast<int>(catalogue().size()));
+}
+
+TEST_CASE("one mistake is named, with the pixels that it explains") {
+    const Bench bench{"showroom.front_to_back"};
+    const Lineup lineup{bench.laboratory};
+    for (const char* name : {"one_pass_too_few", "last_of_equals", "depth_16", "srgb_twice", "half_pixel_up"}) {
+        const Picture picture = bench.with(name);
+        const Diagnosis found = lineup.diagnose(picture);
+        INFO(name);
+        CHECK(found.verdict == Verdict::one_mistake);
+        const Finding& best = found.findings.front();
+        const auto is_alike = [&](const Mistake* m) { return m->name == name; };
+        CHECK((names_of(best)[0] == name || std::ranges::any_of(best.alike, is_alike)));
+        CHECK(best.agreeing == found.pixels);
+        CHECK(best.explained == found.differing);
+        CHECK(best.contradicted == 0);
+        CHECK(found.differing == found.pixels - equal_pixels(bench.laboratory.right(), picture));
+    }
+}
+
+TEST_CASE("two mistakes at once are named") {
+    const Bench bench{"showroom.dual"};
+    const Lineup lineup{bench.laboratory};
+    for (const auto& [first, second] :
+         {std::pair{"one_pass_too_few", "flipped_rows"}, std::pair{"culls_front", "mask_ignored"},
+          std::pair{"premultiplied_twice", "background_lost"}}) {
+        const Diagnosis found = lineup.diagnose(bench.with(first, second));
+        INFO(first << " and " << second);
+        CHECK(found.verdict == Verdict::two_mistakes);
+        const auto names = names_of(found.findings.front());
+        CHECK(std::ranges::find(names, first) != names.end());
+        CHECK(std::ranges::find(names, second) != names.end());
+        CHECK(found.pairs_tried > 0);
+    }
+}
+
+TEST_CASE("a picture that nobody knows is none of mine, and the best finding says how far it goes") {
+    const Bench bench{"showroom.weighted_sum"};
+    const Lineup lineup{bench.laboratory};
+    Picture spoiled = bench.with("flipped_rows");
+    const std::uint64_t pixels = spoiled.targets[0].pixels();
+    for (std::size_t i = 0; i < pixels; i += 97) spoiled.targets[0].codes[4 * i] ^= 0x55;
+    const Diagnosis found = lineup.diagnose(spoiled);
+    CHECK(found.verdict == Verdict::none_of_mine);
+    const Finding& best = found.findings.front();
+    const auto names = names_of(best);
+    CHECK(std::ranges::find(names, "flipped_rows") != names.end());
+    CHECK(best.agreeing >= pixels - (pixels + 96) / 97);
+    CHECK(best.agreeing < pixels);
+    const std::string text = to_text(found, compare(bench.laboratory.right(), spoiled));
+    CHECK_THAT(text, Catch::StartsWith("none of mine"));
+    CHECK_THAT(text, Catch::Contains("compare: different"));
+    const auto document = nlohmann::json::parse(to_json(found, compare(bench.laboratory.right(), spoiled)));
+    CHECK(document["verdict"] == "none_of_mine");
+    CHECK(document["findings"].size() == found.findings.size());
+    CHECK(document["comparison"]["equal"] == false);
+}
+
+TEST_CASE("colours that are forgiven count as equal, and nothing is forgiven by itself") {
+    const Bench bench{"showroom.weighted_sum"};
+    const Lineup lineup{bench.laboratory};
+    Picture rounded = bench.with("red_for_blue");
+    for (std::uint32_t& code : rounded.targets[0].codes) code = code < 255 ? code + 1 : code;
+    CHECK(lineup.diagnose(rounded).verdict == Verdict::none_of_mine);
+    const Diagnosis found = lineup.diagnose(rounded, {.color_codes = 1});
+    CHECK(found.verdict == Verdict::one_mistake);
+    CHECK(names_of(found.findings.front())[0] == "red_for_blue");
+}

@@ -1,0 +1,124 @@
+// Model: options that mean the same as a mistake; a slow loop over the pixels for what happens to a finished picture; a
+// loop over a stack of planes for blending.
+#include "tools/oracle/mistakes/laboratory.h"
+
+#include <catch2/catch.hpp>
+
+#include "peeling/registry.h"
+#include "peeling/render.h"
+#include "scenes/camera.h"
+#include "tests/tools/oracle/mistakes/scenes_of_test.h"
+
+using namespace strata;
+using namespace strata::oracle;
+using strata::test::Bench;
+
+namespace {
+
+Picture rendered(const OpenScene& opened) {
+    peeling::Renderer renderer{opened.scene.list, opened.view, opened.profile, opened.options};
+    return {.file = "", .targets = {target_of(renderer.render(*opened.algorithm).frame.color, "color")}};
+}
+
+bool is_equal(const Picture& a, const Picture& b) { return a.targets[0].codes == b.targets[0].codes; }
+
+}  // namespace
+
+TEST_CASE("the right machine's picture is that of an ordinary run") {
+    for (const char* name : {"showroom.dual", "showroom.weighted_average", "two_layers.front_to_back"}) {
+        const Bench bench{name};
+        CHECK(is_equal(bench.laboratory.right(), rendered(bench.opened)));
+    }
+}
+
+TEST_CASE("a mistake that is a choice of options makes the picture of those options") {
+    const Bench bench{"showroom.front_to_back"};
+    const auto by_options = [&](auto change) {
+        OpenScene other = open(*find_suite_scene("showroom.front_to_back"));
+        change(other);
+        return rendered(other);
+    };
+    CHECK(is_equal(bench.with("depth_24"),
+                   by_options([](OpenScene& o) { o.options.depth = pipeline::DepthFormat::d24; })));
+    CHECK(is_equal(bench.with("background_lost"), by_options([](OpenScene& o) {
+                       o.options.background = {0, 0, 0, 1};
+                   })));
+    CHECK(is_equal(bench.with("ties_of_rows"),
+                   by_options([](OpenScene& o) { o.profile.raster.tie_rule = rasterizer::TieRule::bottom_left; })));
+    CHECK(is_equal(bench.with("order_reversed"), by_options([](OpenScene& o) {
+                       std::ranges::reverse(o.scene.list.instances);
+                       for (pipeline::Mesh& mesh : o.scene.list.meshes) {
+                           const auto given = mesh.indices;
+                           const std::size_t triangles = given.size() / 3;
+                           for (std::size_t t = 0; t < triangles; ++t)
+                               for (std::size_t c = 0; c < 3; ++c)
+                                   mesh.indices[3 * t + c] = given[3 * (triangles - 1 - t) + c];
+                       }
+                   })));
+    const int enough = bench.laboratory.right_run().enough_passes;
+    CHECK(
+        is_equal(bench.with("one_pass_too_few"), by_options([&](OpenScene& o) { o.options.max_passes = enough - 1; })));
+    CHECK(is_equal(bench.laboratory.right(), by_options([&](OpenScene& o) { o.options.max_passes = enough; })));
+    CHECK_FALSE(is_equal(bench.laboratory.right(), bench.with("one_pass_too_few")));
+}
+
+TEST_CASE("a mistake of the finished picture moves or changes its pixels and nothing else") {
+    const Bench bench{"showroom.dual"};
+    const Target& right = bench.laboratory.right().targets[0];
+    const Picture flipped = bench.with("flipped_rows"), blue = bench.with("red_for_blue"),
+                  moved = bench.with("one_pixel_right");
+    int wrong = 0;
+    for (int y = 0; y < right.height; ++y)
+        for (int x = 0; x < right.width; ++x)
+            for (int c = 0; c < 4; ++c) {
+                const auto at = [&](const Target& t, int px, int py, int channel) {
+                    return t.codes[static_cast<std::size_t>((py * right.width + px) * 4 + channel)];
+                };
+                wrong += at(flipped.targets[0], x, y, c) != at(right, x, right.height - 1 - y, c);
+                wrong += at(blue.targets[0], x, y, c) != at(right, x, y, c == 3 ? 3 : 2 - c);
+                wrong += at(moved.targets[0], x, y, c) != at(right, x == 0 ? 0 : x - 1, y, c);
+            }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("layers blended without transmittance add up") {
+    // Six planes that face the eye, alpha 1/8, over black: the sum of colour times alpha, in binary32.
+    OpenScene opened = open(*find_suite_scene("float.dual"));
+    opened.algorithm = peeling::find_algorithm("front_to_back");
+    opened.scene = scenes::load_scene("planes:count=6,gap=65536,cells=1", {});
+    opened.view = scenes::orbit_view(opened.scene.bounds, 0, 0, 1);
+    float sum[3] = {};
+    for (pipeline::Mesh& mesh : opened.scene.list.meshes)
+        for (pipeline::Rgba& color : mesh.colors) color = {0.5f, 0.25f, 1.0f, 0.125f};
+    for (pipeline::Material& material : opened.scene.list.materials)
+        material.front = material.back = {0.5f, 0.25f, 1.0f, 0.125f};
+    const pipeline::Rgba once = opened.scene.list.meshes[0].colors.empty()
+                                    ? opened.scene.list.materials[0].front
+                                    : pipeline::Rgba{0.25f, 0.0625f, 1.0f, 0.015625f};
+    for (int layer = 0; layer < 6; ++layer)
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += once[c] * once[3];
+    const Laboratory laboratory{opened.input(), *opened.algorithm};
+    const Picture picture = laboratory.with(*find_mistake("under_without_transmittance")).value();
+    const Target& colors = picture.targets[0];
+    const std::size_t centre = static_cast<std::size_t>(colors.height / 2 * colors.width + colors.width / 2);
+    for (int c = 0; c < 3; ++c) CHECK(colors.value_at(centre, c) == double{sum[c]});
+}
+
+TEST_CASE("a mistake that a scene has no room for is no picture") {
+    const Bench average{"showroom.weighted_average"}, random{"random.dual"};
+    CHECK_FALSE(average.laboratory.with(*find_mistake("one_pass_too_few")));
+    CHECK_FALSE(random.laboratory.with(*find_mistake("texture_upside_down")));
+    CHECK_FALSE(random.laboratory.with(*find_mistake("one_pass_too_many")));
+}
+
+TEST_CASE("two mistakes are both made, and a finished picture's mistake comes last") {
+    const Bench bench{"showroom.dual"};
+    const Picture both = bench.with("premultiplied_twice", "flipped_rows");
+    CHECK(is_equal(both, changed(bench.with("premultiplied_twice"), *find_mistake("flipped_rows"))));
+    CHECK_FALSE(is_equal(both, bench.with("flipped_rows")));
+}
+
+TEST_CASE("a machine that never ends is stopped") {
+    const Bench bench{"showroom.front_to_back"};
+    CHECK(bench.with("peels_again").targets[0].pixels() == 64 * 64);
+}

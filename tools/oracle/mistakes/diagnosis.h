@@ -1,0 +1,69 @@
+// tools/oracle/mistakes/diagnosis.h - which wrong machine made a picture.
+//
+// Rule     Every mistake's own picture is compared with the candidate, pixel by pixel and code by code; a finding's rank is the number of
+//          pixels that agree. The right machine comes before all mistakes that explain no more than it does, and a mistake before
+//          those behind it in the catalogue. A mistake whose picture is the right one here is no finding. If no single one explains every
+//          pixel, pairs are tried: first all that end in a mistake of the finished picture, then those that
+//          contradict the candidate least where only one of the two shows.
+// Tests    tests/tools/oracle/mistakes/diagnosis_test.cpp
+#pragma once
+#include <functional>
+
+#include "tools/oracle/compare.h"
+#include "tools/oracle/mistakes/laboratory.h"
+
+namespace strata::oracle {
+
+struct Finding {
+    std::vector<const Mistake*> mistakes{};  // none: the right machine
+    std::uint64_t agreeing = 0;              // pixels that are the candidate's
+    std::uint64_t explained = 0;             // of those that are not the right machine's
+    std::uint64_t contradicted = 0;          // the right machine's, but not this one's
+    std::vector<const Mistake*> alike{};     // others that leave the same picture of this scene
+};
+
+enum class Verdict : std::uint8_t {
+    right,
+    one_mistake,
+    two_mistakes,
+    none_of_mine  // the best finding leaves pixels that it does not explain
+};
+
+struct Diagnosis {
+    Verdict verdict{};
+    std::uint64_t pixels = 0, differing = 0;  // differing: from the right picture, beyond the tolerances
+    std::vector<Finding> findings{};          // the best first; never empty
+    int tried = 0, hidden = 0, impossible = 0, pairs_tried = 0;
+};
+
+using ShowProgress = std::function<void(double share)>;
+
+// The pictures of all mistakes, made once for any number of candidates.
+class Lineup {
+  public:
+    // `laboratory` must live as long.
+    explicit Lineup(const Laboratory& laboratory, const ShowProgress& progress = {});
+
+    [[nodiscard]] Diagnosis diagnose(const Picture& candidate, const Tolerances& tolerances = {},
+                                     const ShowProgress& progress = {}) const;
+
+    // Null where the mistake cannot be made on this scene.
+    [[nodiscard]] const Picture* picture_of(const Mistake& mistake) const;
+    [[nodiscard]] bool shows(const Mistake& mistake) const;
+
+  private:
+    struct Suspect {
+        const Mistake* mistake = nullptr;
+        std::optional<Picture> picture{};
+        std::vector<bool> unchanged{};  // its pixels that are the right picture's; of one that shows
+        bool shows = false;
+        std::size_t like = 0;  // the first suspect with this picture
+    };
+    struct Evidence;
+    void try_pairs(const Evidence& evidence, const ShowProgress& progress, Diagnosis& diagnosis) const;
+
+    const Laboratory& laboratory_;
+    std::vector<Suspect> suspects_;
+};
+
+}  // namespace strata::oracle

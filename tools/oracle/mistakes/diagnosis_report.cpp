@@ -1,0 +1,104 @@
+#include "tools/oracle/mistakes/diagnosis_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/oracle/report.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t most_findings = 6;  // that people are told
+
+std::string sentence_of(const Finding& f) {
+    if (f.mistakes.empty()) return "the right machine";
+    std::string text;
+    for (const Mistake* mistake : f.mistakes)
+        text += fmt::format("{}{} ({})", text.empty() ? "" : "; and: ", mistake->sentence, mistake->name);
+    return text;
+}
+
+// Only all of them are 100 %.
+std::string percent(std::uint64_t part, std::uint64_t all) {
+    if (part == all) return "100";
+    const double share = 100.0 * static_cast<double>(part) / static_cast<double>(all);
+    return fmt::format("{:.1f}", std::min(share, 99.9));
+}
+
+std::string first_line(const Diagnosis& d) {
+    const Finding& best = d.findings.front();
+    if (d.verdict == Verdict::none_of_mine)
+        return fmt::format(
+            "none of mine: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
+            "explains them all\n",
+            d.differing, d.pixels);
+    return fmt::format("100 % of the pixels are those of: {}\n", sentence_of(best));
+}
+
+std::string line_of(const Finding& f, const Diagnosis& d) {
+    std::string text =
+        fmt::format("  {} % of the pixels are those of: {}\n", percent(f.agreeing, d.pixels), sentence_of(f));
+    if (!f.mistakes.empty() && d.differing > 0)
+        text += fmt::format("      {} of the {} that differ; {} that do not differ speak against it\n", f.explained,
+                            d.differing, f.contradicted);
+    return text;
+}
+
+ordered_json names_of(const std::vector<const Mistake*>& mistakes) {
+    ordered_json names = ordered_json::array();
+    for (const Mistake* mistake : mistakes) names.push_back(mistake->name);
+    return names;
+}
+
+}  // namespace
+
+std::string_view name(Verdict verdict) noexcept {
+    switch (verdict) {
+        case Verdict::right: return "right";
+        case Verdict::one_mistake: return "one_mistake";
+        case Verdict::two_mistakes: return "two_mistakes";
+        case Verdict::none_of_mine: return "none_of_mine";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+std::string to_text(const Diagnosis& d, const Comparison& comparison) {
+    std::string text = first_line(d);
+    const Finding& best = d.findings.front();
+    for (const Mistake* mistake : best.alike)
+        text += fmt::format("  the same picture of this scene: {} ({})\n", mistake->sentence, mistake->name);
+    const bool is_none = d.verdict == Verdict::none_of_mine;
+    if (d.findings.size() > 1 && d.verdict != Verdict::right) text += is_none ? "the best:\n" : "the next best:\n";
+    for (std::size_t i = is_none ? 0 : 1; i < std::min(d.findings.size(), most_findings); ++i)
+        if (d.verdict != Verdict::right) text += line_of(d.findings[i], d);
+    text += fmt::format(
+        "tried: {} mistakes that show in this scene{}; {} that do not show, {} that cannot be made here\n", d.tried,
+        d.pairs_tried > 0 ? fmt::format(" and {} pairs", d.pairs_tried) : "", d.hidden, d.impossible);
+    if (d.verdict != Verdict::right) text += "compare: " + to_text(comparison);
+    return text;
+}
+
+std::string to_json(const Diagnosis& d, const Comparison& comparison) {
+    ordered_json document{{"verdict", name(d.verdict)},   {"pixels", d.pixels},
+                          {"differing", d.differing},     {"tried", d.tried},
+                          {"pairs_tried", d.pairs_tried}, {"hidden", d.hidden},
+                          {"impossible", d.impossible},   {"findings", ordered_json::array()}};
+    for (const Finding& f : d.findings) {
+        ordered_json sentences = ordered_json::array();
+        for (const Mistake* mistake : f.mistakes) sentences.push_back(mistake->sentence);
+        document["findings"].push_back({{"mistakes", names_of(f.mistakes)},
+                                        {"sentences", std::move(sentences)},
+                                        {"agreeing", f.agreeing},
+                                        {"explained", f.explained},
+                                        {"contradicted", f.contradicted},
+                                        {"alike", names_of(f.alike)}});
+    }
+    document["comparison"] = ordered_json::parse(to_json(comparison));
+    return document.dump(2) + '\n';
+}
+
+}  // namespace strata::oracle

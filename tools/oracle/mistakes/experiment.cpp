@@ -1,0 +1,83 @@
+#include "tools/oracle/mistakes/experiment.h"
+
+#include <algorithm>
+
+namespace strata::oracle {
+
+using RenderTarget = pipeline::Target;
+
+void Names::add(RenderTarget target, std::string_view name) {
+    const auto id = static_cast<std::size_t>(target.id);
+    if (names_.size() <= id) names_.resize(id + 1);
+    names_[id] = name;
+}
+
+bool Names::is(RenderTarget target, std::string_view name) const {
+    const auto id = static_cast<std::size_t>(target.id);
+    return target.exists() && id < names_.size() && names_[id] == name;
+}
+
+RenderTarget Names::partner(RenderTarget target) const {
+    const auto id = static_cast<std::size_t>(target.id);
+    if (!target.exists() || id >= names_.size() || names_[id].empty()) return target;
+    RenderTarget other = target;
+    for (std::size_t i = 0; i < names_.size(); ++i)
+        if (i != id && names_[i] == names_[id]) {
+            if (other != target) return target;  // three of them are no pair
+            other = {static_cast<int>(i)};
+        }
+    return other;
+}
+
+pipeline::DrawList& Experiment::scene() {
+    if (!own_list) {
+        own_list = std::make_shared<pipeline::DrawList>(*list);
+        list = own_list.get();
+    }
+    return *own_list;
+}
+
+namespace {
+
+using pipeline::Alteration;
+
+// Calls the program of alteration `next` and of those behind it around the pass's own.
+void run_program(const std::vector<Alteration>& all, std::size_t next, const pipeline::ProgramCall& call,
+                 const std::function<void()>& run) {
+    while (next < all.size() && !all[next].program) ++next;
+    if (next == all.size()) return run();
+    all[next].program(call, [&] { run_program(all, next + 1, call, run); });
+}
+
+}  // namespace
+
+Alteration combined(const Experiment& experiment) {
+    const std::vector<Alteration>& all = experiment.alterations;
+    return {
+        .named = [names = experiment.names](RenderTarget target, std::string_view name) { names->add(target, name); },
+        .clear =
+            [&all](pipeline::Region& region, RenderTarget& target, pipeline::ClearValue& value) {
+                return std::ranges::all_of(
+                    all, [&](const Alteration& a) { return !a.clear || a.clear(region, target, value); });
+            },
+        .copy =
+            [&all](pipeline::Region& region, RenderTarget& from, RenderTarget& to) {
+                return std::ranges::all_of(all,
+                                           [&](const Alteration& a) { return !a.copy || a.copy(region, from, to); });
+            },
+        .pass =
+            [&all](pipeline::Region& region, pipeline::PassState& state, pipeline::PassKind kind) {
+                for (const Alteration& a : all)
+                    if (a.pass) a.pass(region, state, kind);
+            },
+        .program = [&all](const pipeline::ProgramCall& call,
+                          const std::function<void()>& run) { run_program(all, 0, call, run); },
+        .query =
+            [&all](std::uint64_t count, bool goes_on) {
+                for (const Alteration& a : all)
+                    if (a.query) goes_on = a.query(count, goes_on);
+                return goes_on;
+            }};
+}
+
+}  // namespace strata::oracle

@@ -1,0 +1,95 @@
+#include "tools/oracle/mistakes/laboratory.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "peeling/render.h"
+#include "pipeline/device/check.h"
+
+namespace strata::oracle {
+
+Laboratory::Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths)
+    : input_{input}, algorithm_{algorithm}, depths_{depths} {
+    right_ = run(experiment(), &right_run_);
+    find_enough_passes();
+}
+
+Experiment Laboratory::experiment() const {
+    Experiment e{.list = &input_.list, .view = input_.view, .profile = input_.profile, .options = input_.options};
+    e.algorithm = &algorithm_;
+    e.right = right_run_;
+    e.options.audit = e.options.keep_layers = false;
+    e.options.nearest_depth = depths_ == Depths::made;
+    return e;
+}
+
+Picture Laboratory::run(const Experiment& e, RightRun* counted) const {
+    peeling::Renderer renderer{*e.list, e.view, e.profile, e.options};
+    const pipeline::Alteration alteration = combined(e);
+    peeling::RenderResult result =
+        renderer.render(*e.algorithm, {}, {.alteration = e.alterations.empty() ? nullptr : &alteration});
+    if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{e.profile, *std::move(result.refusal)};
+    if (counted != nullptr) {
+        counted->passes = static_cast<int>(result.frame.passes.geometry);
+        counted->is_endless = std::ranges::find(result.frame.diagnostics, pipeline::Fault::endless,
+                                                &pipeline::Diagnostic::fault) != result.frame.diagnostics.end();
+    }
+    Picture picture{.file = "", .targets = {target_of(result.frame.color, "color")}};
+    if (depths_ == Depths::made) picture.targets.push_back(target_of(result.frame.depth, "depth"));
+    for (const auto& change : e.afterwards) change(picture);
+    return picture;
+}
+
+// An iteration has up to seven passes, and the last one of most peels finds nothing: fewer than eight runs decide.
+void Laboratory::find_enough_passes() {
+    right_run_.enough_passes = right_run_.passes;
+    for (int passes = right_run_.passes - 1; passes >= 1; --passes) {
+        Experiment e = experiment();
+        e.options.max_passes = passes;
+        if (run(e).targets[0].codes != right_.targets[0].codes) return;
+        right_run_.enough_passes = passes;
+    }
+}
+
+std::optional<Picture> Laboratory::with(std::span<const Mistake* const> mistakes) const {
+    Experiment e = experiment();
+    const int given_limit = e.options.max_passes;
+    for (const Mistake* mistake : mistakes)
+        if (!mistake->make(e)) return std::nullopt;
+    const bool is_limited =
+        e.options.max_passes != given_limit || e.options.termination.rule == pipeline::TerminationRule::fixed;
+    const int limit = right_run_.is_endless ? right_run_.passes : 2 * right_run_.passes + 8;
+    if (!is_limited && given_limit == 0 && right_run_.passes > 1) e.options.max_passes = limit;
+    try {
+        return run(e);
+    } catch (const pipeline::Refused&) {  // no machine of the mistaken kind has what it takes
+    } catch (const std::logic_error&) {   // a pass that no machine could run
+    }
+    return std::nullopt;
+}
+
+std::optional<Picture> Laboratory::with(const Mistake& mistake) const {
+    const Mistake* const one[] = {&mistake};
+    return with(one);
+}
+
+pipeline::Image color_image(const Picture& picture) {
+    using pipeline::Format;
+    const Target& colors = picture.targets[0];
+    const Format format = colors.code == Code::unorm8 ? Format::rgba8
+                          : colors.code == Code::half ? Format::rgba16f
+                                                      : Format::rgba32f;
+    pipeline::Image image{format, colors.width, colors.height};
+    image.codes.assign(colors.codes.begin(), colors.codes.end());
+    return image;
+}
+
+Picture changed(const Picture& picture, const Mistake& mistake) {
+    Experiment e;
+    static_cast<void>(mistake.make(e));
+    Picture result = picture;
+    for (const auto& change : e.afterwards) change(result);
+    return result;
+}
+
+}  // namespace strata::oracle

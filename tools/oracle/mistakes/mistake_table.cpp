@@ -1,0 +1,138 @@
+#include "tools/oracle/mistakes/mistake_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace strata::oracle {
+
+namespace {
+
+Cell cell_of(const Lineup& lineup, const Mistake& mistake) {
+    const Picture* const picture = lineup.picture_of(mistake);
+    if (picture == nullptr) return Cell::impossible;
+    const Diagnosis diagnosis = lineup.diagnose(*picture);
+    if (!lineup.shows(mistake)) return diagnosis.verdict == Verdict::right ? Cell::hidden : Cell::accused;
+    const Finding& first = diagnosis.findings.front();
+    if (diagnosis.verdict != Verdict::one_mistake) return Cell::wrong;
+    if (first.mistakes.front() == &mistake) return Cell::named;
+    return std::ranges::find(first.alike, &mistake) != first.alike.end() ? Cell::alike : Cell::wrong;
+}
+
+char sign_of(Cell cell) noexcept {
+    switch (cell) {
+        case Cell::named: return '1';
+        case Cell::alike: return '=';
+        case Cell::wrong: return '!';
+        case Cell::hidden: return '.';
+        case Cell::accused: return '?';
+        case Cell::impossible: return ' ';
+    }
+    return '!';  // unreachable: the enum is closed
+}
+
+}  // namespace
+
+namespace {
+
+struct DeclaredTwins {
+    std::string_view first, second;
+    const char* reason;
+};
+constexpr DeclaredTwins declared[] = {
+    {"min_for_max", "add_for_max",
+     "Both leave no pixel a range that begins before it ends: from (-1, -1) on, MIN stays there, and every sum of "
+     "(-z, z) and (-1, -1) has its near end above its far one. Nothing is ever peeled, and zeros are what MIN and ADD "
+     "leave of the colours."},
+};
+
+}  // namespace
+
+const char* reason_for(const Twins& pair) {
+    for (const DeclaredTwins& d : declared)
+        if (d.first == pair.first->name && d.second == pair.second->name) return d.reason;
+    return nullptr;
+}
+
+bool is_declared_twin(const Mistake& mistake) {
+    return std::ranges::find(declared, mistake.name, &DeclaredTwins::second) != std::end(declared);
+}
+
+TableColumn table_column(const SuiteScene& scene) {
+    const OpenScene opened = open(scene);
+    const Laboratory laboratory{opened.input(), *opened.algorithm};
+    const Lineup lineup{laboratory};
+    TableColumn column{&scene, {}, {}};
+    std::vector<const Picture*> different;
+    for (const Mistake& mistake : catalogue()) {
+        column.cells.push_back(cell_of(lineup, mistake));
+        std::size_t number = 0;
+        if (lineup.shows(mistake)) {
+            const Picture* const picture = lineup.picture_of(mistake);
+            const auto same = [&](const Picture* p) { return p->targets[0].codes == picture->targets[0].codes; };
+            number = 1 + static_cast<std::size_t>(std::ranges::find_if(different, same) - different.begin());
+            if (number > different.size()) different.push_back(picture);
+        }
+        column.picture.push_back(number);
+    }
+    return column;
+}
+
+std::vector<Twins> twins(const std::vector<TableColumn>& columns) {
+    std::vector<Twins> found;
+    const auto all = catalogue();
+    for (std::size_t a = 0; a < all.size(); ++a)
+        for (std::size_t b = a + 1; b < all.size(); ++b)
+            if (std::ranges::all_of(columns, [&](const TableColumn& c) { return c.picture[a] == c.picture[b]; }))
+                found.push_back({&all[a], &all[b]});
+    return found;
+}
+
+std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns) {
+    std::vector<const Mistake*> found;
+    const auto all = catalogue();
+    for (std::size_t m = 0; m < all.size(); ++m)
+        if (std::ranges::none_of(columns, [&](const TableColumn& c) { return c.cells[m] == Cell::named; }))
+            found.push_back(&all[m]);
+    return found;
+}
+
+std::string to_page(const std::vector<TableColumn>& columns) {
+    const auto all = catalogue();
+    const auto misnamed = [](const TableColumn& column) {
+        return std::ranges::count(column.cells, Cell::accused) + std::ranges::count(column.cells, Cell::wrong);
+    };
+    std::ptrdiff_t wrong = 0;
+    for (const TableColumn& column : columns) wrong += misnamed(column);
+    std::string page = fmt::format(
+        "# Mistakes and the scenes that show them\n"
+        "`strata mistakes --table -o tools/oracle/MISTAKES.md` made this page: the pictures of {} machines with one "
+        "mistake "
+        "each, of each of {} scenes,\ndiagnosed like anybody's. Mistakes that are named first in no scene: {}. Pairs "
+        "of "
+        "mistakes that leave the same pictures of all scenes: {}.\nDiagnoses that name somebody else: {}.\n\n"
+        "1 named first; = the same picture as a mistake above it, which is named; . does not show, and the right "
+        "machine is "
+        "named; blank cannot be made here.\n\n| mistake |",
+        all.size(), columns.size(), unnamed(columns).size(), twins(columns).size(), wrong);
+    for (std::size_t c = 0; c < columns.size(); ++c) page += fmt::format(" {} |", c + 1);
+    page += "\n|---|";
+    for (std::size_t c = 0; c < columns.size(); ++c) page += "---|";
+    for (std::size_t m = 0; m < all.size(); ++m) {
+        page += fmt::format("\n| {} |", all[m].name);
+        for (const TableColumn& column : columns) page += fmt::format(" {} |", sign_of(column.cells[m]));
+    }
+    page += "\n\n| scene | | command |\n|---|---|---|\n";
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        page += fmt::format("| {} {} | {} | `{}` |\n", c + 1, columns[c].scene->name, columns[c].scene->why,
+                            command_of(*columns[c].scene));
+    for (const Twins& pair : twins(columns))
+        if (const char* reason = reason_for(pair))
+            page +=
+                fmt::format("\n{} and {} leave the same pictures. {}\n", pair.first->name, pair.second->name, reason);
+    page += "\n| mistake | a picture has this mistake if its pixels are those of |\n|---|---|\n";
+    for (const Mistake& mistake : all) page += fmt::format("| {} | {} |\n", mistake.name, mistake.sentence);
+    return page;
+}
+
+}  // namespace strata::oracle

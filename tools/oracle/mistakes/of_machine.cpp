@@ -1,0 +1,199 @@
+// tools/oracle/mistakes/of_machine.cpp - mistakes in formats, rasterizer state and the options of a peel.
+#include "tools/oracle/mistakes/catalogue.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using pipeline::DepthFormat;
+using pipeline::Format;
+
+DepthFormat depth_of(const Experiment& e) {
+    return e.options.depth.value_or(e.profile.has_d32f ? DepthFormat::d32f : DepthFormat::d24);
+}
+
+bool takes_depth(Experiment& e, DepthFormat format) {
+    if (depth_of(e) == format) return false;
+    e.profile.has_d16 = e.profile.has_d24 = e.profile.has_d32f = true;
+    e.options.depth = format;
+    return true;
+}
+
+bool takes_color(Experiment& e, Format format) {
+    const bool is_exact = e.profile.raster.depth_path == rasterizer::DepthPath::exact;
+    if (e.options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8) == format) return false;
+    e.profile.has_float_targets = true;
+    e.options.color_format = format;
+    return true;
+}
+
+// Clip x and y move by so many pixels' share of w.
+bool moves(Experiment& e, double pixels) {
+    for (int c = 0; c < 4; ++c) {
+        auto& column = e.view.projection[c];
+        column[0] += column[3] * (2 * pixels / e.options.width);
+        column[1] += column[3] * (2 * pixels / e.options.height);
+    }
+    return true;
+}
+
+// The other side of ties: 1 exchanges left and right, 2 top and bottom.
+bool gives_ties(Experiment& e, unsigned sides) {
+    using rasterizer::TieRule;
+    constexpr TieRule rules[] = {TieRule::top_left, TieRule::top_right, TieRule::bottom_left, TieRule::bottom_right};
+    unsigned now = 0;
+    while (rules[now] != e.profile.raster.tie_rule) ++now;
+    e.profile.raster.tie_rule = rules[now ^ sides];
+    return true;
+}
+
+bool snaps_to(Experiment& e, int bits) {
+    if (e.profile.raster.subpixel_bits == bits) return false;
+    e.profile.raster.subpixel_bits = bits;
+    return true;
+}
+
+bool is_peel(const Experiment& e) { return e.right.passes > 1; }
+
+// The limit of a caller who wants so many layers alone.
+int* limit_of(Experiment& e) {
+    if (e.options.termination.rule == pipeline::TerminationRule::fixed) return &e.options.termination.passes;
+    return e.options.max_passes > 0 ? &e.options.max_passes : nullptr;
+}
+
+constexpr Mistake machine_mistakes[] = {
+    {"one_pass_too_few", "one pass too few: the last layers are missing", Place::machine,
+     [](Experiment& e) {
+         if (!is_peel(e) || e.right.enough_passes < 2) return false;
+         e.options.max_passes = e.right.enough_passes - 1;
+         return true;
+     }},
+    {"one_pass_too_many", "one pass too many for the number that was asked for", Place::machine,
+     [](Experiment& e) {
+         int* const limit = limit_of(e);
+         if (limit != nullptr) ++*limit;
+         return limit != nullptr;
+     }},
+    {"depth_16", "depths stored in 16 bits", Place::machine,
+     [](Experiment& e) { return takes_depth(e, DepthFormat::d16); }},
+    {"depth_24", "depths stored in 24 bits", Place::machine,
+     [](Experiment& e) { return takes_depth(e, DepthFormat::d24); }},
+    {"depth_32f", "depths stored as binary32", Place::machine,
+     [](Experiment& e) { return takes_depth(e, DepthFormat::d32f); }},
+    {"depth_rounded_otherwise", "depths cut to their code instead of rounded to it, or the other way round",
+     Place::machine,
+     [](Experiment& e) {
+         using rasterizer::DepthRounding;
+         DepthRounding& rounding = e.profile.raster.depth_rounding;
+         rounding = rounding == DepthRounding::floor ? DepthRounding::nearest : DepthRounding::floor;
+         return true;
+     }},
+    {"depth_stepwise", "depths from a plane that is stepped in binary32", Place::machine,
+     [](Experiment& e) {
+         using rasterizer::DepthPath;
+         if (e.options.depth_path.value_or(e.profile.raster.depth_path) != DepthPath::float32) return false;
+         e.options.depth_path = DepthPath::float32_plane;
+         return true;
+     }},
+    {"depth_bias", "a depth bias left on: glPolygonOffset(1, 1)", Place::machine,
+     [](Experiment& e) {
+         if (e.options.raster.polygon_offset.enabled) return false;
+         e.options.raster.polygon_offset = {true, 1, 1};
+         return true;
+     }},
+    {"depth_bias_lost", "the depth bias forgotten", Place::machine,
+     [](Experiment& e) {
+         if (!e.options.raster.polygon_offset.enabled) return false;
+         e.options.raster.polygon_offset = {};
+         return true;
+     }},
+    {"compared_with_bias", "a bias of 2^-16 added to the peeled depth before the comparison", Place::machine,
+     [](Experiment& e) {
+         if (e.algorithm->compares_own_codes || !is_peel(e)) return false;
+         e.options.compare_epsilon.absolute += 0x1p-16;
+         return true;
+     }},
+    {"depth_clamp", "nothing clipped at the near and the far plane: depth clamp left on", Place::machine,
+     [](Experiment& e) {
+         if (e.options.raster.depth_clamp) return false;
+         e.profile.has_depth_clamp = true;
+         return e.options.raster.depth_clamp = true;
+     }},
+    {"clip_zero_to_one",
+     "clip space taken for 0 <= z <= w where the projection is made for -w <= z <= w, or the "
+     "other way round",
+     Place::machine,
+     [](Experiment& e) {
+         using rasterizer::ClipDepth;
+         ClipDepth& clip = e.options.raster.clip_depth;
+         clip = clip == ClipDepth::zero_to_one ? ClipDepth::minus_one_to_one : ClipDepth::zero_to_one;
+         return true;
+     }},
+    {"reversed_depth", "depth running from 1 at the near plane to 0, the tests left as they were", Place::machine,
+     [](Experiment& e) {
+         for (int c = 0; c < 4; ++c) e.view.projection[c][2] = -e.view.projection[c][2];
+         return true;
+     }},
+    {"half_pixel_up", "everything moved right and up by half a pixel", Place::machine,
+     [](Experiment& e) { return moves(e, 0.5); }},
+    {"half_pixel_down", "everything moved left and down by half a pixel", Place::machine,
+     [](Experiment& e) { return moves(e, -0.5); }},
+    {"ties_of_rows", "a centre on a horizontal edge given to the other triangle (fill rule upside down)",
+     Place::machine, [](Experiment& e) { return gives_ties(e, 2); }},
+    {"ties_of_columns", "a centre on an edge given to the triangle on the other side, left for right", Place::machine,
+     [](Experiment& e) { return gives_ties(e, 1); }},
+    {"snapped_to_16ths", "positions snapped to 1/16 pixel", Place::machine,
+     [](Experiment& e) { return snaps_to(e, 4); }},
+    {"snapped_to_256ths", "positions snapped to 1/256 pixel", Place::machine,
+     [](Experiment& e) { return snaps_to(e, 8); }},
+    {"snapped_otherwise", "positions cut to the subpixel grid instead of rounded, or the other way round",
+     Place::machine,
+     [](Experiment& e) {
+         using rasterizer::Snap;
+         Snap& snap = e.profile.raster.snap;
+         snap = snap == Snap::toward_zero ? Snap::nearest_even : Snap::toward_zero;
+         return true;
+     }},
+    {"culls_front", "front faces culled instead of back faces", Place::machine,
+     [](Experiment& e) {
+         e.options.raster.cull = rasterizer::CullFace::front;
+         return true;
+     }},
+    {"front_is_clockwise", "clockwise triangles taken for front faces", Place::machine,
+     [](Experiment& e) {
+         using rasterizer::FrontFace;
+         FrontFace& front = e.options.raster.front_face;
+         front = front == FrontFace::clockwise ? FrontFace::counter_clockwise : FrontFace::clockwise;
+         return true;
+     }},
+    {"upside_down", "drawn upside down: y of the viewport runs the other way", Place::machine,
+     [](Experiment& e) {
+         using rasterizer::YDirection;
+         YDirection& y = e.options.raster.y_direction;
+         y = y == YDirection::up ? YDirection::down : YDirection::up;
+         return true;
+     }},
+    {"color_8", "colours blended in 8 bits", Place::machine,
+     [](Experiment& e) { return takes_color(e, Format::rgba8); }},
+    {"color_16f", "colours blended as fp16", Place::machine,
+     [](Experiment& e) { return takes_color(e, Format::rgba16f); }},
+    {"color_32f", "colours blended as binary32", Place::machine,
+     [](Experiment& e) { return takes_color(e, Format::rgba32f); }},
+    {"blend_cuts", "8-bit blending that cuts its results instead of rounding them", Place::machine,
+     [](Experiment& e) {
+         if (e.profile.blend_rounding == pipeline::BlendRounding::truncate) return false;
+         e.profile.blend_rounding = pipeline::BlendRounding::truncate;
+         return true;
+     }},
+    {"background_lost", "the background lost: black behind the layers", Place::machine,
+     [](Experiment& e) {
+         e.options.background = {0, 0, 0, 1};
+         return true;
+     }},
+};
+
+}  // namespace
+
+std::span<const Mistake> mistakes_of_machine() { return machine_mistakes; }
+
+}  // namespace strata::oracle

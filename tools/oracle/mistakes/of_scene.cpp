@@ -1,0 +1,201 @@
+// tools/oracle/mistakes/of_scene.cpp - mistakes in what is handed to the machine: materials, textures, colours, order.
+#include <algorithm>
+
+#include "pipeline/vertices/prepare.h"
+#include "scenes/numbers/srgb_encode.h"
+#include "tools/oracle/mistakes/catalogue.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using pipeline::AlphaMode;
+using pipeline::DrawList;
+using pipeline::Material;
+using pipeline::Mesh;
+using pipeline::Rgba;
+using pipeline::Texture;
+
+// Calls change(x) for all of `values`; true if one of them is another afterwards.
+template <class T, class Change>
+bool changes(std::vector<T>& values, Change change) {
+    bool has_changed = false;
+    for (T& value : values) {
+        const T before = value;
+        change(value);
+        has_changed |= !(value == before);
+    }
+    return has_changed;
+}
+
+bool is_textured(const Experiment& e) { return !e.list->textures.empty(); }
+
+// Every triangle gets three vertices of its own, all with the colour and the normal of its last one.
+void flatten(Mesh& mesh) {
+    const Mesh from = mesh;
+    mesh.positions.clear();
+    mesh.normals.clear();
+    mesh.colors.clear();
+    mesh.texcoords.clear();
+    for (std::size_t i = 0; i < from.indices.size(); ++i) {
+        const std::size_t vertex = from.indices[i], last = from.indices[i - i % 3 + 2];
+        mesh.positions.push_back(from.positions[vertex]);
+        if (!from.normals.empty()) mesh.normals.push_back(from.normals[last]);
+        if (!from.colors.empty()) mesh.colors.push_back(from.colors[last]);
+        if (!from.texcoords.empty()) mesh.texcoords.push_back(from.texcoords[vertex]);
+        mesh.indices[i] = static_cast<std::uint32_t>(i);
+    }
+}
+
+enum class Weighting : std::uint8_t { affine, unnormalised };
+
+// The light that fell on a vertex times its colour: what the material was multiplied by. Its own colour says nothing where it is 0.
+Rgba without_material(const rasterizer::ClipVertex& v, const Material& material) {
+    Rgba color{0, 0, 0, 0};
+    for (std::size_t c = 0; c < 4; ++c)
+        if (material.front[c] != 0)
+            color[c] = v.front[c] / material.front[c];
+        else if (material.back[c] != 0)
+            color[c] = v.back[c] / material.back[c];
+    return color;
+}
+
+// The scene behind its vertex stage, with w divided out of all positions: whatever is interpolated then runs linearly over the window.
+// Scenes with a corner at or behind the eye have no such form.
+bool loses_perspective(Experiment& e, Weighting weighting) {
+    const rasterizer::TriangleSoup soup = pipeline::transform(*e.list, e.view, {});
+    const auto& vertices = soup.vertices;
+    const bool has_perspective = std::ranges::any_of(vertices, [&](const auto& v) { return v.w != vertices[0].w; });
+    if (!has_perspective || std::ranges::any_of(vertices, [](const auto& v) { return !(v.w > 0); })) return false;
+    const DrawList& given = *e.list;
+    DrawList flat;
+    flat.light = given.light;
+    flat.materials = given.materials;
+    flat.textures = given.textures;
+    for (Material& material : flat.materials) material.unlit = true;
+    for (const rasterizer::TriangleRun& run : soup.runs) {
+        Mesh mesh;
+        mesh.name = given.meshes[given.instances[run.object].mesh].name;
+        for (std::size_t i = 0; i < run.index_count; ++i) {
+            const rasterizer::ClipVertex& v = vertices[soup.indices[run.first_index + i]];
+            Rgba color = without_material(v, flat.materials[run.material]);
+            if (weighting == Weighting::unnormalised)
+                for (std::size_t c = 0; c < 4; ++c) color[c] = std::min(color[c] / v.w, 1.0f);
+            mesh.positions.push_back({v.x / v.w, v.y / v.w, v.z / v.w});
+            mesh.colors.push_back(color);
+            mesh.texcoords.push_back({v.texcoord[0], v.texcoord[1]});
+            // A mirrored instance keeps its facing by the other winding.
+            mesh.indices.push_back(
+                static_cast<std::uint32_t>(run.mirrored && i % 3 != 0 ? i - i % 3 + (3 - i % 3) : i));
+        }
+        flat.instances.push_back({.mesh = static_cast<std::uint32_t>(flat.meshes.size()),
+                                  .material = run.material,
+                                  .arrives_sorted = given.instances[run.object].arrives_sorted});
+        flat.meshes.push_back(std::move(mesh));
+    }
+    e.scene() = std::move(flat);
+    e.view.view = e.view.projection = pipeline::identity;
+    return true;
+}
+
+constexpr Mistake scene_mistakes[] = {
+    {"colors_affine", "colours interpolated linearly over the window, without perspective", Place::scene,
+     [](Experiment& e) { return loses_perspective(e, Weighting::affine); }},
+    {"colors_unnormalised", "colours over w interpolated and not divided by 1 / w again", Place::scene,
+     [](Experiment& e) { return loses_perspective(e, Weighting::unnormalised); }},
+    {"colors_flat", "flat colours: each triangle has that of its last corner", Place::scene,
+     [](Experiment& e) {
+         std::ranges::for_each(e.scene().meshes, flatten);
+         return true;
+     }},
+    {"colors_decoded", "colours decoded from sRGB before they are blended", Place::scene,
+     [](Experiment& e) {
+         const auto decode = [](Rgba& color) {
+             for (std::size_t c = 0; c < 3; ++c) color[c] = scenes::decode_srgb(color[c]);
+         };
+         for (Material& material : e.scene().materials) {
+             decode(material.front);
+             decode(material.back);
+         }
+         for (Mesh& mesh : e.scene().meshes) std::ranges::for_each(mesh.colors, decode);
+         return true;
+     }},
+    {"light_lost", "lighting left out", Place::scene,
+     [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.unlit = true; }); }},
+    {"alpha_of_material_lost", "the material's alpha lost: only the vertices' own counts", Place::scene,
+     [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.front[3] = m.back[3] = 1; }); }},
+    {"alpha_of_vertices_lost", "the vertices' own alpha lost: only the material's counts", Place::scene,
+     [](Experiment& e) {
+         return changes(e.scene().meshes, [](Mesh& mesh) {
+             for (Rgba& color : mesh.colors) color[3] = 1;
+         });
+     }},
+    {"one_sided_colors", "back faces in the colour of front faces", Place::scene,
+     [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.back = m.front; }); }},
+    {"culls_nothing", "nothing culled", Place::scene,
+     [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.double_sided = true; }); }},
+    {"culls_all_backs", "back faces culled of two-sided surfaces, too", Place::scene,
+     [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.double_sided = false; }); }},
+    {"mask_ignored", "the alpha test of masked materials left out", Place::scene,
+     [](Experiment& e) {
+         return changes(e.scene().materials, [](Material& m) {
+             if (m.alpha_mode == AlphaMode::mask) m.alpha_cutoff = 0;
+         });
+     }},
+    {"texture_lost", "textures left out", Place::scene,
+     [](Experiment& e) { return changes(e.scene().materials, [](Material& m) { m.texture = -1; }); }},
+    {"texture_upside_down", "textures upside down: their first row taken for the lowest", Place::scene,
+     [](Experiment& e) {
+         return is_textured(e) && changes(e.scene().textures, [](Texture& t) {
+                    const auto row = static_cast<std::ptrdiff_t>(t.width) * 4;
+                    for (int y = 0; y < t.height / 2; ++y)
+                        std::swap_ranges(t.texels.begin() + y * row, t.texels.begin() + (y + 1) * row,
+                                         t.texels.begin() + (t.height - 1 - y) * row);
+                });
+     }},
+    {"texture_filtered_otherwise", "the nearest texel instead of four weighted ones, or the other way round",
+     Place::scene,
+     [](Experiment& e) {
+         using pipeline::TextureFilter;
+         return is_textured(e) && changes(e.scene().textures, [](Texture& t) {
+                    t.filter = t.filter == TextureFilter::linear ? TextureFilter::nearest : TextureFilter::linear;
+                });
+     }},
+    {"texture_clamped", "textures clamped to their edge instead of repeated", Place::scene,
+     [](Experiment& e) {
+         return is_textured(e) && changes(e.scene().textures, [](Texture& t) {
+                    t.wrap_s = t.wrap_t = pipeline::TextureWrap::clamp_to_edge;
+                });
+     }},
+    {"opaque_lost", "the opaque surfaces not drawn", Place::scene,
+     [](Experiment& e) {
+         DrawList& list = e.scene();
+         return std::erase_if(list.instances, [&](const pipeline::Instance& i) {
+                    return list.materials[i.material].alpha_mode != AlphaMode::blend;
+                }) > 0;
+     }},
+    {"opaque_peeled", "opaque surfaces peeled like transparent ones", Place::scene,
+     [](Experiment& e) {
+         return changes(e.scene().materials, [](Material& m) {
+             if (m.alpha_mode == AlphaMode::opaque) m.alpha_mode = AlphaMode::blend;
+         });
+     }},
+    {"order_reversed", "triangles submitted in the reverse order", Place::scene,
+     [](Experiment& e) {
+         DrawList& list = e.scene();
+         std::ranges::reverse(list.instances);
+         for (Mesh& mesh : list.meshes) {
+             // By threes: each triangle keeps its first corner and its winding.
+             std::ranges::reverse(mesh.indices);
+             for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+                 std::swap(mesh.indices[i], mesh.indices[i + 2]);
+         }
+         return true;
+     }},
+};
+
+}  // namespace
+
+std::span<const Mistake> mistakes_of_scene() { return scene_mistakes; }
+
+}  // namespace strata::oracle

@@ -1,0 +1,280 @@
+// tools/oracle/mistakes/of_steps.cpp - mistakes in the steps of an algorithm: clears, copies, queries and the state of its passes.
+#include <algorithm>
+
+#include "pipeline/region/region.h"
+#include "tools/oracle/mistakes/catalogue.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using namespace pipeline;
+using RenderTarget = pipeline::Target;
+
+// change(state) for every geometry pass.
+template <class Change>
+bool in_geometry_passes(Experiment& e, Change change) {
+    e.alterations.push_back({.pass = [names = e.names, change](Region&, PassState& state, pipeline::PassKind kind) {
+        if (kind == pipeline::PassKind::geometry) change(*names, state);
+    }});
+    return true;
+}
+
+// change(blend) for every target that blends, of all passes.
+template <class Change>
+bool in_blends(Experiment& e, Change change) {
+    // An alteration may blend two targets unlike each other: the machine that makes a mistake is one that can.
+    e.profile.has_independent_blend = e.profile.has_separate_alpha_blend = true;
+    e.alterations.push_back({.pass = [change](Region&, PassState& state, pipeline::PassKind) {
+        for (Blend& blend : state.blend)
+            if (blend.enabled) change(blend);
+    }});
+    return true;
+}
+
+// change(names, region, target, value) before every clear; false leaves it out.
+template <class Change>
+bool in_clears(Experiment& e, Change change) {
+    e.alterations.push_back(
+        {.clear = [names = e.names, change](Region& region, RenderTarget& target, ClearValue& value) {
+            return change(*names, region, target, value);
+        }});
+    return true;
+}
+
+bool in_queries(Experiment& e, std::function<bool(std::uint64_t count, bool goes_on)> answer) {
+    e.alterations.push_back({.query = std::move(answer)});
+    return true;
+}
+
+bool is_front(const Names& names, RenderTarget target) {
+    return names.is(target, "accumulated") || names.is(target, "front");
+}
+bool is_layer(const Names& names, RenderTarget target) {
+    return names.is(target, "layer") || names.is(target, "back_layer") || names.is(target, "color");
+}
+
+bool is(const Blend& blend, const Blend& mode) {
+    return blend.enabled && blend.color == mode.color && blend.alpha == mode.alpha;
+}
+
+// Every stencil operation that stops at an end of the range goes around instead.
+void wrap(StencilFace& face) {
+    for (StencilOp* const op : {&face.fail, &face.depth_fail, &face.pass})
+        *op = *op == StencilOp::incr ? StencilOp::incr_wrap : *op == StencilOp::decr ? StencilOp::decr_wrap : *op;
+}
+
+// Pairs that an algorithm swaps keep the roles that they have in its first iteration: in every second iteration each stands for the other.
+class NoPingPong {
+  public:
+    explicit NoPingPong(std::shared_ptr<Names> names) : names_{std::move(names)} {}
+    void ended() { swapped_ = !swapped_; }
+    void turn(RenderTarget& target) const {
+        if (!swapped_) return;
+        for (const char* name : {"min_max", "front", "nearest"})
+            if (names_->is(target, name)) target = names_->partner(target);
+    }
+
+  private:
+    std::shared_ptr<Names> names_;
+    bool swapped_ = false;
+};
+
+bool swaps_nothing(Experiment& e) {
+    const auto pairs = std::make_shared<NoPingPong>(e.names);
+    e.alterations.push_back({.clear =
+                                 [pairs](Region&, RenderTarget& target, ClearValue&) {
+                                     pairs->turn(target);
+                                     return true;
+                                 },
+                             .copy =
+                                 [pairs](Region&, RenderTarget& from, RenderTarget& to) {
+                                     pairs->turn(from);
+                                     pairs->turn(to);
+                                     return true;
+                                 },
+                             .pass =
+                                 [pairs](Region&, PassState& state, pipeline::PassKind) {
+                                     pairs->turn(state.depth_target);
+                                     for (RenderTarget& target : state.color) pairs->turn(target);
+                                     for (RenderTarget& target : state.reads) pairs->turn(target);
+                                 },
+                             .query =
+                                 [pairs](std::uint64_t, bool goes_on) {
+                                     pairs->ended();
+                                     return goes_on;
+                                 }});
+    return true;
+}
+
+// Clears the opaque depth to 1 before the first step of the algorithm.
+bool loses_opaque_depth(Experiment& e) {
+    const auto lose = [is_lost = false](Region& region) mutable {
+        if (std::exchange(is_lost, true)) return;
+        region.uncounted([&] { region.clear(region.opaque_depth(), {.depth = 1.0f}); });
+    };
+    const auto once = std::make_shared<std::function<void(Region&)>>(lose);
+    e.alterations.push_back({.clear =
+                                 [once](Region& region, RenderTarget&, ClearValue&) {
+                                     (*once)(region);
+                                     return true;
+                                 },
+                             .copy =
+                                 [once](Region& region, RenderTarget&, RenderTarget&) {
+                                     (*once)(region);
+                                     return true;
+                                 },
+                             .pass = [once](Region& region, PassState&, pipeline::PassKind) { (*once)(region); }});
+    return true;
+}
+
+constexpr Mistake step_mistakes[] = {
+    {"stencil_not_cleared", "the stencil not cleared between passes", Place::steps,
+     [](Experiment& e) {
+         return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue&) {
+             return !names.is(target, "stencil");
+         });
+     }},
+    {"last_of_equals", "of equal depths the last fragment kept: LEQUAL for LESS", Place::steps,
+     [](Experiment& e) {
+         return in_geometry_passes(e, [](const Names&, PassState& state) {
+             if (state.depth.func == CompareFunc::less) state.depth.func = CompareFunc::lequal;
+         });
+     }},
+    {"farthest_first", "the farthest fragment kept: GREATER for LESS", Place::steps,
+     [](Experiment& e) {
+         return in_geometry_passes(e, [](const Names&, PassState& state) {
+             if (state.depth.func == CompareFunc::less) state.depth.func = CompareFunc::greater;
+         });
+     }},
+    {"depth_not_written", "depth writes left off", Place::steps,
+     [](Experiment& e) {
+         return in_geometry_passes(e, [](const Names&, PassState& state) { state.depth.write = false; });
+     }},
+    {"depth_not_tested", "the depth test left off: every fragment passes", Place::steps,
+     [](Experiment& e) {
+         return in_geometry_passes(e, [](const Names&, PassState& state) { state.depth.func = CompareFunc::always; });
+     }},
+    {"opaque_depth_lost", "transparent surfaces not hidden by opaque ones: their depth is lost", Place::steps,
+     loses_opaque_depth},
+    {"swapped_factors", "source and destination factors of blending exchanged", Place::steps,
+     [](Experiment& e) {
+         return in_blends(e, [](Blend& blend) {
+             std::swap(blend.color.src, blend.color.dst);
+             std::swap(blend.alpha.src, blend.alpha.dst);
+         });
+     }},
+    {"one_blend_function", "alpha blended by the factors of the colours: one blend function for both", Place::steps,
+     [](Experiment& e) { return in_blends(e, [](Blend& blend) { blend.alpha = blend.color; }); }},
+    {"blending_off", "blending never enabled", Place::steps,
+     [](Experiment& e) { return in_blends(e, [](Blend& blend) { blend.enabled = false; }); }},
+    {"under_without_transmittance", "layers added in front without the transmittance of what lies before them",
+     Place::steps,
+     [](Experiment& e) {
+         return in_blends(e, [](Blend& blend) {
+             if (is(blend, blend_mode::under)) blend.color.src = BlendFactor::one;
+         });
+     }},
+    {"over_for_under", "layers blended OVER what lies before them instead of UNDER it", Place::steps,
+     [](Experiment& e) {
+         return in_blends(e, [](Blend& blend) {
+             if (!is(blend, blend_mode::under)) return;
+             blend.color = blend_mode::over.color;
+             blend.alpha = blend_mode::over.alpha;
+         });
+     }},
+    {"min_for_max", "MIN blending for MAX", Place::steps,
+     [](Experiment& e) {
+         return in_blends(e, [](Blend& blend) {
+             if (is(blend, blend_mode::max)) blend.color.equation = blend.alpha.equation = BlendEquation::min;
+         });
+     }},
+    {"add_for_max", "the equation of blending left at ADD where MAX is meant", Place::steps,
+     [](Experiment& e) {
+         return in_blends(e, [](Blend& blend) {
+             if (is(blend, blend_mode::max)) blend.color.equation = blend.alpha.equation = BlendEquation::add;
+         });
+     }},
+    {"alpha_written", "alpha written where the write mask shall keep it", Place::steps,
+     [](Experiment& e) {
+         e.profile.has_independent_blend = true;
+         e.alterations.push_back({.pass = [](Region&, PassState& state, pipeline::PassKind) {
+             for (Blend& blend : state.blend) blend.write_mask = 0xf;
+         }});
+         return true;
+     }},
+    {"count_not_added", "fragments not counted: the count's target does not blend", Place::steps,
+     [](Experiment& e) {
+         e.profile.has_independent_blend = true;
+         return in_geometry_passes(e, [](const Names& names, PassState& state) {
+             if (names.is(state.color[1], "count")) state.blend[1] = blend_mode::replace;
+         });
+     }},
+    {"front_cleared_wrong", "the front's alpha cleared to 0 instead of 1, or the other way round", Place::steps,
+     [](Experiment& e) {
+         return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
+             if (is_front(names, target)) value.color[3] = 1 - value.color[3];
+             return true;
+         });
+     }},
+    {"layer_cleared_opaque", "layers cleared to alpha 1: black where a pixel has none", Place::steps,
+     [](Experiment& e) {
+         return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
+             if (is_layer(names, target)) value.color[3] = 1;
+             return true;
+         });
+     }},
+    {"layer_not_cleared", "layers not cleared between passes", Place::steps,
+     [](Experiment& e) {
+         return in_clears(
+             e, [](const Names& names, Region&, RenderTarget target, ClearValue&) { return !is_layer(names, target); });
+     }},
+    {"min_max_cleared_to_0", "the min-max depth cleared to (0, 0) instead of (-1, -1)", Place::steps,
+     [](Experiment& e) {
+         return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
+             if (names.is(target, "min_max")) value.color = {0, 0, 0, 0};
+             return true;
+         });
+     }},
+    {"min_max_cleared_to_0_1", "the min-max depth cleared to (0, 1): the whole range", Place::steps,
+     [](Experiment& e) {
+         return in_clears(e, [](const Names& names, Region&, RenderTarget target, ClearValue& value) {
+             if (names.is(target, "min_max")) value.color = {0, 1, 0, 0};
+             return true;
+         });
+     }},
+    {"ping_pong_not_swapped", "the two targets of a pair never swapped", Place::steps, swaps_nothing},
+    {"query_above_one", "the peel ended by a query that counts one: > 1 for > 0", Place::steps,
+     [](Experiment& e) {
+         return in_queries(e, [](std::uint64_t count, bool goes_on) { return goes_on && count > 1; });
+     }},
+    {"query_half_of_first", "the peel ended once a query counts less than half of what the first one counted",
+     Place::steps,
+     [](Experiment& e) {
+         return in_queries(e, [first = std::uint64_t{0}](std::uint64_t count, bool goes_on) mutable {
+             if (first == 0) first = count;
+             return goes_on && 2 * count >= first;
+         });
+     }},
+    {"stencil_wraps", "stencil operations that wrap where they shall stop at the end of the range", Place::steps,
+     [](Experiment& e) {
+         return in_geometry_passes(e, [](const Names&, PassState& state) {
+             wrap(state.stencil.front);
+             wrap(state.stencil.back);
+         });
+     }},
+    {"stencil_off", "the stencil test never enabled", Place::steps,
+     [](Experiment& e) {
+         return in_geometry_passes(e, [](const Names&, PassState& state) { state.stencil.enabled = false; });
+     }},
+    {"stencil_ref_off_by_one", "the stencil's reference one too great", Place::steps,
+     [](Experiment& e) {
+         return in_geometry_passes(e, [](const Names&, PassState& state) { ++state.stencil.front.ref; });
+     }},
+};
+
+}  // namespace
+
+std::span<const Mistake> mistakes_of_steps() { return step_mistakes; }
+
+}  // namespace strata::oracle

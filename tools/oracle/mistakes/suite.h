@@ -1,0 +1,42 @@
+// tools/oracle/mistakes/suite.h - the standard set of small scenes: each known mistake shows in at least one of them.
+//
+// Rule     An entry is a command: a built-in scene, an algorithm, a profile and the options that a picture depends on. Frames are small, so
+//          that a port's author runs all of them at once and looks at every pixel.
+// Tests    tests/tools/oracle/mistakes/catalogue_test.cpp
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+
+#include "scenes/scene.h"
+#include "tools/oracle/passes.h"
+
+namespace strata::oracle {
+
+struct SuiteScene {
+    std::string name{};  // "showroom.dual"
+    std::string why{};   // what it is in the suite for, a sentence
+    std::string scene{}, algorithm{}, profile = "geforce8";
+    int width = 64, height = 64;
+    std::string options{};  // as the command takes them, beside scene, algorithm, profile and size
+    void (*set)(peeling::RenderOptions& options) = nullptr;  // the same for the library
+};
+
+[[nodiscard]] std::span<const SuiteScene> suite();
+[[nodiscard]] const SuiteScene* find_suite_scene(std::string_view name);
+
+// A scene of the suite, ready to run.
+struct OpenScene {
+    scenes::Scene scene;
+    pipeline::View view;
+    pipeline::DeviceProfile profile;
+    peeling::RenderOptions options;
+    const peeling::Algorithm* algorithm = nullptr;
+    [[nodiscard]] RunInput input() const { return {scene.list, view, profile, options}; }
+};
+[[nodiscard]] OpenScene open(const SuiteScene& scene);
+
+// "strata render showroom --algorithm dual --size 64x64 --background 0.2,0.3,0.5"
+[[nodiscard]] std::string command_of(const SuiteScene& scene);
+
+}  // namespace strata::oracle

@@ -1,0 +1,76 @@
+// tools/strata/diagnose/diagnose.cpp - strata diagnose: which known mistake made a picture.
+#include <memory>
+
+#include "pipeline/device/check.h"
+#include "tools/oracle/mistakes/diagnosis_report.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/progress.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/table.h"
+#include "tools/strata/tolerances.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct DiagnoseOptions {
+    RunOptions run;
+    std::string candidate;
+    std::optional<oracle::RawLayout> layout{};
+    oracle::Tolerances tolerances{};
+    bool json = false;
+};
+
+bool has_depth(const oracle::Picture& picture) {
+    return std::ranges::find(picture.targets, oracle::Meaning::depth, &oracle::Target::meaning) !=
+           picture.targets.end();
+}
+
+// Right: 0. Whatever else made the picture, known or not: 1.
+int diagnose(DiagnoseOptions& options) {
+    complete(options.run);
+    if (options.run.algorithms.size() != 1)
+        throw CLI::ValidationError("--algorithm", "expected one algorithm, found several");
+    const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
+    // The machines draw at the candidate's size.
+    options.run.render.width = candidate.targets[0].width;
+    options.run.render.height = candidate.targets[0].height;
+    const Session session = open_session(options.run);
+    const oracle::Laboratory laboratory{{session.scene.list, session.view, session.profile, options.run.render},
+                                        *options.run.algorithms[0],
+                                        has_depth(candidate) ? oracle::Depths::made : oracle::Depths::left_out};
+    const auto shown_by = [](Progress& bar) { return [&bar](double share) { bar.show(share); }; };
+    Progress machines("wrong machines");
+    const oracle::Lineup lineup{laboratory, shown_by(machines)};
+    Progress pairs("pairs of mistakes");
+    const oracle::Diagnosis found = lineup.diagnose(candidate, options.tolerances, shown_by(pairs));
+    const oracle::Comparison comparison = oracle::compare(laboratory.right(), candidate, options.tolerances);
+    print(options.json ? to_json(found, comparison) : to_text(found, comparison));
+    return found.verdict == oracle::Verdict::right ? 0 : 1;
+}
+
+}  // namespace
+
+Command add_diagnose(CLI::App& root) {
+    auto* app = root.add_subcommand("diagnose", "tell which known mistake, or which two, made a picture of a scene");
+    const auto options = std::make_shared<DiagnoseOptions>();
+    add_picture_options(*app, options->run);
+    app->add_option("CANDIDATE", options->candidate, "an .exr, .png or .npy file, or bare numbers with --layout")
+        ->required()
+        ->type_name("");
+    add_layout_option(*app, options->layout);
+    add_tolerance_option(*app, options->tolerances);
+    app->add_flag("--json", options->json, "one JSON document instead of text");
+    app->footer(
+        "The scene is drawn at the candidate's size, whatever --size says; strata mistakes lists what is tried.\n"
+        "Examples:\n"
+        "  strata render showroom --size 64x64 --mistake one_pass_too_few -o mine.exr\n"
+        "  strata diagnose showroom mine.exr\n"
+        "  strata diagnose showroom mine.exr --json\n"
+        "Exit status: 0 right, 1 a mistake or none of mine, 2 bad input or usage, 3 the system failed, 130 "
+        "interrupted.");
+    return {app, [options] { return diagnose(*options); }};
+}
+
+}  // namespace strata::tools
