@@ -12,6 +12,7 @@
 #include "pipeline/formats/half.h"
 #include "pipeline/formats/image_words.h"
 #include "pipeline/formats/unorm8.h"
+#include "pipeline/formats/unorm8_product.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
@@ -206,11 +207,12 @@ std::vector<CapturedFragment> Region::capture(Bookkeeping bookkeeping) {
 Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
     const TargetStorage& from = storage(target);
     const FormatInfo format = info(from.format());
+    const bool by_product = profile().unorm_rounding == UnormRounding::product_even;
     Rgba color{0, 0, 0, 1};
     for (int c = 0; c < format.channels; ++c) {
         const std::uint32_t code = from.code(pixel, c, sample);
         color[static_cast<std::size_t>(c)] =
-            format.type == ChannelType::unorm8 ? from_unorm8(static_cast<std::uint8_t>(code))
+            format.type == ChannelType::unorm8 ? (by_product ? unorm8_product(code) : unorm8_value(code))
             : format.type == ChannelType::half ? half_to_float(static_cast<std::uint16_t>(code))
                                                : std::bit_cast<float>(code);
     }

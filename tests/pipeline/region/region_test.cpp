@@ -335,6 +335,7 @@ TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient,
             const float expected = profile == std::string_view{"llvmpipe"} ? product : quotient;
             for (std::size_t c = 0; c < 4; ++c)
                 wrong += found[4 * k + c] == std::bit_cast<std::uint32_t>(expected) ? 0 : 1;
+            wrong += m.region.color(codes, k) == Rgba{expected, expected, expected, expected} ? 0 : 1;
             unlike_quotient += product == quotient ? 0 : 1;
         }
         CHECK(wrong == 0);

@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Writes tools/port/MISTAKES.md: what `strata diagnose` says of the port when it is right, and when it is wrong by one mistake or by two.
+
+    tools/port/mistaken.py [--driver llvmpipe] [--only NAME]
+
+The diagnosis has the pack and the candidate alone: what the port says of itself is left out. Exit status 1: the right port is not named right.
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+import packs  # noqa: E402
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SCENES = {
+    "teapot": ["teapot", "--alpha", "0.5", "--size", "64x48"],
+    "random": ["random:seed=3,triangles=60", "--size", "64x48"],
+    "coincident": ["hard:case=coincident", "--size", "48x48"],
+    "opaque": ["hard:case=opaque-crossing", "--size", "48x48"],
+    "close": ["hard:case=planes-1-unit-of-16-bits", "--size", "32x32"],
+    "deep": ["hard:case=layers-256", "--size", "4x4"],
+    "deep, far first": ["volume-beam:slices=300,order=far", "--size", "4x4"],
+    "one pixel": ["hard:case=frame-1x1", "--size", "1x1"],
+}
+ALL_ALGORITHMS = ["teapot", "random", "coincident", "opaque", "close"]  # where the right port draws with each
+# Where a mistake shows, if not in the teapot.
+SHOWN_IN = {"less_equal": "coincident", "depth_epsilon": "close", "depth_16": "close", "opaque_ignored": "opaque", "background_lost": "opaque",
+            "no_perspective": "random", "stencil_wraps": "deep, far first", "stencil_cleared": "deep", "query_above_1": "one pixel",
+            "last_layer_lost": "close", "other_clip_range": "opaque"}
+PAIRS = [("flipped_rows,srgb_twice", "teapot", "front_to_back"), ("half_pixel,red_for_blue", "teapot", "front_to_back"),
+         ("straight_layers,last_layer_lost", "close", "front_to_back"), ("back_premultiplied,half_min_max", "teapot", "dual"),
+         ("background_lost,alpha_twice", "opaque", "front_to_back"), ("factors_exchanged,culling_left_on", "teapot", "dual")]
+
+
+class Journal:
+    """Rows that are done, a line of JSON each; without a file nothing is kept."""
+    def __init__(self, file):
+        self.path = pathlib.Path(file) if file else None
+        lines = self.path.read_text().splitlines() if self.path and self.path.exists() else []
+        self.rows = {(cells[0], *cells[2:4]): cells for cells in map(json.loads, lines)}
+
+    def find(self, *key):
+        return self.rows.get(key)
+
+    def append(self, cells):
+        print(*cells, sep=" | ", flush=True)
+        if self.path:
+            with self.path.open("a") as file:
+                file.write(json.dumps(cells) + "\n")
+
+
+def listed(build):
+    """The port's mistakes: name, the algorithm that shows it, and what it is."""
+    return [line.split(None, 2) for line in packs.run([build / "strata_port", "--mistakes"]).splitlines()]
+
+
+def cases(build):
+    """(names of mistakes, what they are, scene, algorithm); the right port first."""
+    known = listed(build)
+    words = {name: text for name, _, text in known}
+    wrong = [(name, text, SHOWN_IN.get(name, "teapot"), algorithm) for name, algorithm, text in known]
+    wrong += [(names, "; ".join(words[n] for n in names.split(",")), scene, algorithm) for names, scene, algorithm in PAIRS]
+    pictures = dict.fromkeys([(scene, algorithm) for scene in ALL_ALGORITHMS for algorithm in packs.ALGORITHMS] + [case[2:] for case in wrong])
+    return [("", "the right port", *picture) for picture in pictures] + wrong
+
+
+# What the catalogue calls a mistake of the port; for the others the right answer is that it is none of the catalogue's.
+NAMES = {"flipped_rows": {"upside_down", "flipped_rows"}, "other_clip_range": {"clip_zero_to_one"}, "half_pixel": {"half_pixel_down", "half_pixel_up"},
+         "culling_left_on": {"culls_all_backs"}, "flat_colors": {"colors_flat"}, "no_perspective": {"colors_affine"},
+         "less_equal": {"last_of_equals"}, "nearest_again": {"peels_again"}, "depth_16": {"depth_16"},
+         "min_max_cleared_to_0": {"min_max_cleared_to_0"}, "opaque_ignored": {"opaque_depth_lost"}, "straight_layers": {"not_premultiplied"},
+         "alpha_twice": {"premultiplied_twice"}, "cleared_to_opaque": {"front_cleared_wrong"}, "under_not_separate": {"one_blend_function"},
+         "over_for_under": {"over_for_under"}, "factors_exchanged": {"swapped_factors"}, "min_for_max": {"min_for_max"},
+         "alpha_squared": {"alpha_squared"}, "background_lost": {"background_lost"}, "srgb_twice": {"srgb_twice"},
+         "red_for_blue": {"red_for_blue"}, "last_layer_lost": {"one_pass_too_few"}, "query_above_1": {"query_above_one"},
+         "not_swapped": {"ping_pong_not_swapped"}, "stencil_wraps": {"stencil_wraps"}}
+
+
+def diagnose(build, profile, scene, algorithm, picture):
+    """What `strata diagnose` says of a picture. The scene's size is that of the picture."""
+    words = [build / "strata", "diagnose", *SCENES[scene], picture, "--algorithm", algorithm, "--profile", profile, "--json"]
+    return json.loads(packs.run(words, allowed=(0, 1)))
+
+
+def is_right(names, said):
+    """Whether the answer is the right one: equal pictures right, a known mistake or two known ones by their names, another one unknown."""
+    found = [name for finding in said["findings"][:1] for name in finding["mistakes"] + finding["alike"]]
+    if said["differing"] == 0:
+        return said["verdict"] == "right"
+    known = [NAMES.get(name) for name in names.split(",")]
+    if None in known:
+        return said["verdict"] not in ("right", "one_mistake", "two_mistakes")
+    return all(any(answer in found for answer in answers) for answers in known)
+
+
+def row(names, words, scene, algorithm, said):
+    best = said["findings"][0] if said["findings"] else {"mistakes": [], "agreeing": 0, "explained": 0}
+    classes = ", ".join(f"{kind['kind']} {kind['pixels']}" for kind in said["comparison"]["kinds"])
+    share = f"{best['explained']} of {said['differing']}" if said["differing"] else ""
+    return [names.replace(",", ", ") or "(right)", words, scene, algorithm, said["verdict"].replace("_", " "),
+            ", ".join(best["mistakes"]), share, classes, "yes" if is_right(names, said) else "no"]
+
+
+def page(rows, driver):
+    judged = [cells[-1] for cells in rows]
+    right, single, pair = ([c for c in rows if test(c[0])] for test in
+                           (lambda n: n == "(right)", lambda n: n != "(right)" and "," not in n, lambda n: "," in n))
+    unknown = [c for c in single if c[0] not in NAMES]
+    count = lambda cells: f"{sum(c[-1] == 'yes' for c in cells)} of {len(cells)}"
+    lines = ["# The port's mistakes, and what the oracle makes of them", "",
+             f"Made by `tools/port/mistaken.py` on {driver}: the port's finished picture, diagnosed under the driver's profile. The oracle gets the scene and the",
+             "picture alone. The mistakes were built into the port before the catalogue was looked at. An answer is right if it names the mistake by what",
+             "the catalogue calls it, both of two, or none where the catalogue has no such machine; a class is then all that can be said.", "",
+             f"The right port is named right in {count(right)} pictures. Of single mistakes {count(single)} are answered rightly, of which those that are not in the",
+             f"catalogue {count(unknown)}; of pairs {count(pair)}.", "",
+             "| mistake | what it is | scene | algorithm | verdict | named first | explains | classes of pixels | right |", "|" + "---|" * 9]
+    lines += ["| " + " | ".join(cells) + " |" for cells in rows]
+    return "\n".join(lines) + "\n", all(c[-1] == "yes" for c in right) and bool(judged)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default=str(ROOT / "build/release"), help="where strata and strata_port are")
+    parser.add_argument("--driver", default="llvmpipe", help="whose profile has the same name")
+    parser.add_argument("--only", help="one mistake, or a pair with a comma between")
+    parser.add_argument("--journal", help="a file of rows that are done: a run that was broken off goes on from there")
+    parser.add_argument("--out", default=str(HERE / "MISTAKES.md"))
+    options = parser.parse_args()
+    build, rows, made, journal = pathlib.Path(options.build), [], {}, Journal(options.journal)
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        profile = packs.profile_file(folder, options.driver)
+        for names, words, scene, algorithm in cases(build):
+            if options.only is not None and names != options.only:
+                continue
+            if cells := journal.find(names.replace(",", ", ") or "(right)", scene, algorithm):
+                rows.append(cells)
+                continue
+            if scene not in made:
+                made[scene] = packs.Pack(build, folder / scene, SCENES[scene], profile)
+            candidate = made[scene].candidate(folder / "candidate", options.driver, names, [algorithm], picture_only=True)
+            said = diagnose(build, profile, scene, algorithm, candidate / algorithm / "picture.npy")
+            rows.append(row(names, words, scene, algorithm, said))
+            shutil.rmtree(candidate)
+            journal.append(rows[-1])
+    text, all_right = page(rows, options.driver)
+    pathlib.Path(options.out).write_text(text)
+    return 0 if all_right else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
