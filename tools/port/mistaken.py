@@ -36,7 +36,9 @@ SHOWN_IN = {"less_equal": "coincident", "depth_epsilon": "random", "depth_16": "
             "last_layer_lost": "close", "other_clip_range": "opaque"}
 PAIRS = [("flipped_rows,srgb_twice", "teapot", "front_to_back"), ("half_pixel,red_for_blue", "teapot", "front_to_back"),
          ("straight_layers,last_layer_lost", "close", "front_to_back"), ("min_max_cleared_to_0,red_for_blue", "teapot", "dual"),
-         ("background_lost,alpha_twice", "on grey", "front_to_back"), ("factors_exchanged,culling_left_on", "teapot", "dual")]
+         ("background_lost,alpha_twice", "on grey", "front_to_back"), ("factors_exchanged,culling_left_on", "teapot", "dual"),
+         ("no_perspective,red_for_blue", "random", "front_to_back"), ("less_equal,straight_layers", "coincident", "front_to_back"),
+         ("culling_left_on,alpha_twice", "teapot", "front_to_back"), ("under_not_separate,flat_colors", "teapot", "front_to_back")]
 
 
 class Journal:
@@ -91,11 +93,12 @@ def diagnose(build, profile, scene, algorithm, picture):
 
 def judged(names, said):
     """yes: right, or the mistake or both of two by name, or none where the catalogue has no such machine. Else: same picture, if what is named
-    leaves it to the last pixel; nearest, if the right one is ranked first and leaves some pixels; or no."""
+    leaves it to the last pixel; nearest, if the right one is ranked first and leaves some pixels; does not show, if the picture is right and
+    called so; or no."""
     best = said["findings"][0] if said["findings"] else {"mistakes": [], "alike": [], "explained": 0}
     found, unknown = best["mistakes"] + best["alike"], said["verdict"] == "none_of_mine"
     if said["differing"] == 0:
-        return "yes" if said["verdict"] == "right" else "no"
+        return "no" if said["verdict"] != "right" else "does not show" if names else "yes"
     known = [NAMES.get(name) for name in names.split(",")]
     if None not in known and all(any(answer in found for answer in answers) for answers in known):
         return "nearest" if unknown else "yes"
