@@ -84,6 +84,9 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
     if (render.depth) add(words, "--depth", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
     add_comparison(words, render);
+    const rasterizer::RasterState& raster = render.raster;
+    if (raster.depth_near != 0 || raster.depth_far != 1)
+        add(words, "--depth-range", fmt::format("{},{}", raster.depth_near, raster.depth_far));
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));

@@ -1,6 +1,7 @@
 #include "tools/strata/options/options.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "peeling/registry.h"
@@ -82,6 +83,28 @@ std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text
     return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
 }
 
+// NEAR,FAR of glDepthRange, which OpenGL clamps to 0 and 1.
+std::optional<std::array<float, 2>> to_depth_range(std::string_view text) {
+    const auto values = to_numbers<float>(text, 2);
+    if (!values || !((*values)[0] >= 0 && (*values)[0] <= 1 && (*values)[1] >= 0 && (*values)[1] <= 1))
+        return std::nullopt;
+    return std::array{(*values)[0], (*values)[1]};
+}
+
+void add_depth_range(CLI::App& app, rasterizer::RasterState& raster) {
+    const auto fill = [&raster](const std::string& text) {
+        const auto range = to_depth_range(text);
+        if (!range)
+            throw CLI::ValidationError("--depth-range",
+                                       "expected two numbers from 0 to 1 such as 0,0.5, found '" + text + "'");
+        raster.depth_near = (*range)[0];
+        raster.depth_far = (*range)[1];
+    };
+    app.add_option_function<std::string>("--depth-range", fill,
+                                         "glDepthRange: the depths of the near and of the far plane (default 0,1)")
+        ->type_name("NEAR,FAR");
+}
+
 // As many as a renderer takes.
 std::optional<int> to_threads(std::string_view text) {
     const auto value = to_count(text);
@@ -153,6 +176,7 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
                 "two numbers such as 1,1, each from -16777216 to 16777216"},
                to_polygon_offset);
+    add_depth_range(app, options.raster);
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
     add_choice(app, options.average_count, "--average-count", count_formats,
