@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes RESULTS.md and pictures/ of this folder anew, in two shards: about ten minutes of one core. A run that was ended goes on
+# Makes RESULTS.md and pictures/ of this folder anew, in two shards: five minutes of one core of its own. A run that was ended goes on
 # where it was. The five cases that take minutes each are left out; strata hard-cases NAME runs them.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
