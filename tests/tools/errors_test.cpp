@@ -82,6 +82,12 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
         {{"render", "teapot", "--vertex-path", "fused,double,nv20"},
          "strata: --vertex-path: expected one or two of separate, fused, reassociated, double, toward_zero or nv20, "
          "found 'fused,double,nv20'"},
+        {{"render", "teapot", "--depth-range", "0,1.5"},
+         "strata: --depth-range: expected two numbers from 0 to 1 such as 0,0.5, found '0,1.5'"},
+        {{"render", "teapot", "--depth-range", "nan,1"},
+         "strata: --depth-range: expected two numbers from 0 to 1 such as 0,0.5, found 'nan,1'"},
+        {{"render", "teapot", "--depth-range", "0"},
+         "strata: --depth-range: expected two numbers from 0 to 1 such as 0,0.5, found '0'"},
         {{"render", "teapot", "--polygon-offset", "1"},
          "strata: --polygon-offset: expected two numbers such as 1,1, each from -16777216 to 16777216, found '1'"},
         {{"bench", "teapot", "--execution", "replay,tile"},

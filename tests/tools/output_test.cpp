@@ -109,6 +109,26 @@ TEST_CASE("layers and deep files are the same bytes in every run") {
     CHECK(folder.files() == std::vector<std::string>{"a.deep.exr", "a.exr", "b.deep.exr", "b.exr"});
 }
 
+TEST_CASE("a hard case rendered in its own frame and depth range is the picture that its line names") {
+    const Folder folder;
+    const Ended cases = run_strata(folder, {"hard-cases", "narrow-range", "--algorithm", "dual", "--profile",
+                                            "geforce8", "--depth", "d24", "--json", "-o", "cases"});
+    REQUIRE(cases.status == 0);
+    const std::string digest = ordered_json::parse(cases.out)[0]["digest"];
+    const auto digest_of = [&](const std::string& range) {
+        const Ended ended = run_strata(folder, {"render", "hard:case=narrow-range", "--size", "32x32", "--depth", "d24",
+                                                "--depth-range", range, "--stats", "-", "-o", "out.exr"});
+        REQUIRE(ended.status == 0);
+        return ordered_json::parse(ended.out)[0]["digest"]["color"].get<std::string>();
+    };
+    CHECK(digest_of("0.5,0.50006103515625") == digest);  // 1/2 to 1/2 + 2^-14
+    // A hundredth of that range is narrower than a code: the layers fall together.
+    CHECK(digest_of("0.5,0.5000000596") != digest);
+    const Ended reversed = run_strata(folder, {"render", "hard:case=narrow-range", "--depth-range", "1,0"});
+    CHECK(reversed.status == 2);
+    CHECK(reversed.err.find("reversed depth range") != std::string::npos);
+}
+
 TEST_CASE("no output holds a path, a host or a user") {
     const Folder folder;
     CHECK(shell(folder, "cp " STRATA_PROGRAM

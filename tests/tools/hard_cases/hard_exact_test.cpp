@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "scenes/procedural/hard_cases/build_case.h"
 #include "tests/support/exact_fragments.h"
 #include "tools/strata/hard_cases/hard_moves.h"
 
@@ -88,6 +89,36 @@ TEST_CASE("no movement changes the rational answer at a pixel that is not open t
     }
     // The movements do change something, so that the first count could have been other than 0.
     CHECK(changed_open > 100);
+}
+
+// Two planes near depth 9/10, whose distance grows by 2^-23 from column to column on both sides of the middle: a movement
+// by 2^-20 of a depth reorders some columns there.
+TEST_CASE("a movement reorders planes only where the pixels are open to it, and reorders some") {
+    const scenes::HardCase close{.name = "close",
+                                 .hard = "",
+                                 .answer = "",
+                                 .build =
+                                     [](scenes::CaseScene& scene) {
+                                         using namespace scenes::hard;
+                                         add_quad(scene, whole(scene), {0.9, 0, 0}, color_of(1));
+                                         add_quad(scene, whole(scene), {0.9 - 0x1p-19, 0x1p-23, 0}, color_of(2));
+                                     },
+                                 .counts = {2048, 2, 2, 0}};
+    const scenes::Scene scene = make_hard_case({}, close);
+    const auto open =
+        ExactCase{close, scene, *scene.own_view}.open_pixels({.relative = share_of(tools::MoveSize::relative)});
+    // More than the square's diagonal, and not everything.
+    CHECK(std::ranges::count(open, true) > 200);
+    CHECK(std::ranges::count(open, false) > 200);
+    const RationalPixels before = by_rationals(close, scene);
+    int wrong = 0, reordered = 0;
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+        const RationalPixels after = by_rationals(close, tools::moved(scene, {tools::MoveSize::relative, seed}));
+        for (std::size_t p = 0; p < open.size(); ++p)
+            if (!is_same_answer(before[p], after[p])) ++(open[p] ? reordered : wrong);
+    }
+    CHECK(wrong == 0);
+    CHECK(reordered > 500);
 }
 
 TEST_CASE("triangles of the cases that are moved have one colour each, which the exact picture blends") {

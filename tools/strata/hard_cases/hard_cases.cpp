@@ -38,6 +38,7 @@ int list_cases(const HardOptions& options) {
                             {"answer", hard.answer},
                             {"width", hard.width},
                             {"height", hard.height},
+                            {"depth_range", {hard.depth_near, hard.depth_far}},
                             {"fragments", hard.counts.fragments},
                             {"deepest", hard.counts.deepest},
                             {"layers", hard.counts.layers},

@@ -62,7 +62,8 @@ std::string amplification(const MovedLine& l) {
 
 std::string table_of(const std::vector<MovedLine>& lines) {
     std::string text =
-        "\nMoved by one unit in the last place, and along the camera path (depth_units):\n\n"
+        "\nMoved by one unit in the last place, and along the camera path (depth_units; the verdict is that of both "
+        "sizes of moves):\n\n"
         "| profile | depth | changes | exact | amplification | of depth | within the move | within the device | beyond "
         "| flips in order | in coverage | verdict |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|\n";
     for (const MovedLine& l : lines)

@@ -65,13 +65,16 @@ std::string troubles(const std::vector<const ordered_json*>& lines) {
 std::string section(const HardSweep& sweep, const scenes::HardCase& hard, bool has_picture,
                     const std::vector<const ordered_json*>& lines) {
     const scenes::HardAnswer& counts = hard.counts;
+    const bool has_range = hard.depth_near != 0 || hard.depth_far != 1;
+    const std::string range =
+        has_range ? fmt::format(" --depth-range {},{}", hard.depth_near, hard.depth_far) : std::string{};
     std::string text = fmt::format("\n## {}\n", hard.name);
     if (has_picture) text += fmt::format("![{}](pictures/{}.png)\n\n", hard.name, hard.name);
     text += fmt::format(
         "{} Right answer: {} Exact geometry has {} visible fragments, {} at the deepest pixel, {} layers, "
-        "and ties at {} pixels of {} x {}.\n\n",
+        "and ties at {} pixels of {} x {}.\n\n    strata render hard:case={} --size {}x{}{} -o {}.png\n\n",
         hard.hard, hard.answer, counts.fragments, counts.deepest, counts.layers, counts.tied_pixels, hard.width,
-        hard.height);
+        hard.height, hard.name, hard.width, hard.height, range, hard.name);
     text += page_head("profile");
     for (const auto& profile : sweep.profiles) {
         VerdictCounts own{};

@@ -89,6 +89,9 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
         add(words, "--depth-order", name_of(depth_orders, render.raster.depth_order));
     if (render.raster.clip_depth != rasterizer::ClipDepth::minus_one_to_one)
         add(words, "--clip-depth", name_of(clip_depths, render.raster.clip_depth));
+    const rasterizer::RasterState& raster = render.raster;
+    if (raster.depth_near != 0 || raster.depth_far != 1)
+        add(words, "--depth-range", fmt::format("{},{}", raster.depth_near, raster.depth_far));
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));

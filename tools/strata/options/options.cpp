@@ -1,6 +1,7 @@
 #include "tools/strata/options/options.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "peeling/registry.h"
@@ -81,6 +82,28 @@ std::optional<rasterizer::PolygonOffset> to_polygon_offset(std::string_view text
     const auto values = to_numbers<float>(text, 2);
     if (!values || std::fabs((*values)[0]) > 0x1p24f || std::fabs((*values)[1]) > 0x1p24f) return std::nullopt;
     return rasterizer::PolygonOffset{true, (*values)[0], (*values)[1]};
+}
+
+// NEAR,FAR of glDepthRange, which OpenGL clamps to 0 and 1.
+std::optional<std::array<float, 2>> to_depth_range(std::string_view text) {
+    const auto values = to_numbers<float>(text, 2);
+    if (!values || !((*values)[0] >= 0 && (*values)[0] <= 1 && (*values)[1] >= 0 && (*values)[1] <= 1))
+        return std::nullopt;
+    return std::array{(*values)[0], (*values)[1]};
+}
+
+void add_depth_range(CLI::App& app, rasterizer::RasterState& raster) {
+    const auto fill = [&raster](const std::string& text) {
+        const auto range = to_depth_range(text);
+        if (!range)
+            throw CLI::ValidationError("--depth-range",
+                                       "expected two numbers from 0 to 1 such as 0,0.5, found '" + text + "'");
+        raster.depth_near = (*range)[0];
+        raster.depth_far = (*range)[1];
+    };
+    app.add_option_function<std::string>("--depth-range", fill,
+                                         "glDepthRange: the depths of the near and of the far plane (default 0,1)")
+        ->type_name("NEAR,FAR");
 }
 
 // As many as a renderer takes.
@@ -165,6 +188,7 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                "the depth test that keeps the nearer fragment; greater: reversed depth, near at 1 (default less)");
     add_choice(app, options.raster.clip_depth, "--clip-depth", clip_depths,
                "where z of clip space ends (default minus-one-to-one; zero-to-one: glClipControl, Direct3D)");
+    add_depth_range(app, options.raster);
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
     add_choice(app, options.average_count, "--average-count", count_formats,
