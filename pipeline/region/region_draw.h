@@ -1,8 +1,7 @@
-// pipeline/region/region_draw.h - how a region runs a caller's program over a pass's fragments: the part of region.h that is templates.
+// pipeline/region/region_draw.h - how a region runs a caller's program over a pass's fragments: the templates of region.h, which alone
+// includes this, behind its class.
 #pragma once
 #include <algorithm>
-
-#include "pipeline/region/region.h"
 
 namespace strata::pipeline {
 

@@ -65,6 +65,33 @@ std::span<const std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t
     return own;
 }
 
+// The codes that a depth test LESS compares with, in the order of keys: a binary32 that is negative or NaN lies before every
+// stored code, or before none.
+class StoredDepth {
+  public:
+    explicit StoredDepth(const TargetStorage& depth)
+        : codes_{depth.depth(0)}, is_float_{depth.format() == Format::d32f} {}
+    [[nodiscard]] std::uint32_t of(std::size_t pixel) const noexcept {
+        return is_float_ && codes_[pixel] > 0x7f800000u ? 0 : codes_[pixel];
+    }
+
+  private:
+    const std::uint32_t* codes_;
+    bool is_float_;
+};
+
+// Calls visit(pixel, its words, the number of its window's first) wherever there is a fragment.
+template <class Visit>
+void for_each_column(SortedFragments& sorted, const KeyWindow& window, Visit&& visit) {
+    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
+        sorted.prefetch(p + pixels_ahead, Finger::low);
+        const auto words = sorted.of(p);
+        if (words.empty()) continue;
+        const std::uint64_t low = window.low(p);
+        visit(p, words, low > 0 ? sorted.below(p, low, Finger::low) : 0);
+    }
+}
+
 // How many of a column's fragments [first, last) arrived after `word`.
 std::uint32_t arrived_after(std::span<const std::uint64_t> words, std::uint64_t word) {
     std::uint32_t later = 0;
@@ -111,32 +138,24 @@ void Region::select_nearest(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window = window_of(state.selection, frame_, [&](Target t) { return codes_of(t); });
-    const std::uint32_t* const stored = codes_of(state.depth_target);
-    const bool is_float = at(state.depth_target).format() == Format::d32f;
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        const auto words = sorted.of(p);
-        if (words.empty()) continue;
-        const std::uint64_t low = window.low(p);
-        const std::uint32_t first = low > 0 ? sorted.below(p, low, Finger::low) : 0;
+    const StoredDepth stored{at(state.depth_target)};
+    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
         std::uint32_t end = static_cast<std::uint32_t>(words.size());
         if (window.has_high()) end = std::max(first, sorted.below(p, window.high(p), Finger::high));
-        // A binary32 that is negative or NaN lies before every stored code, or before none.
-        const std::uint32_t last =
-            is_float && stored[p] > 0x7f800000u ? 0 : std::min(end, sorted.below(p, stored[p], Finger::surface));
+        const std::uint32_t last = std::min(end, sorted.below(p, stored.of(p), Finger::surface));
         selected.inside += end - first;
         const std::uint32_t updates = sorted.passing(p, first, last);
         if (state.selection.keeps == Keeps::previous) {
             select_previous(state, p, {first, last, end}, updates);
-            continue;
+            return;
         }
-        if (updates == 0) continue;
+        if (updates == 0) return;
         selected.passed += updates;
         if (state.stencil.enabled) count_up(state, p, updates - 1);
         const bool has_two = state.selection.keeps == Keeps::last_two && updates > 1;
         if (has_two) selected.add(p, words[sorted.update(p, first, last, updates - 1)], 0);
         selected.add(p, words[first], has_two ? 1 : 0);
-    }
+    });
 }
 
 // Increments a pixel's stencil up to 255, and reports the first increment that it does not take.
@@ -169,20 +188,14 @@ void Region::select_nearest_stored(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window = window_of(state.selection, frame_, [&](Target t) { return codes_of(t); });
-    const std::uint32_t* const stored = codes_of(state.depth_target);
-    const bool is_float = at(state.depth_target).format() == Format::d32f;
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        const auto words = sorted.of(p);
-        if (words.empty()) continue;
-        const std::uint32_t first = sorted.below(p, window.low(p), Finger::low);
-        const std::uint32_t surface = is_float && stored[p] > 0x7f800000u ? 0 : stored[p];
+    const StoredDepth stored{at(state.depth_target)};
+    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
         selected.inside += words.size() - first;
-        const SortedFragments::Passing found = sorted.passing_stored(p, first, surface);
-        if (found.passed == 0) continue;
+        const SortedFragments::Passing found = sorted.passing_stored(p, first, stored.of(p));
+        if (found.passed == 0) return;
         selected.passed += found.passed;
         selected.add(p, found.word, 0);
-    }
+    });
 }
 
 // A window of one key is followed to its end.
@@ -192,21 +205,16 @@ void Region::select_window(const PassState& state) {
     selected.start();
     const KeyWindow window = window_of(state.selection, frame_, [&](Target t) { return codes_of(t); });
     std::vector<std::uint64_t> in_order;
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        const auto words = sorted.of(p);
-        if (words.empty()) continue;
-        const std::uint64_t low = window.low(p);
-        const std::uint32_t first = sorted.below(p, low, Finger::low);
+    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
         std::uint32_t last = first;
         if (window.at.exists())
-            while (last < words.size() && words[last] >> 32 == low) ++last;
+            while (last < words.size() && words[last] >> 32 == window.low(p)) ++last;
         else
             last = std::max(first, sorted.below(p, window.high(p), Finger::high));
         selected.inside += last - first;
         const auto kept = in_order_of_arrival(words.subspan(first, last - first), in_order);
         for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
-    }
+    });
 }
 
 // Those before have counted the stencil down by the time that the kept ones come, and met no sample's test.

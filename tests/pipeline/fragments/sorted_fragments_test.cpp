@@ -206,10 +206,10 @@ TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffe
         Random random{22};
         StoredColumns given;
         fill_columns(random, 60, codes, given);
+        auto one = std::make_unique<strata::rasterizer::FragmentBatch>();
+        int wrong = 0;
         SortedFragments sorted;
         REQUIRE(sorted.sort(given.store, {.by_reference = true}, column_pixels, std::uint64_t{64} << 20));
-        int wrong = 0;
-        auto one = std::make_unique<strata::rasterizer::FragmentBatch>();
         for (std::size_t p = 0; p < column_pixels; ++p) {
             struct Arrival {
                 std::uint32_t place, compared, code;
