@@ -175,6 +175,28 @@ TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface,
         }
 }
 
+TEST_CASE("rows of pixels whose fragments all lie behind the opaque surface execute alike", "[slow]") {
+    FragmentScene scene{32, 16};
+    const strata::pipeline::Rgba glass{1, 0.5f, 0.25f, 0.5f};
+    for (std::size_t pixel = 0; pixel < scene.pixels.size(); ++pixel) {
+        GivenPixel& given = scene.pixels[pixel];
+        const std::size_t row = pixel / 32;
+        given.opaque = GivenFragment{0.5f, glass};
+        for (std::size_t k = 0; k <= row % 3; ++k)
+            given.fragments.push_back({0.5f + 0.125f * static_cast<float>(k), glass});
+        if (row % 4 == 3) given.fragments.push_back({0.25f, glass});
+    }
+    const TriangleScene triangles{draw_list(scene), {}};
+    for (const Ending& ending : {endings[0], endings[1], endings[5], endings[8]})
+        for (const Machine& machine : machines) {
+            RenderOptions options = options_for(scene);
+            options.termination = ending.termination;
+            options.max_passes = ending.max_passes;
+            INFO("ended by " << ending.name);
+            check_all_ways(triangles, machine, options);
+        }
+}
+
 TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts", "[slow]") {
     const TriangleScene scene = random_triangles(75, 24, 0.4f);
     for (const Machine& machine :
