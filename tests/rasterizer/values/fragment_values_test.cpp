@@ -44,6 +44,19 @@ using namespace strata::rasterizer;
     return {t.attribute[0][a], t.attribute[1][a], t.attribute[2][a]};
 }
 
+struct Compared {
+    std::uint64_t values = 0, wrong = 0;
+};
+
+// All attributes of the triangle's fragments with the model's.
+void compare(const SetupTriangle& t, Compared& found) {
+    for (const Fragment& f : draw(window_geometry({t}, 12, 12, {})).fragments) {
+        const std::array<Rational, 3> b = barycentric(t.p, f.x, f.y, 8);
+        for (std::size_t a = 0; a < attribute_count; ++a, ++found.values)
+            found.wrong += attribute_of(f, a) != model_attribute(b, corner_values(t, a), t.inverse_w) ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 TEST_CASE("attributes are perspective-correct with every rounding of the rule, for every subpixel setting", "[slow]") {
@@ -64,34 +77,26 @@ TEST_CASE("attributes are perspective-correct with every rounding of the rule, f
 
 TEST_CASE("with w = 1 the quotient is left out and nothing changes", "[slow]") {
     Random random{72};
-    std::uint64_t values = 0, wrong = 0;
+    Compared found;
     for (SetupTriangle t : random_triangles(random, 60, 12, 8)) {
         t.inverse_w = {1, 1, 1};
-        for (const Fragment& f : draw(window_geometry({t}, 12, 12, {})).fragments) {
-            const std::array<Rational, 3> b = barycentric(t.p, f.x, f.y, 8);
-            for (std::size_t a = 0; a < attribute_count; ++a, ++values)
-                wrong += attribute_of(f, a) != model_attribute(b, corner_values(t, a), t.inverse_w) ? 1 : 0;
-        }
+        compare(t, found);
     }
-    CHECK(values > 3000);
-    CHECK(wrong == 0);
+    CHECK(found.values > 3000);
+    CHECK(found.wrong == 0);
 }
 
 TEST_CASE("the quotient is taken where any vertex has another w than 1, whichever vertices have 1") {
     Random random{73};
-    std::uint64_t values = 0, wrong = 0;
+    Compared found;
     for (SetupTriangle t : random_triangles(random, 6, 12, 8))
         for (int others = 1; others < 8; ++others) {  // bit i: vertex i has a w of its own
             for (std::size_t i = 0; i < 3; ++i)
                 t.inverse_w[i] = (others >> i & 1) != 0 ? 0.3f + 0.2f * static_cast<float>(i) : 1;
-            for (const Fragment& f : draw(window_geometry({t}, 12, 12, {})).fragments) {
-                const std::array<Rational, 3> b = barycentric(t.p, f.x, f.y, 8);
-                for (std::size_t a = 0; a < attribute_count; ++a, ++values)
-                    wrong += attribute_of(f, a) != model_attribute(b, corner_values(t, a), t.inverse_w) ? 1 : 0;
-            }
+            compare(t, found);
         }
-    CHECK(values > 1000);
-    CHECK(wrong == 0);
+    CHECK(found.values > 1000);
+    CHECK(found.wrong == 0);
 }
 
 TEST_CASE("three equal vertex values are that constant, whatever w does") {
