@@ -101,6 +101,19 @@ const std::vector<Machine> machines{{"geforce3", "unsorted"},
                                     {"ideal", "a_buffer"},
                                     {"ideal", "dual"}};
 
+// Every machine, ended in each of these ways.
+void check_endings(const FragmentScene& scene, const std::vector<Ending>& chosen) {
+    const TriangleScene triangles{draw_list(scene), {}};
+    for (const Ending& ending : chosen)
+        for (const Machine& machine : machines) {
+            RenderOptions options = options_for(scene);
+            options.termination = ending.termination;
+            options.max_passes = ending.max_passes;
+            INFO("ended by " << ending.name);
+            check_all_ways(triangles, machine, options);
+        }
+}
+
 // The algorithms of a partial order, whose queries stand inside an iteration.
 const std::vector<Machine> partial_order{{"geforce8", "layer_peel"},
                                          {"geforce8", "hybrid"},
@@ -164,15 +177,21 @@ TEST_CASE("a tile that ends early, with fragments exactly at its opaque surface,
     scene.pixels[3] = {{{0.25f, glass}, {0.5f, glass}, {0.75f, glass}, {0.5f, glass}}, GivenFragment{0.5f, glass}};
     for (const float depth : {0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.625f})
         scene.pixels[255].fragments.push_back({depth, glass});
-    const TriangleScene triangles{draw_list(scene), {}};
-    for (const Ending& ending : endings)
-        for (const Machine& machine : machines) {
-            RenderOptions options = options_for(scene);
-            options.termination = ending.termination;
-            options.max_passes = ending.max_passes;
-            INFO("ended by " << ending.name);
-            check_all_ways(triangles, machine, options);
-        }
+    check_endings(scene, endings);
+}
+
+TEST_CASE("rows of pixels whose fragments all lie behind the opaque surface execute alike", "[slow]") {
+    FragmentScene scene{32, 16};
+    const strata::pipeline::Rgba glass{1, 0.5f, 0.25f, 0.5f};
+    for (std::size_t pixel = 0; pixel < scene.pixels.size(); ++pixel) {
+        GivenPixel& given = scene.pixels[pixel];
+        const std::size_t row = pixel / 32;
+        given.opaque = GivenFragment{0.5f, glass};
+        for (std::size_t k = 0; k <= row % 3; ++k)
+            given.fragments.push_back({0.5f + 0.125f * static_cast<float>(k), glass});
+        if (row % 4 == 3) given.fragments.push_back({0.25f, glass});
+    }
+    check_endings(scene, {endings[0], endings[1], endings[5], endings[8]});
 }
 
 TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts", "[slow]") {

@@ -166,6 +166,28 @@ TEST_CASE("front_to_back stopped by max_passes shows exactly the nearest layers 
     }
 }
 
+TEST_CASE("no algorithm takes more geometry passes than max_passes, however many an iteration has") {
+    const FragmentScene scene = stairs(14);
+    for (const strata::peeling::Algorithm& algorithm : strata::peeling::algorithms())
+        for (const char* const profile : {"geforce3", "geforce8", "ideal"}) {
+            RenderOptions options = options_for(scene);
+            const RenderResult whole = render(scene, {profile, std::string{algorithm.name}}, options);
+            if (whole.outcome != strata::peeling::Outcome::done) continue;
+            const int all = whole.frame.passes.geometry;
+            int before = 0;
+            for (int most = 1; most <= 19; ++most) {
+                options.max_passes = most;
+                const int found = render(scene, {profile, std::string{algorithm.name}}, options).frame.passes.geometry;
+                INFO(algorithm.name << " on " << profile << ", at most " << most << " of " << all);
+                // An algorithm without iterations is whole or refused; what one pass more allows is never less.
+                CHECK((found <= most || (found == all && all <= 2)));
+                CHECK(found >= before);
+                CHECK(found <= all);
+                before = found;
+            }
+        }
+}
+
 TEST_CASE("fixed:N runs N geometry passes without a query, whatever is left or long gone") {
     const FragmentScene scene = stairs(5);
     for (int passes = 1; passes <= 8; ++passes) {

@@ -190,6 +190,16 @@ TEST_CASE("E20: a count of 128 in pass 3 is said; a shorter run's is not") {
     }
 }
 
+TEST_CASE("E20: fragments that arrive in short runs never count to 128, however many they are") {
+    std::vector<int> zigzag;  // 100 to 1, then 200 to 101: two runs out of order, none longer than 2
+    for (const int start : {100, 200})
+        for (int depth = start; depth > start - 100; --depth) zigzag.push_back(depth);
+    for (const Machine& machine : {stencil, blend}) {
+        CHECK(diagnosed(render(stack(300, false), machine), Fault::count_limit) == 0);
+        CHECK(diagnosed(render(one_pixel(zigzag), machine), Fault::count_limit) == 0);
+    }
+}
+
 TEST_CASE("E21: equal depths at the bound of a peel are composited in order of arrival, and said") {
     for (const Machine& machine : {stencil, blend, ideal, Machine{"geforce8", "layer_peel"}}) {
         const RenderResult tied = render(one_pixel({3, 2, 2, 1}), machine);

@@ -195,6 +195,28 @@ TEST_CASE("the alpha test kills by the program's alpha, before depth and stencil
     CHECK(counted.blended == 4);
 }
 
+TEST_CASE("without a colour target the alpha test compares 8-bit codes, as on an 8-bit target") {
+    // 0.25 and 0.2515 have the code 64.
+    for (const float ref : {0.2485f, 0.25f, 0.2515f})
+        for (const CompareFunc func : {CompareFunc::equal, CompareFunc::gequal, CompareFunc::greater}) {
+            Machine m{stacks({9}), "geforce8"};  // alphas 0, 1/4, 1/2, 3/4, 0, ...
+            PassState state;
+            state.alpha = {.enabled = true, .func = func, .ref = ref};
+            state.stencil = every_fragment(StencilOp::incr);
+            state.stencil_target = m.region.make(Format::s8);
+            static_cast<void>(m.region.draw(state, pass_color));
+            const std::uint32_t code = ref < 0.249f ? 63 : 64;  // of ref, times 255 to the nearest
+            std::uint32_t living = 0;
+            for (const std::uint32_t alpha : {0u, 64u, 128u, 191u, 0u, 64u, 128u, 191u, 0u})
+                living += func == CompareFunc::equal    ? alpha == code
+                          : func == CompareFunc::gequal ? alpha >= code
+                                                        : alpha > code;
+            INFO("ref " << ref);
+            CHECK(stencil_of(m.region, state.stencil_target, 0) == living);
+            CHECK(m.books.records.front().counters.alpha_killed == 9 - living);
+        }
+}
+
 TEST_CASE("several targets take their own outputs, formats, blends and write masks from one pass") {
     Machine m{stacks({0, 3}), "geforce8_dx101"};
     PassState state;

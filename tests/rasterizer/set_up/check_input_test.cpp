@@ -80,6 +80,11 @@ TEST_CASE("a soup whose numbers lead out of it is refused by the first of them")
           "triangle soup: runs[1].index_count: expected a multiple of 3, found 5");
     CHECK(soup([](TriangleSoup& s) { s.runs[1].first_index = 0xffffffff; }) ==
           "triangle soup: runs[1]: expected an end within 12 indices, found 4294967301");
+    // 4097 runs of the same 2^20 triangles.
+    CHECK(soup([](TriangleSoup& s) {
+              s.indices.assign(std::size_t{3} << 20, 0);
+              s.runs.assign(4097, {.first_index = 0, .index_count = 3u << 20});
+          }) == "triangle soup: runs: expected 0 to 4294967295, found 4296015872");
     CHECK(soup([](TriangleSoup& s) {
               s.order = {3, 0, 4};
           }) == "triangle soup: order[2]: expected less than 4, found 4");

@@ -1,6 +1,8 @@
 #include "rasterizer/set_up/window.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/support.h"
@@ -96,6 +98,26 @@ TEST_CASE("fused viewport arithmetic rounds once, where two roundings would meet
     }
     CHECK(wrong == 0);
     CHECK(twice > 0);
+}
+
+TEST_CASE("window positions beyond the guard band are put on its border, on each side of each axis, and NaN stays") {
+    RasterState state = state_of({0, 0, 64, 64});
+    state.window_positions = true;
+    const WindowTransform transform{state, {.subpixel_bits = 12, .guard_band_px = 32768}};
+    for (const float far : {32768.0f, 32769.0f, 40000.0f, 1e9f, std::numeric_limits<float>::infinity()})
+        for (const float sign : {-1.0f, 1.0f}) {
+            const WindowVertex x = transform.project({.x = sign * far, .y = 3, .z = 0.25f, .w = 1}),
+                               y = transform.project({.x = 3, .y = sign * far, .z = 0.25f, .w = 1});
+            CHECK(x.x == sign * 32768.0f);
+            CHECK(x.y == 3.0f);
+            CHECK(y.x == 3.0f);
+            CHECK(y.y == sign * 32768.0f);
+            CHECK(transform.snapped(x).x == static_cast<int>(sign) * (1 << 27));
+        }
+    const float inside = 32767.998f;
+    CHECK(transform.project({.x = inside, .y = -inside, .z = 0, .w = 1}).x == inside);
+    CHECK(transform.project({.x = inside, .y = -inside, .z = 0, .w = 1}).y == -inside);
+    CHECK(std::isnan(transform.project({.x = std::nanf(""), .y = 0, .z = 0, .w = 1}).x));
 }
 
 TEST_CASE("y up puts clip-space +1 on the first row, y down on the last") {

@@ -84,6 +84,18 @@ TEST_CASE("14 leading bits of a vertex colour reach its code, as captures show")
     CHECK(wrong_with_all > 0);
 }
 
+TEST_CASE("where the area is 256 edge values are the weights, whichever vertex takes the remainder") {
+    const ColorWeights weights{{1, 1, 1}, 256};
+    CHECK(weights.at({127, 129, 0}) == std::array{127, 129, 0});
+    std::uint64_t wrong = 0;
+    for (std::int32_t e0 = 0; e0 <= 256; ++e0)
+        for (std::int32_t e1 = 0; e1 <= 256 - e0; ++e1) {
+            const std::int32_t e2 = 256 - e0 - e1;
+            wrong += weights.at({e0, e1, e2}) != std::array{e0, e1, e2} ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("interpolated colours are the 8-bit weights of the captures, for triangles of every shape and winding",
           "[slow]") {
     constexpr std::uint64_t seed = 51;

@@ -44,6 +44,19 @@ using namespace strata::rasterizer;
     return {t.attribute[0][a], t.attribute[1][a], t.attribute[2][a]};
 }
 
+struct Compared {
+    std::uint64_t values = 0, wrong = 0;
+};
+
+// All attributes of the triangle's fragments with the model's.
+void compare(const SetupTriangle& t, Compared& found) {
+    for (const Fragment& f : draw(window_geometry({t}, 12, 12, {})).fragments) {
+        const std::array<Rational, 3> b = barycentric(t.p, f.x, f.y, 8);
+        for (std::size_t a = 0; a < attribute_count; ++a, ++found.values)
+            found.wrong += attribute_of(f, a) != model_attribute(b, corner_values(t, a), t.inverse_w) ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 TEST_CASE("attributes are perspective-correct with every rounding of the rule, for every subpixel setting", "[slow]") {
@@ -64,17 +77,26 @@ TEST_CASE("attributes are perspective-correct with every rounding of the rule, f
 
 TEST_CASE("with w = 1 the quotient is left out and nothing changes", "[slow]") {
     Random random{72};
-    std::uint64_t values = 0, wrong = 0;
+    Compared found;
     for (SetupTriangle t : random_triangles(random, 60, 12, 8)) {
         t.inverse_w = {1, 1, 1};
-        for (const Fragment& f : draw(window_geometry({t}, 12, 12, {})).fragments) {
-            const std::array<Rational, 3> b = barycentric(t.p, f.x, f.y, 8);
-            for (std::size_t a = 0; a < attribute_count; ++a, ++values)
-                wrong += attribute_of(f, a) != model_attribute(b, corner_values(t, a), t.inverse_w) ? 1 : 0;
-        }
+        compare(t, found);
     }
-    CHECK(values > 3000);
-    CHECK(wrong == 0);
+    CHECK(found.values > 3000);
+    CHECK(found.wrong == 0);
+}
+
+TEST_CASE("the quotient is taken where any vertex has another w than 1, whichever vertices have 1") {
+    Random random{73};
+    Compared found;
+    for (SetupTriangle t : random_triangles(random, 6, 12, 8))
+        for (int others = 1; others < 8; ++others) {  // bit i: vertex i has a w of its own
+            for (std::size_t i = 0; i < 3; ++i)
+                t.inverse_w[i] = (others >> i & 1) != 0 ? 0.3f + 0.2f * static_cast<float>(i) : 1;
+            compare(t, found);
+        }
+    CHECK(found.values > 1000);
+    CHECK(found.wrong == 0);
 }
 
 TEST_CASE("three equal vertex values are that constant, whatever w does") {
@@ -160,15 +182,20 @@ TEST_CASE("shader_z is neither clamped nor quantised, the code is clamped to the
 TEST_CASE("fragments outside the depth range do not exist with per-fragment z clip, unless depth is clamped") {
     const std::array<SubpixelPoint, 3> p{{{0, 0}, {16 * 16, 0}, {0, 16 * 16}}};
     const RasterRules rules{.subpixel_bits = 4, .z_clip = ZClip::per_fragment};
-    Geometry geometry = window_geometry({window_triangle(p, 4, {-0.5, 1.5, 0.5})}, 16, 16, rules);
-    const auto all = draw(window_geometry(triangles_of(geometry), 16, 16, {.subpixel_bits = 4})).fragments;
-    std::vector<Fragment> inside;
-    for (const Fragment& f : all)
-        if (f.shader_z >= 0.0f && f.shader_z <= 1.0f) inside.push_back(f);
-    CHECK(inside.size() < all.size());
-    CHECK(draw(geometry).fragments == inside);
-    geometry.state.depth_clamp = true;
-    CHECK(draw(geometry).fragments == all);
+    // Beyond both ends of the range, beyond one of them, and beyond none.
+    using Depths = std::array<double, 3>;
+    for (const Depths& z : {Depths{-0.5, 1.5, 0.5}, {-0.5, 0.5, 0.25}, {0.25, 1.5, 0.5}, {0, 1, 0.5}}) {
+        Geometry geometry = window_geometry({window_triangle(p, 4, z)}, 16, 16, rules);
+        const auto all = draw(window_geometry(triangles_of(geometry), 16, 16, {.subpixel_bits = 4})).fragments;
+        std::vector<Fragment> inside;
+        for (const Fragment& f : all)
+            if (f.shader_z >= 0.0f && f.shader_z <= 1.0f) inside.push_back(f);
+        INFO("depths " << z[0] << ' ' << z[1] << ' ' << z[2]);
+        CHECK((inside.size() < all.size()) == (z[0] < 0 || z[1] > 1));
+        CHECK(draw(geometry).fragments == inside);
+        geometry.state.depth_clamp = true;
+        CHECK(draw(geometry).fragments == all);
+    }
 }
 
 TEST_CASE("the three depth paths store a vertex value that lies on a sample") {
