@@ -86,7 +86,7 @@ Command add_golden(CLI::App& root) {
     app->footer(
         "Examples:\n"
         "  strata golden teapot --size 64x48 --algorithm front_to_back,dual -o pack && strata golden --check pack\n"
-        "  strata golden planes:count=3 --size 32x32 -o planes && strata render planes -o planes.png\n"
+        "  strata golden planes:count=3 --size 32x32 -o three && strata render three -o three.png\n"
         "Exit status: 0 done, 1 --check found differences, 2 bad input or usage, 3 the system failed, 130 "
         "interrupted.");
     return {app, [options] { return golden(*options); }};
