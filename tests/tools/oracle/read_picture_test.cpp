@@ -100,12 +100,14 @@ TEST_CASE("an array of another type, order or size is refused by the name of wha
         FAIL("was read: " << header);
     };
     says("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1), }", "12345678",
-         "descr: expected elements |u1, <u2, <u4, <f2 or <f4, found '<f8'");
+         "descr: expected elements |u1, <u2, <u4, <i4, <f2 or <f4, found '<f8'");
+    says("{'descr': '<i4', 'fortran_order': False, 'shape': (1, 1), }", "1234",
+         "descr: expected elements |u1, <u2, <u4, <f2 or <f4, found <i4");
     says("{'descr': '>f4', 'fortran_order': False, 'shape': (1, 1), }", "1234", "descr: ");
     says("{'descr': '<f4', 'fortran_order': True, 'shape': (1, 1), }", "1234", "fortran_order: ");
     says("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }", "1234", "size: expected 8 bytes");
-    says("{'descr': '<f4', 'fortran_order': False, 'shape': (4,), }", "1234", "shape: ");
-    says("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 5), }", "1234", "shape: ");
+    says("{'descr': '<f4', 'fortran_order': False, 'shape': (4,), }", "1234567812345678", "shape: ");
+    says("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 5), }", "12345678123456781234", "shape: ");
 }
 
 TEST_CASE("bare numbers are read by their layout, from the top or from the bottom") {
