@@ -54,7 +54,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "shadow-demo, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},
-         "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd24'?)"},
+         "strata: --depth: expected d16, d24, d32f, d16f or d24f, found 'd25' (did you mean 'd24'?)"},
         {{"render", "teapot", "--tile", "33"},
          "strata: --tile: expected 8, 16, 32, 64 or 128, found '33' (did you mean '32'?)"},
         {{"render", "teapot", "--simd", "avx3"},
