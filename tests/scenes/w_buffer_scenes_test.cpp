@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "pipeline/vertices/prepare.h"
+#include "rasterizer/coverage/coverage.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 #include "scenes/camera.h"
 
@@ -33,7 +34,7 @@ using strata::rasterizer::Geometry;
     state.depth_format = format;
     const strata::pipeline::View view = orbit_view(scene.bounds, 30, 20, 96.0 / 72.0);
     const auto& p = view.projection;
-    far = -p[3][2] / (p[2][2] + 1.0);  // of -z = A z + B
+    far = p[3][2] / (p[2][2] + 1.0);  // -z of -z = A z + B
     return prepare(scene.list, view, state, *strata::pipeline::find_profile("geforce3"), {});
 }
 
