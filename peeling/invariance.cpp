@@ -161,8 +161,8 @@ Advice advice_for(const Experiment& e, const std::vector<PathPair>& pairs, const
     const DepthFormat format = *e.render.depth;
     advice.epsilon_ulps = safe_epsilon(pairs, opaque);
     advice.epsilon = safe_absolute(pairs, opaque, format);
-    if (format != DepthFormat::d32f && is_quotient(e.compare) && !is_quotient(e.write))
-        advice.bias = safe_bias(pairs, opaque);
+    const bool is_fixed = code_kind(format) == rasterizer::CodeKind::fixed;
+    if (is_fixed && is_quotient(e.compare) && !is_quotient(e.write)) advice.bias = safe_bias(pairs, opaque);
     return advice;
 }
 

@@ -52,17 +52,17 @@ void check_options(const RenderOptions& o) {
         its.fail(FieldName{"color_format"}, "a colour format", static_cast<int>(*o.color_format));
 }
 
-// window_z is the chip's rule for vertex depths in buffer units and fixed-point codes.
+// window_z and w_buffer are the chip's rules, for vertex depths in buffer units.
 Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
     using rasterizer::DepthPath;
     if (auto lacking = check(profile, depth.format)) return lacking;
-    if (depth.format == DepthFormat::d16f)
-        return Refusal{"peeling over 16-bit float depth", "", "use --depth d16 or d24"};
     const bool has_chip_rule =
         profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
-    const bool uses_chip_rule = depth.path == DepthPath::window_z || depth.reference == DepthPath::window_z;
-    if (uses_chip_rule && !has_chip_rule)
+    const auto uses = [&](DepthPath path) { return depth.path == path || depth.reference == path; };
+    if (uses(DepthPath::window_z) && !has_chip_rule)
         return Refusal{"GeForce3's depth interpolator window_z", "", "use --profile geforce3 with --depth d16 or d24"};
+    if (uses(DepthPath::w_buffer) && !has_chip_rule)
+        return Refusal{"w buffer", "", "use --profile geforce3 with --depth d16, d24, d16f or d24f"};
     if (depth.reference)
         if (auto lacking = check_reference(profile, *depth.reference)) return lacking;
     return check(profile, depth.path);
@@ -71,7 +71,10 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
 // A light's map in the depth that the device writes by itself; none if it cannot be had, for then nothing runs.
 std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfile& profile,
                                          const rasterizer::RasterState& eye, int threads) {
-    const rasterizer::DepthRequest request{profile.raster.depth_path, eye.depth_format};
+    // A light's map is compared with z, so that it never holds w.
+    const bool writes_w = profile.raster.depth_path == rasterizer::DepthPath::w_buffer;
+    const rasterizer::DepthRequest request{writes_w ? rasterizer::DepthPath::window_z : profile.raster.depth_path,
+                                           eye.depth_format};
     if (!list.light || check_depth(profile, request)) return nullptr;
     return std::make_unique<const LightMap>(light_map(list, profile, eye, request, threads));
 }
@@ -114,6 +117,7 @@ struct Renderer::State {
     RenderOptions options;
     rasterizer::DepthRequest depth{};
     Format color_format = Format::rgba8;
+    bool is_perspective;  // of the view: w differs
     std::unique_ptr<const LightMap> light{};
     PreparedLists lists;
     std::optional<PreparedLists> quotient_lists{};  // with r and q of every vertex, for algorithms that take them
@@ -218,6 +222,13 @@ struct Renderer::State {
             throw InputError("algorithm '" + algorithm.name + "'", "run", "a function, or one in body", "neither");
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
         if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
+        const auto has_w = [&](rasterizer::DepthPath path) {
+            return path == rasterizer::DepthPath::w_buffer && !is_perspective;
+        };
+        const rasterizer::DepthRequest request = depth_of(algorithm);
+        if (has_w(request.path) || (request.reference && has_w(*request.reference)))
+            return Refusal{"w buffer for a parallel projection, whose w is 1 everywhere", "",
+                           "use depth path window_z, or a camera with perspective"};
         if (auto lacking = check(profile, color_format)) return lacking;
         if (auto lacking = check_order()) return lacking;
         if (options.raster.depth_clamp)
@@ -341,6 +352,7 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
                   .options = options,
                   .depth = depth,
                   .color_format = options.color_format.value_or(is_exact ? Format::rgba32f : Format::rgba8),
+                  .is_perspective = has_perspective(first),
                   .light = nullptr,
                   .lists = PreparedLists{{.list = list,
                                           .view = first,

@@ -35,12 +35,14 @@ struct ObjectDepths {
 // One code more on either side than conversion to a code can need.
 std::vector<ObjectDepths> objects_of(const Frame& frame) {
     const DepthFormat format = frame.key_request().format;
+    // The list knows its bounds in z: of a w buffer nothing is known.
+    const bool is_bounded = frame.key_request().path != rasterizer::DepthPath::w_buffer;
     const auto code = [&](double z) { return to_depth_code(static_cast<float>(z), format, DepthRounding::nearest); };
     std::vector<ObjectDepths> objects;
     for (const DrawPart& part : frame.transparent->parts) {
         if (part.near > part.far) continue;  // nothing of it is drawn
-        const std::uint32_t low = code(part.near);
-        objects.push_back({low - (low > 0 ? 1 : 0), code(part.far) + 1, part.primitives});
+        const std::uint32_t low = is_bounded ? code(part.near) : 0, high = is_bounded ? code(part.far) : ~0u - 1;
+        objects.push_back({low - (low > 0 ? 1 : 0), high + 1, part.primitives});
     }
     return objects;
 }

@@ -43,6 +43,7 @@ constexpr std::array feature_rules{
     FeatureRule{Feature::d16f, "16-bit float depth buffers", "", &DeviceProfile::has_d16f},
     FeatureRule{Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "",
                 &DeviceProfile::has_narrow_surfaces},
+    FeatureRule{Feature::d24f, "24-bit float depth buffers", "", &DeviceProfile::has_d24f},
 };
 
 constexpr bool rules_follow_the_enum() {
@@ -122,6 +123,7 @@ Verdict check(const DeviceProfile& profile, DepthFormat format) {
         case DepthFormat::d24: return check(profile, Feature::d24);
         case DepthFormat::d32f: return check(profile, Feature::d32f);
         case DepthFormat::d16f: return check(profile, Feature::d16f);
+        case DepthFormat::d24f: return check(profile, Feature::d24f);
     }
     return std::nullopt;  // unreachable: the enum is closed
 }

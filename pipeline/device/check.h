@@ -37,6 +37,7 @@ enum class Feature : std::uint8_t {
     signed_blend,
     d16f,
     narrow_surfaces,
+    d24f,
 };
 
 // State of the era that no profile has (fragment-stages.md 12).

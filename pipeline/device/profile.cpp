@@ -19,18 +19,25 @@ DeviceProfile geforce3() {
     p.raster = {.subpixel_bits = 4,
                 .snap = Snap::toward_zero,
                 .z_clip = ZClip::per_fragment,
+                .w_signs = WSigns::by_corner,
                 .w_divide = WDivide::reciprocal,
                 .window_z = WindowZ::buffer_units,
                 .depth_path = DepthPath::window_z,
                 .depth_rounding = DepthRounding::floor,
+                .offset_unit = OffsetUnit::buffer,
+                .offset_rule = OffsetRule::fragments,
                 .color = ColorInterpolation::weights_8bit,
-                .interpolation = {.vertex_color_bits = 14, .texture_coordinates = CoordinateRule::cut_weights}};
+                .interpolation = {.vertex_color_bits = 14,
+                                  .perspective_color = PerspectiveColor::cut_products,
+                                  .texture_coordinates = CoordinateRule::cut_weights,
+                                  .perspective_coordinates = PerspectiveCoordinates::cut_products}};
     p.alpha_test = AlphaTestPrecision::unorm8;
     p.texture_filter = TextureFilterPrecision::unorm8;
     p.has_d16 = true;
     p.has_depth_clamp = true;
     p.has_signed_blend = true;
     p.has_d16f = true;
+    p.has_d24f = true;
     p.has_narrow_surfaces = true;
     p.has_depth_replace = true;
     p.max_samples = 4;

@@ -44,6 +44,8 @@ struct DeviceProfile {
     bool has_d16 = false, has_d24 = true, has_d32f = false;
     // 4 bits of exponent and 12 of mantissa, as the chip stores them (depth.md 1.2).
     bool has_d16f = false;
+    // 8 bits of exponent and 16 of mantissa (depth.md 1.3).
+    bool has_d24f = false;
     // x8r8g8b8, x1a7r8g8b8, r5g6b5 and x1r5g5b5 (narrow.h).
     bool has_narrow_surfaces = false;
     // fp16 and binary32 render targets that blend, RG32F and R16F among them.
@@ -91,6 +93,7 @@ struct DeviceProfile {
             case DepthFormat::d24: return has_d24;
             case DepthFormat::d32f: return has_d32f;
             case DepthFormat::d16f: return has_d16f;
+            case DepthFormat::d24f: return has_d24f;
         }
         return false;  // unreachable: the enum is closed
     }

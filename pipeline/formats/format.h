@@ -29,7 +29,8 @@ enum class Format : std::uint8_t {
     x8r8g8b8,
     x1a7r8g8b8,
     r5g6b5,
-    x1r5g5b5
+    x1r5g5b5,
+    d24f
 };
 
 // The meaning of a channel's code: k / 255, a half's bits, a float's bits, a depth code, or eight bits of stencil.
@@ -59,6 +60,7 @@ struct FormatInfo {
         case Format::d32f: return {"d32f", ChannelType::depth, 1, 4};
         case Format::s8: return {"s8", ChannelType::stencil, 1, 1};
         case Format::d16f: return {"d16f", ChannelType::depth, 1, 2};
+        case Format::d24f: return {"d24f", ChannelType::depth, 1, 4};
         case Format::x8r8g8b8: return {"x8r8g8b8", ChannelType::unorm8, 4, 4};
         case Format::x1a7r8g8b8: return {"x1a7r8g8b8", ChannelType::unorm8, 4, 4};
         case Format::r5g6b5: return {"r5g6b5", ChannelType::unorm8, 4, 2};
@@ -83,6 +85,7 @@ struct FormatInfo {
     switch (f) {
         case Format::d16: return DepthFormat::d16;
         case Format::d16f: return DepthFormat::d16f;
+        case Format::d24f: return DepthFormat::d24f;
         case Format::d32f: return DepthFormat::d32f;
         default: return DepthFormat::d24;
     }
@@ -93,6 +96,7 @@ struct FormatInfo {
         case DepthFormat::d16: return Format::d16;
         case DepthFormat::d24: return Format::d24;
         case DepthFormat::d16f: return Format::d16f;
+        case DepthFormat::d24f: return Format::d24f;
         case DepthFormat::d32f: break;
     }
     return Format::d32f;

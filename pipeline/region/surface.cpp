@@ -68,6 +68,9 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     raster.depth_near = state.depth_near;
     raster.depth_far = state.depth_far;
     raster.depth_clamp = state.depth_clamp;
+    raster.polygon_offset = state.polygon_offset;
+    raster.range_culls_triangles = state.range_culls_triangles;
+    raster.w_scale = 1.0f;
     raster.window_positions = true;
     raster.depth_format = layout.depth;
     soup.runs = {{.first_index = 0,
@@ -136,6 +139,7 @@ std::uint64_t Surface::draw(const DrawState& state, rasterizer::TriangleSoup sou
     const FloatEnvironment ours;
     State& s = *state_;
     s.list = prepared(s.profile, s.layout, state, std::move(soup));
+    s.frame.depth.path = state.depth_path.value_or(s.profile.raster.depth_path);
     PassState pass;
     pass.alpha = state.alpha;
     pass.stencil = state.stencil;

@@ -36,7 +36,10 @@ struct DrawState {
     rasterizer::FrontFace front_face = rasterizer::FrontFace::counter_clockwise;  // as seen
     float depth_near = 0.0f, depth_far = 1.0f;  // fragments outside are dropped, or clamped
     bool depth_clamp = false;
-    const Texture* texture = nullptr;  // multiplies the vertex colour; rectangle textures take texels
+    bool range_culls_triangles = false;  // those outside of the range with all corners' z
+    rasterizer::PolygonOffset polygon_offset{};
+    std::optional<rasterizer::DepthPath> depth_path{};  // default: the profile's
+    const Texture* texture = nullptr;                   // multiplies the vertex colour; rectangle textures take texels
     // Texture shader and combiners instead; the soup's extras bring the units' coordinates. Depth textures are images.
     const FragmentPath* path = nullptr;
 };

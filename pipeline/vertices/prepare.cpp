@@ -122,7 +122,23 @@ MaterialStage material_stage(const DrawList& list, const Material& material, flo
     return stage;
 }
 
+// W of the far plane of a projection: where z = w. 0 or infinite where there is no such w.
+double far_w(const Matrix& p) {
+    const double z = (p[3][3] - p[3][2]) / (p[2][2] - p[2][3]);
+    return p[2][3] * z + p[3][3];
+}
+
+// Units of a w buffer in one of clip w (depth.md 4.8): the driver scales the far plane's w to depth 1.
+float w_scale_of(const View& view, const rasterizer::RasterState& state) {
+    if (state.w_scale != 0.0f) return state.w_scale;
+    const double far = far_w(view.projection);
+    const auto scale = static_cast<float>(rasterizer::buffer_units(state.depth_format) / far);
+    return far > 0.0 && std::isfinite(scale) && scale > 0.0f ? scale : 1.0f;
+}
+
 }  // namespace
+
+bool has_perspective(const View& view) noexcept { return view.projection[2][3] != 0; }
 
 rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options) {
     check(list);
@@ -148,7 +164,9 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     if (view.vertex_path == VertexPath::nv20) rules.w_divide = rasterizer::WDivide::nv20;
     soup.extras = vertex_extras(list, view, state, rules, options);
     PreparedDraw prepared;
-    prepared.geometry = rasterizer::set_up(std::move(soup), state, rules, options.threads);
+    rasterizer::RasterState scaled = state;
+    scaled.w_scale = w_scale_of(view, state);
+    prepared.geometry = rasterizer::set_up(std::move(soup), scaled, rules, options.threads);
     if (options.tile_size != 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
     for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));

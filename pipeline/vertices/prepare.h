@@ -93,6 +93,9 @@ struct PrepareOptions {
     bool receives_shadow = false;
 };
 
+// Whether w differs with the distance from the eye: what a w buffer needs.
+[[nodiscard]] bool has_perspective(const View& view) noexcept;
+
 // Inverts nothing it need not: mirrored instances keep their winding and flip their facing. Throws InputError for a list, a view,
 // a state or a profile that no rule covers (check_list.h, rasterizer/set_up/check_input.h).
 [[nodiscard]] PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::RasterState& state,

@@ -25,7 +25,12 @@ using EdgeValues = std::array<std::int64_t, 3>;
 class TriangleEdges {
   public:
     constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule) noexcept
-        : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2])) {}
+        : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), 0) {}
+    // Of a triangle with negative w at the corners of `negative_w` (bit i): their edges are turned over, so that the covered
+    // pixels are again those where no edge value is negative, and a pixel on such a side is inside where it would be
+    // outside (coverage.md 5.8). For coverage alone: `at` has no such values.
+    constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::uint8_t negative_w) noexcept
+        : TriangleEdges(p, rule, Edge{p[0], p[1]}.at(p[2]), negative_w) {}
 
     // Twice the area in square subpixels: the sum of the edge values at any point.
     [[nodiscard]] constexpr std::int64_t area() const noexcept { return area_; }
@@ -39,9 +44,11 @@ class TriangleEdges {
     }
 
   private:
-    constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::int64_t area) noexcept
-        : edge_{Edge{p[1], p[2], area > 0 ? 1 : -1}, Edge{p[2], p[0], area > 0 ? 1 : -1},
-                Edge{p[0], p[1], area > 0 ? 1 : -1}},
+    constexpr TriangleEdges(const std::array<SubpixelPoint, 3>& p, TieRule rule, std::int64_t area,
+                            std::uint8_t turned) noexcept
+        : edge_{Edge{p[1], p[2], (area > 0) == ((turned & 1) == 0) ? 1 : -1},
+                Edge{p[2], p[0], (area > 0) == ((turned & 2) == 0) ? 1 : -1},
+                Edge{p[0], p[1], (area > 0) == ((turned & 4) == 0) ? 1 : -1}},
           tie_{edge_[0].owns_ties(rule) ? 0 : 1, edge_[1].owns_ties(rule) ? 0 : 1, edge_[2].owns_ties(rule) ? 0 : 1},
           area_{area > 0 ? area : -area} {}
 
@@ -74,8 +81,10 @@ struct PixelSpan {
 class RowWalker {
   public:
     RowWalker(const TriangleEdges& edges, const Rect& box, int subpixel_bits) noexcept
-        : x0_{box.x0}, width_{box.width()}, value_{edges.at(pixel_centre(box.x0, box.y0, subpixel_bits))} {
+        : x0_{box.x0}, width_{box.width()} {
+        const SubpixelPoint first = pixel_centre(box.x0, box.y0, subpixel_bits);
         for (std::size_t i = 0; i < 3; ++i) {
+            value_[i] = edges.edge(i).at(first);
             step_[i] = edges.edge(i).step_x() * (std::int64_t{1} << subpixel_bits);
             down_[i] = edges.edge(i).step_y() * (std::int64_t{1} << subpixel_bits);
             const std::int64_t rise = step_[i] < 0 ? -step_[i] : step_[i];

@@ -3,9 +3,10 @@
 // Rule     D16, D24: clamp to [0,1], scale by 2^n - 1, round by the profile's rule (DepthRounding); NaN is 0.
 //          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned
 //          integers. D16F: depth 1 is its greatest value, 511.9375; the depth cut to 12 bits of mantissa, an exponent
-//          field of 0 flushed to 0, whatever the rule. The text of it all is depth_text-inl.h's.
-// Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F:
-//          chip-float-depth.md 3.2: 4,187,584 words of captures, 99.72 % equal and the rest one unit off.
+//          field of 0 flushed to 0, whatever the rule. D24F: depth 1 is 1e30; binary32 without its sign, its mantissa
+//          cut to 16 bits, what is below 2^-126 flushed to 0. The text of it all is depth_text-inl.h's.
+// Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F and D24F:
+//          chip-float-depth.md 3.
 // Numbers  Scaling in binary64: 24 by 24 bits are exact, while binary32 has no half left above z = 0.5.
 // Tests    tests/rasterizer/rules/depth_code_test.cpp, tests/rasterizer/values/d16f_paths_test.cpp
 #pragma once
@@ -18,13 +19,14 @@
 namespace strata::rasterizer {
 
 // d16f: 4 bits of exponent, 12 of mantissa, no sign; values below its smallest normal one are 0.
-enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f };
+// d24f: 8 bits of exponent, 16 of mantissa, no sign.
+enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f, d24f };
 // How a value becomes a fixed-point code: cut; to nearest with a half going up; or scaled in binary32, and that product to
 // nearest with a half going to the even code. The float formats do not look at it.
 enum class DepthRounding : std::uint8_t { floor, nearest, product_even };
 
 // The ways in which formats make a code of a value.
-enum class CodeKind : std::uint8_t { fixed, fixed_product, binary32, d16f };
+enum class CodeKind : std::uint8_t { fixed, fixed_product, binary32, d16f, d24f };
 
 // How values of one unit become codes of one format. `Limit` is binary32 for values in [0,1], whose range it holds exactly.
 template <class Limit>
@@ -45,13 +47,17 @@ inline namespace strict {
     return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
 }
 
-// The code of depth 1.0: 2^n - 1, or the bits of 1.0f.
+// The value of depth 1.0 in D24F: the limit that drivers gave the chip (depth.md 1.3).
+inline constexpr float max_d24f = 1e30f;
+
+// The code of depth 1.0: 2^n - 1, the bits of 1.0f, or those of 1e30.
 [[nodiscard]] constexpr std::uint32_t max_code(DepthFormat format) noexcept {
     switch (format) {
         case DepthFormat::d16: return 0xffffu;
         case DepthFormat::d24: return 0xffffffu;
         case DepthFormat::d32f: return std::bit_cast<std::uint32_t>(1.0f);
         case DepthFormat::d16f: return 0xffffu;
+        case DepthFormat::d24f: return std::bit_cast<std::uint32_t>(max_d24f) >> 7;
     }
     return 0;  // unreachable: the enum is closed
 }
@@ -65,17 +71,19 @@ inline constexpr float max_d16f = 511.9375f;
         case DepthFormat::d24: return CodeKind::fixed;
         case DepthFormat::d32f: return CodeKind::binary32;
         case DepthFormat::d16f: return CodeKind::d16f;
+        case DepthFormat::d24f: return CodeKind::d24f;
     }
     return CodeKind::fixed;  // unreachable: the enum is closed
 }
 
-// Depth 1.0 in the buffer's own units: 2^n - 1, 1, or 511.9375.
+// Depth 1.0 in the buffer's own units: 2^n - 1, 1, 511.9375, or 1e30.
 [[nodiscard]] constexpr double buffer_units(DepthFormat format) noexcept {
     switch (code_kind(format)) {
         case CodeKind::fixed:
         case CodeKind::fixed_product: return max_code(format);
         case CodeKind::binary32: return 1.0;
         case CodeKind::d16f: return max_d16f;
+        case CodeKind::d24f: return max_d24f;
     }
     return 1.0;  // unreachable: the enum is closed
 }
@@ -91,6 +99,20 @@ inline constexpr float max_d16f = 511.9375f;
     // Of binary64's 52 bits of mantissa 12 stay; the cut is the only rounding.
     const auto code = static_cast<std::uint32_t>(bits < least ? 0 : (bits - least) >> 40);
     return code < least_normal ? 0 : code;
+}
+// D24F's own values, [0, FLT_MAX]: the leading bits of the binary64, less the code of 2^-127.
+[[nodiscard]] constexpr std::uint32_t to_d24f_code(double value) noexcept {
+    constexpr double least = 0x1p-126, greatest = 0x1.fffffep127;
+    if (!(value >= least)) return 0;
+    constexpr std::uint32_t below = 1023 - 127;  // what binary64 adds to the exponent's field
+    const double bounded = value < greatest ? value : greatest;
+    return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(bounded) >> 36) - (below << 16);
+}
+// The value of a code, exact (depth.md 1.3). Codes below 2^16 are not made, and those of an exponent of all ones are
+// beyond binary32.
+[[nodiscard]] constexpr double d24f_value(std::uint32_t code) noexcept {
+    const std::uint64_t bits = std::uint64_t{code + ((1023 - 127) << 16)} << 36;
+    return code < 0x10000 ? 0.0 : std::bit_cast<double>(bits);
 }
 // The value of a code, exact (depth.md 1.2).
 [[nodiscard]] constexpr float d16f_value(std::uint32_t code) noexcept {
@@ -116,6 +138,7 @@ struct OneLane {
         return static_cast<std::uint32_t>((double{static_cast<float>(v)} + round_at_one) - round_at_one);
     }
     static constexpr std::uint32_t cut_to_d16f(double v) noexcept { return to_d16f_code(v); }
+    static constexpr std::uint32_t cut_to_d24f(double v) noexcept { return to_d24f_code(v); }
 };
 
 #include "rasterizer/rules/depth_text-inl.h"
@@ -128,6 +151,7 @@ template <class Value>
         case CodeKind::fixed_product: return depth_code<CodeKind::fixed_product>(OneLane<Value>{}, z, to);
         case CodeKind::binary32: return depth_code<CodeKind::binary32>(OneLane<Value>{}, z, to);
         case CodeKind::d16f: return depth_code<CodeKind::d16f>(OneLane<Value>{}, z, to);
+        case CodeKind::d24f: return depth_code<CodeKind::d24f>(OneLane<Value>{}, z, to);
     }
     return 0;  // unreachable: the enum is closed
 }
@@ -158,6 +182,7 @@ template <class Limit>
         case CodeKind::fixed_product: return code;
         case CodeKind::binary32: return double{std::bit_cast<float>(code)};
         case CodeKind::d16f: return double{d16f_value(code)};
+        case CodeKind::d24f: return d24f_value(code);
     }
     return 0.0;  // unreachable: the enum is closed
 }

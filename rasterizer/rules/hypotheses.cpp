@@ -35,8 +35,21 @@ void vary_window_depth(List& list) {
     list.vary(subject, "window_z=chip", [](RasterRules& r) { r.hypothesis.window_z = WindowZRule::chip; });
     list.vary(subject, "window_z=exact", [](RasterRules& r) { r.hypothesis.window_z = WindowZRule::exact; });
     list.vary(subject, "window_z=float32", [](RasterRules& r) { r.hypothesis.window_z = WindowZRule::float32; });
+    list.vary(subject, "weights=area", [](RasterRules& r) {
+        r.hypothesis.weights = WeightRule::area;
+        r.hypothesis.reciprocal_bits = 28;
+    });
+    list.vary(subject, "weights=cut_edges", [](RasterRules& r) {
+        r.hypothesis.weights = WeightRule::cut_edges;
+        r.hypothesis.reciprocal_bits = 29;
+    });
+    list.vary(subject, "reciprocal_deficit", &DepthHypothesis::reciprocal_deficit, 0, 4);
     list.vary(subject, "reciprocal_bits", &DepthHypothesis::reciprocal_bits, 24, 30);
     list.vary(subject, "sum_bits", &DepthHypothesis::sum_bits, 24, 29);
+    list.vary(subject, "w_slope=first_quad", [](RasterRules& r) { r.hypothesis.w_slope = WSlope::first_quad; });
+    list.vary(subject, "w_slope=last_quad", [](RasterRules& r) { r.hypothesis.w_slope = WSlope::last_quad; });
+    list.vary(subject, "offset_rule=corners", [](RasterRules& r) { r.offset_rule = OffsetRule::corners; });
+    list.vary(subject, "offset_rule=fragments", [](RasterRules& r) { r.offset_rule = OffsetRule::fragments; });
     list.vary(subject, "depth_rounding=floor", [](RasterRules& r) { r.depth_rounding = DepthRounding::floor; });
     list.vary(subject, "depth_rounding=nearest", [](RasterRules& r) { r.depth_rounding = DepthRounding::nearest; });
 }
@@ -71,6 +84,12 @@ std::vector<NamedHypothesis> interpolation_hypotheses(const RasterRules& rules) 
               [](RasterRules& r) { r.interpolation.perspective_color = PerspectiveColor::edge_products; });
     list.vary(Subject::color, "perspective_color=weight_products",
               [](RasterRules& r) { r.interpolation.perspective_color = PerspectiveColor::weight_products; });
+    list.vary(Subject::color, "perspective_color=cut_products",
+              [](RasterRules& r) { r.interpolation.perspective_color = PerspectiveColor::cut_products; });
+    list.vary(Subject::coordinates, "perspective_coordinates=exact_plane",
+              [](RasterRules& r) { r.interpolation.perspective_coordinates = PerspectiveCoordinates::exact_plane; });
+    list.vary(Subject::coordinates, "perspective_coordinates=cut_products",
+              [](RasterRules& r) { r.interpolation.perspective_coordinates = PerspectiveCoordinates::cut_products; });
     list.vary(Subject::coordinates, "texture_coordinates=exact_plane",
               [](RasterRules& r) { r.interpolation.texture_coordinates = CoordinateRule::exact_plane; });
     list.vary(Subject::coordinates, "texture_coordinates=cut_weights",

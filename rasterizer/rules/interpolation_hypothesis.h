@@ -10,10 +10,14 @@
 
 namespace strata::rasterizer {
 
-// The weights b of colours where 1/w differs, p_i = e_i (1/w_i): products of the edge values, normalised in binary64, or
-// of the chip's weights, every step cut and normalised by a reciprocal cut like that of the area. [A] both: equal w
-// alone is measured.
-enum class PerspectiveColor : std::uint8_t { edge_products, weight_products };
+// The weights b of colours where 1/w differs: those of the w buffer, every step cut (perspective_weights.h) [M]
+// (chip-float-depth.md 7: 5 of 800,480 pixels wrong); or p_i = e_i (1/w_i), products of the edge values, normalised in
+// binary64; or of the weights for equal w, normalised by a reciprocal cut to 28 bits. [A] the two others.
+enum class PerspectiveColor : std::uint8_t { edge_products, weight_products, cut_products };
+
+// Texture coordinates where w differs: the exact plane over that of 1/w, or the chip's sum by the weights of the w buffer.
+// One capture cannot tell them (attributes.md 3.3).
+enum class PerspectiveCoordinates : std::uint8_t { exact_plane, cut_products };
 
 // Texture coordinates where w is equal at all corners: the exact plane rounded once, or the chip's sum by cut weights
 // (cut_coordinates.h) [M]. Where w differs: the exact plane [A].
@@ -25,6 +29,7 @@ struct InterpolationHypothesis {
     int vertex_color_bits = 24;
     PerspectiveColor perspective_color = PerspectiveColor::edge_products;
     CoordinateRule texture_coordinates = CoordinateRule::exact_plane;
+    PerspectiveCoordinates perspective_coordinates = PerspectiveCoordinates::exact_plane;
     friend bool operator==(const InterpolationHypothesis&, const InterpolationHypothesis&) = default;
 };
 

@@ -59,6 +59,10 @@ struct RasterState {
     std::optional<Rect> scissor;
     // ARB_depth_clamp: nothing is clipped at near and far; depth is clamped just before the test.
     bool depth_clamp = false;
+    // NV2A's NEARFAR: a triangle goes whose three z lie all before or all behind the depth range, clamped or not.
+    bool range_culls_triangles = false;
+    // Units of a w buffer in a unit of clip w; 0: such that w of the far plane is depth 1 (depth.md 4.8).
+    float w_scale = 0.0f;
     // For single-sided runs: a double-sided one is never culled.
     CullFace cull = CullFace::back;
     FrontFace front_face = FrontFace::counter_clockwise;

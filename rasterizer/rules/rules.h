@@ -20,6 +20,9 @@ enum class TieRule : std::uint8_t { top_left, bottom_left, top_right, bottom_rig
 enum class ZClip : std::uint8_t { per_primitive, per_fragment };
 // A triangle with a corner at w <= 0 is cut at w > 0, or dropped whole (coverage.md 2.1).
 enum class WClip : std::uint8_t { clip, drop };
+// Window positions with a w that is negative, zero or infinite: dropped with what is not finite, or covered by the signs of
+// w at the corners (coverage.md 5.8).
+enum class WSigns : std::uint8_t { ignored, by_corner };
 // x / w, or x * (1 / w), or that with NV20's vertex arithmetic (nv20_arithmetic.h).
 enum class WDivide : std::uint8_t { quotient, reciprocal, nv20 };
 // Scale, then offset: two roundings, or one of both together; fused_given: one for the vertices that were given, two for
@@ -39,12 +42,22 @@ enum class PlaneOrigin : std::uint8_t { snapped, unsnapped };
 enum class WindowZ : std::uint8_t { unit_interval, buffer_units };
 // Vertex colours by the exact perspective plane, or by the chip's 8-bit weights (attributes.md 2.1).
 enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
-// Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), or 2^(e - 23)
-// always.
-enum class OffsetUnit : std::uint8_t { format, float_exponent };
+// Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), 2^(e - 23) always, or
+// 1 in the depth buffer's own units, whatever its format.
+enum class OffsetUnit : std::uint8_t { format, float_exponent, buffer };
+// Where polygon offset is added: to z of the corners, or by the chip to the value of every fragment (window_z.h).
+enum class OffsetRule : std::uint8_t { corners, fragments };
 
 // How a fragment's depth is computed (depth.md 4): depth_paths.h, window_z.h, plane.h.
-enum class DepthPath : std::uint8_t { window_z, perspective_rq, depth_replace, float32, float32_plane, exact };
+enum class DepthPath : std::uint8_t {
+    window_z,
+    perspective_rq,
+    depth_replace,
+    float32,
+    float32_plane,
+    exact,
+    w_buffer  // w itself: w_buffer.h
+};
 
 // The defaults are those of geforce8 (pipeline/reference/devices.md 2); a profile names what differs.
 struct RasterRules {
@@ -58,6 +71,7 @@ struct RasterRules {
     ClipVolume clip = ClipVolume::guard_band;
     ZClip z_clip = ZClip::per_primitive;
     WClip w_clip = WClip::clip;
+    WSigns w_signs = WSigns::ignored;  // of window positions
     WDivide w_divide = WDivide::quotient;
     ViewportArithmetic viewport = ViewportArithmetic::separate;
     PlaneOrigin plane_origin = PlaneOrigin::snapped;
@@ -67,6 +81,7 @@ struct RasterRules {
     DepthPath depth_path = DepthPath::float32;  // the device's own
     DepthRounding depth_rounding = DepthRounding::nearest;
     OffsetUnit offset_unit = OffsetUnit::format;
+    OffsetRule offset_rule = OffsetRule::corners;  // of paths window_z and w_buffer
     ColorInterpolation color = ColorInterpolation::exact_plane;
     DepthHypothesis hypothesis{};             // what is assumed of the depth paths
     InterpolationHypothesis interpolation{};  // and of colours and texture coordinates

@@ -108,6 +108,8 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
         t.p[k] = corner.p;
         t.unsnapped[k] = corner.unsnapped;
         t.inverse_w[k] = corner.inverse_w;
+        t.given_z[k] = corner.z;
+        t.w[k] = v.w;
         t.attribute[k] = {color[0], color[1], color[2], color[3], v.texcoord[0], v.texcoord[1]};
     }
     t.z = depths(i);
@@ -121,6 +123,8 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     const FloatEnvironment ours;
     check(state);
     check(soup);
+    if (state.window_positions && rules.w_signs == WSigns::by_corner)
+        for (ClipVertex& v : soup.vertices) v.w = settled_w(v.w);
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
     for_chunks(soup.vertices.size(), threads,
                [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });

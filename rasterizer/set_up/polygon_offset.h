@@ -2,7 +2,8 @@
 //
 // Rule     o = m * factor + r * units, m = max(|dz/dx|, |dz/dy|) per pixel of the snapped triangle; no slope term if
 //          factor is 0 (0 * infinity). r: one code of a fixed-point format, or 2^(e - 23) with e the exponent of the
-//          largest |z| (a float format, or OffsetUnit::float_exponent). z and o are in vertex z units; |o| <= 2^64,
+//          largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in buffer units (OffsetUnit::buffer). The chip's
+//          own sum is offset_value.h. z and o are in vertex z units; |o| <= 2^64,
 //          further out nothing changes.
 // Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A takes that max).
 // Numbers  binary64, each operation rounded; a difference of coordinates is exact, so m is within 2^-49 of the true
@@ -29,17 +30,18 @@ inline namespace strict {
 // r of the rule, in vertex z units.
 [[nodiscard]] constexpr double offset_unit(const std::array<float, 3>& z, const RasterState& state,
                                            const RasterRules& rules) noexcept {
+    if (rules.offset_unit == OffsetUnit::buffer) return z_units(state, rules) / buffer_units(state.depth_format);
     if (rules.offset_unit == OffsetUnit::float_exponent || state.depth_format == DepthFormat::d32f)
         return float_offset_unit(z);
     return z_units(state, rules) / max_code(state.depth_format);
 }
 
 // The steeper of |dz/dx| and |dz/dy|, per pixel; `p` has an area.
-[[nodiscard]] constexpr double largest_slope(const std::array<SubpixelPoint, 3>& p, const std::array<float, 3>& z,
+[[nodiscard]] constexpr double largest_slope(const std::array<SubpixelPoint, 3>& p, const std::array<double, 3>& z,
                                              int subpixel_bits) noexcept {
     const double x1 = p[1].x - p[0].x, y1 = p[1].y - p[0].y;  // at most 2^28: exact as integers
     const double x2 = p[2].x - p[0].x, y2 = p[2].y - p[0].y;
-    const double z1 = double{z[1]} - z[0], z2 = double{z[2]} - z[0];
+    const double z1 = z[1] - z[0], z2 = z[2] - z[0];
     const double per_pixel = static_cast<double>(1 << subpixel_bits) / static_cast<double>(Edge{p[0], p[1]}.at(p[2]));
     const double dx = (z1 * y2 - z2 * y1) * per_pixel;
     const double dy = (z2 * x1 - z1 * x2) * per_pixel;
@@ -51,7 +53,7 @@ inline namespace strict {
                                               const RasterState& state, const RasterRules& rules) noexcept {
     const PolygonOffset& offset = state.polygon_offset;
     double o = offset_unit(z, state, rules) * offset.units;
-    if (offset.factor != 0.0f) o = largest_slope(p, z, rules.subpixel_bits) * offset.factor + o;
+    if (offset.factor != 0.0f) o = largest_slope(p, {z[0], z[1], z[2]}, rules.subpixel_bits) * offset.factor + o;
     return std::clamp(o, -0x1p64, 0x1p64);
 }
 

@@ -32,6 +32,8 @@ template <std::size_t n>
     return all_finite(values);
 }
 
+constexpr std::uint8_t all_corners = 7;
+
 // The sign of a piece's area, 0 if it covers nothing, and a box of the pixels that it may cover.
 struct PieceShape {
     std::int64_t area_sign;
@@ -128,16 +130,38 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
     if (shape.area_sign == 0) return Fate::degenerate;
     if (!triangle.run->double_sided && is_culled(front)) return Fate::culled;
-    const Rect box = intersection(shape.box, state_.viewport);
-    if (box.area() == 0) return Fate::outside;
+    const std::uint8_t negative = negative_w(piece.corner);
+    // A triangle that reaches through infinity may cover any pixel of the window; behind the eye with all of itself, none.
+    const Rect box = intersection(negative == 0 ? shape.box : state_.viewport, state_.viewport);
+    if (box.area() == 0 || negative == all_corners || is_out_of_range(piece.corner)) return Fate::outside;
     out.triangles.push_back(
-        {piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front});
+        {piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front, negative});
     if (state_.polygon_offset.enabled) {
         const std::array z{a->z, b->z, c->z};
         const double offset = polygon_offset(p, z, state_, rules_);
         out.offset_z.push_back({z[0] + offset, z[1] + offset, z[2] + offset});
     }
     return Fate::kept;
+}
+
+// Bit i: corner i has a negative w. In clip space none is left (clip.h).
+std::uint8_t TriangleSetup::negative_w(const std::array<const WindowCorner*, 3>& corner) const noexcept {
+    std::uint8_t negative = 0;
+    for (std::size_t i = 0; i < 3 && state_.window_positions && rules_.w_signs == WSigns::by_corner; ++i)
+        if (corner[i]->inverse_w < 0.0f) negative |= static_cast<std::uint8_t>(1u << i);
+    return negative;
+}
+
+// By z alone, in a w buffer too (coverage.md 6.4).
+bool TriangleSetup::is_out_of_range(const std::array<const WindowCorner*, 3>& corner) const noexcept {
+    if (!state_.range_culls_triangles) return false;
+    const double units = z_units(state_, rules_);
+    const double near = range_limit(state_.depth_near) * units, far = range_limit(state_.depth_far) * units;
+    const auto all = [&](auto is_outside) {
+        return is_outside(corner[0]->z) && is_outside(corner[1]->z) && is_outside(corner[2]->z);
+    };
+    return all([&](float z) { return z < std::min(near, far); }) ||
+           all([&](float z) { return z > std::max(near, far); });
 }
 
 TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, const TriangleGroup& group, std::size_t k,
@@ -218,7 +242,8 @@ void TriangleSetup::add(const SourceTriangle& triangle, SetupChunk& out) const {
     count(fate, triangle, out.counters);
 }
 
-// Boxes and areas are found for a whole group at once. Marked triangles, and those with an offset, go the general way.
+// Boxes and areas are found for a whole group at once. Marked triangles, those with an offset, and those of window positions
+// (whose w may be negative) go the general way.
 void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& out) const {
     TriangleGroup group;
     load_corners(
@@ -226,7 +251,8 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     small_kernels().set_up_boxes({state_.viewport, rules_.subpixel_bits, rules_.tie_rule}, group);
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const auto& [a, b, c] = triangles[k].vertex;
-        const bool is_plain = (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled;
+        const bool is_plain =
+            (marks_[a] | marks_[b] | marks_[c]) == 0 && !state_.polygon_offset.enabled && !state_.window_positions;
         if (is_plain && group.small[k] != 0 && rules_.coverage == CoverageRule::snapped_edges)
             count(add_small(triangles[k], group, k, out), triangles[k], out.counters);
         else

@@ -33,6 +33,15 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
     return rules.window_z == WindowZ::buffer_units ? buffer_units(state.depth_format) : 1.0;
 }
 
+// A w of any sign, zero and infinity acting as very small and very large [A]: 1 / w and its products stay finite. NaN stays.
+[[nodiscard]] constexpr float settled_w(float w) noexcept {
+    const bool is_negative = std::bit_cast<std::uint32_t>(w) >> 31 != 0;
+    float size = is_negative ? -w : w;
+    if (size < 0x1p-116f) size = 0x1p-116f;
+    if (size > 0x1p116f) size = 0x1p116f;
+    return is_negative ? -size : size;
+}
+
 // v in subpixels; |v| * 2^n < 2^30.
 [[nodiscard]] constexpr std::int32_t snap(float v, int subpixel_bits, Snap rule) noexcept {
     const double scaled = double{v} * (1 << subpixel_bits);  // exact

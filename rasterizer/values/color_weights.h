@@ -3,10 +3,10 @@
 // Rule     Vertex colours to 8 bits first: their leading bits (InterpolationHypothesis), times 255, nearest, a half up.
 //          Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the two others), exactly. w0 =
 //          floor(256 b0), w2 = floor(256 b2), w1 = 256 - w0 - w2; colour = (w0 c0 + w1 c1 + w2 c2 + 128) >> 8, over 255 in
-//          binary32. Unequal 1/w [A, not measured]: p_i = e_i (1/w_i), b_i = p_i (1 / ((p0 + p1) + p2)) in binary64, cut
-//          to 24 bits; or of PerspectiveColor::weight_products p_i = b_i (1/w_i) cut to 24 bits, normalised with a
-//          reciprocal cut to 28.
-// Source   attributes.md 2.2 to 2.4; chip-depth.md 8.
+//          binary32. Unequal 1/w: perspective_weights.h; or PerspectiveColor::edge_products [A]: p_i = e_i (1/w_i), b_i =
+//          p_i (1 / ((p0 + p1) + p2)) in binary64, cut to 24 bits; or weight_products [A]: p_i = b_i (1/w_i) cut to 24
+//          bits, normalised with a reciprocal cut to 28.
+// Source   attributes.md 2.2 to 2.5; chip-depth.md 8; chip-float-depth.md 7.
 // Tests    tests/rasterizer/values/color_weights_test.cpp
 #pragma once
 #include <array>
@@ -16,7 +16,7 @@
 #include "rasterizer/base/exact_sum.h"
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/rules/interpolation_hypothesis.h"
-#include "rasterizer/values/cut_weight.h"
+#include "rasterizer/values/perspective_weights.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
@@ -33,9 +33,10 @@ inline namespace strict {
 // The weights of one triangle. `area` is twice its area; edge values and area are in one unit, whichever.
 class ColorWeights {
   public:
-    ColorWeights(const std::array<float, 3>& inverse_w, std::int64_t area,
-                 PerspectiveColor rule = PerspectiveColor::edge_products) noexcept
-        : reciprocal_{static_cast<std::uint64_t>(area)},
+    ColorWeights(const std::array<float, 3>& w, const std::array<float, 3>& inverse_w, std::int64_t area,
+                 const DepthHypothesis& hypothesis, PerspectiveColor rule) noexcept
+        : weights_{area, hypothesis},
+          perspective_{w, hypothesis},
           inverse_w_{inverse_w},
           rule_{rule},
           is_affine_{inverse_w[0] == inverse_w[1] && inverse_w[0] == inverse_w[2]} {}
@@ -48,22 +49,15 @@ class ColorWeights {
   private:
     using Weights = std::array<double, 3>;
 
-    [[nodiscard]] Weights affine(const EdgeValues& e) const noexcept {
-        Weights b{};
-        for (std::size_t i = 0; i < 3; ++i) b[i] = value(reciprocal_.weight(static_cast<std::uint64_t>(e[i])));
-        return b;
-    }
-    // v >= 0 without what is below its `bits` leading bits.
-    [[nodiscard]] static double cut(double v, int bits) noexcept {
-        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(v) & ~std::uint64_t{0} << (53 - bits));
-    }
+    [[nodiscard]] Weights affine(const EdgeValues& e) const noexcept { return weights_.at(e); }
     [[nodiscard]] Weights perspective(const EdgeValues& e) const noexcept {
+        if (rule_ == PerspectiveColor::cut_products) return perspective_.cut_at(e);
         const bool by_weights = rule_ == PerspectiveColor::weight_products;
         Weights p = by_weights ? affine(e) : Weights{};
         for (std::size_t i = 0; i < 3; ++i)
-            p[i] = by_weights ? cut(p[i] * inverse_w_[i], 24) : static_cast<double>(e[i]) * inverse_w_[i];
+            p[i] = by_weights ? cut_bits(p[i] * inverse_w_[i], 24) : static_cast<double>(e[i]) * inverse_w_[i];
         const double r = 1.0 / ((p[0] + p[1]) + p[2]);
-        for (double& b : p) b = cut(b * (by_weights ? cut(r, 28) : r), 24);
+        for (double& b : p) b = cut_bits(b * (by_weights ? cut_bits(r, 28) : r), 24);
         return p;
     }
     // 256ths of the outer corners are cut, and the middle one takes the rest: they always add up to 256.
@@ -82,7 +76,8 @@ class ColorWeights {
         return {w0, 256 - w0 - w2, w2};
     }
 
-    CutReciprocal reciprocal_;
+    CutWeights weights_;
+    PerspectiveWeights perspective_;
     std::array<float, 3> inverse_w_;
     PerspectiveColor rule_;
     bool is_affine_;

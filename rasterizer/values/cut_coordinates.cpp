@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "rasterizer/base/nv20_arithmetic.h"
-#include "rasterizer/values/cut_weight.h"
+#include "rasterizer/values/perspective_weights.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
@@ -15,17 +15,13 @@ struct OuterWeights {
     double b0, b2;
 };
 
-[[nodiscard]] OuterWeights outer_weights(const CutReciprocal& reciprocal, const EdgeValues& e) noexcept {
-    std::array<double, 3> b{};
-    for (std::size_t i = 0; i < 3; ++i) b[i] = value(reciprocal.weight(static_cast<std::uint64_t>(e[i])));
-    const std::size_t rest = remainder_vertex(b);
-    b[rest] = 1.0 - (b[(rest + 1) % 3] + b[(rest + 2) % 3]);
+[[nodiscard]] OuterWeights outer_weights(const CutWeights& weights, const EdgeValues& e) noexcept {
+    const std::array<double, 3> b = with_remainder(weights.at(e));
     return {b[0], b[2]};
 }
-
-// floor(log2 |v|); far below everything for 0.
-[[nodiscard]] int exponent_of(double v) noexcept {
-    return static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 52 & 0x7ff) - 1023;
+[[nodiscard]] OuterWeights outer_weights(const PerspectiveWeights& weights, const EdgeValues& e) noexcept {
+    const std::array<double, 3> b = weights.at(e);
+    return {b[0], b[2]};
 }
 
 // The terms that are added at every fragment, but for their weights.
@@ -50,16 +46,22 @@ struct CutSum {
 }  // namespace
 }  // namespace strict
 
-void cut_coordinates(const std::array<float, 3>& u, const TriangleLanes& lanes, float* out) noexcept {
+void cut_coordinates(const std::array<float, 3>& u, const std::array<float, 3>& w, const TriangleLanes& lanes,
+                     const DepthHypothesis& hypothesis, float* out) noexcept {
     const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
     if (bits[0] == bits[1] && bits[0] == bits[2]) {
         std::fill_n(out, lanes.count, u[0]);
         return;
     }
-    const CutReciprocal reciprocal{static_cast<std::uint64_t>(lanes.edges->area())};
     const CutSum sum{u};
-    for (int i = 0; i < lanes.count; ++i)
-        out[i] = cut_to_binary32(sum.at(outer_weights(reciprocal, lanes.edge_values(i))));
+    const auto fill = [&](const auto& weights) {
+        for (int i = 0; i < lanes.count; ++i)
+            out[i] = cut_to_binary32(sum.at(outer_weights(weights, lanes.edge_values(i))));
+    };
+    if (w[0] == w[1] && w[0] == w[2])
+        fill(CutWeights{lanes.edges->area(), hypothesis});
+    else
+        fill(PerspectiveWeights{w, hypothesis});
 }
 
 }  // namespace strata::rasterizer

@@ -1,7 +1,6 @@
 #include "rasterizer/values/depth_paths.h"
 
 #include "rasterizer/set_up/window.h"
-#include "rasterizer/values/window_z.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -132,12 +131,7 @@ int window_z_depth(const SetupTriangle& t, const TriangleLanes& lanes, const Dep
         std::copy_n(z.begin(), lanes.count, out);
         return fallbacks;
     }
-    if (hypothesis.window_z == WindowZRule::exact) {
-        plane_depth(t, lanes, out);
-        return 0;
-    }
-    const WindowZ24 rule{t.z, lanes.edges->area(), hypothesis};
-    for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
+    plane_depth(t, lanes, out);
     return 0;
 }
 

@@ -36,8 +36,8 @@ int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, c
 void float32_plane_depth(const SetupTriangle& triangle, const RasterRules& rules, const TriangleLanes& lanes,
                          double* out) noexcept;
 
-// The value that window_z turns into a code by its hypothesis' rule, and the exact plane's in binary64; in the units of
-// vertex z. Returns exact fallbacks.
+// The value that window_z turns into a code by another rule than the chip's, and the exact plane's in binary64; in the units
+// of vertex z. Returns exact fallbacks.
 int window_z_depth(const SetupTriangle& triangle, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
                    double* out) noexcept;
 void plane_depth(const SetupTriangle& triangle, const TriangleLanes& lanes, double* out) noexcept;

@@ -9,7 +9,7 @@
 #include "rasterizer/values/color_weights.h"
 #include "rasterizer/values/cut_coordinates.h"
 #include "rasterizer/values/depth_paths.h"
-#include "rasterizer/values/window_z.h"
+#include "rasterizer/values/move_lane.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -30,6 +30,7 @@ void to_codes(const float* z, int count, const DepthConversion<float>& to, std::
         case CodeKind::fixed_product: return to_codes_of<CodeKind::fixed_product>(z, count, to, out);
         case CodeKind::binary32: return to_codes_of<CodeKind::binary32>(z, count, to, out);
         case CodeKind::d16f: return to_codes_of<CodeKind::d16f>(z, count, to, out);
+        case CodeKind::d24f: return to_codes_of<CodeKind::d24f>(z, count, to, out);
     }
 }
 
@@ -43,24 +44,14 @@ void to_codes(const float* z, int count, const DepthConversion<float>& to, std::
            (path == DepthPath::window_z && hypothesis.window_z == WindowZRule::float32);
 }
 
-// Lane `from` becomes lane `to`.
-// Only arrays that are filled before fragments are dropped: `primitive` is the same in all lanes of the triangle.
-void move_lane(std::size_t from, std::size_t to, FragmentBatch& batch, WeightLanes& weights) noexcept {
-    batch.pixel[to] = batch.pixel[from];
-    batch.x[to] = batch.x[from];
-    batch.y[to] = batch.y[from];
-    batch.shader_z[to] = batch.shader_z[from];
-    weights.b1[to] = weights.b1[from];
-    weights.b2[to] = weights.b2[from];
-}
-
-void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, const InterpolationHypothesis& hypothesis,
-                        int first, FragmentBatch& batch) noexcept {
+void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, const RasterRules& rules, int first,
+                        FragmentBatch& batch) noexcept {
+    const InterpolationHypothesis& hypothesis = rules.interpolation;
     std::array<std::array<std::int32_t, 3>, color_channels> codes{};
     for (std::size_t c = 0; c < color_channels; ++c)
         for (std::size_t i = 0; i < 3; ++i)
             codes[c][i] = to_color_code(t.attribute[i][c], hypothesis.vertex_color_bits);
-    const ColorWeights weights{t.inverse_w, lanes.edges->area(), hypothesis.perspective_color};
+    const ColorWeights weights{t.w, t.inverse_w, lanes.edges->area(), rules.hypothesis, hypothesis.perspective_color};
     for (int i = 0; i < lanes.count; ++i) {
         const std::array<std::int32_t, 3> w = weights.at(lanes.edge_values(i));
         for (std::size_t c = 0; c < color_channels; ++c)
@@ -89,6 +80,10 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     // A reference by the stored path itself is a copy of that code.
     needs_.code |= needs.reference;
     rejects_ = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
+    if (rules_.offset_rule == OffsetRule::fragments) offset_ = geometry.state.polygon_offset;
+    clip_ = geometry.state.viewport;
+    if (geometry.state.scissor) clip_ = intersection(clip_, *geometry.state.scissor);
+    w_scale_ = geometry.state.w_scale;
     clips_fragments_ = rules_.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
     const bool is_float = depth.format == DepthFormat::d32f;
     // The codes of float32, those of d32f by any path, and references are made from shader_z.
@@ -100,8 +95,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     is_plain_ = kernels_.depth != nullptr && rules_.plane_rule == PlaneRule::exact && !clips_fragments_ &&
                 !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || (depth.path == DepthPath::float32 && has_vector_codes(to_code_)));
-    assert((depth.path != DepthPath::window_z || (z_units_ == code_units_ && !is_float)) &&
-           "window_z works in the buffer units of the format that is stored, which is no d32f");
+    assert(((depth.path != DepthPath::window_z && depth.path != DepthPath::w_buffer) ||
+            (z_units_ == code_units_ && !is_float)) &&
+           "window_z and w_buffer work in the buffer units of the format that is stored, which is no d32f");
     assert((geometry.extras.has_rq || !is_quotient(depth.path)) &&
            (geometry.extras.has_rq || !depth.reference || !is_quotient(*depth.reference)) &&
            "perspective_rq and depth_replace take r and q of the vertices");
@@ -147,22 +143,6 @@ bool FragmentValues::fill_depth(const DrawnTriangle& triangle, int first, Fragme
                            batch.count - first, out);
 }
 
-// A convex combination leaves the range only if a corner does; the products are exact.
-bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcept {
-    const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
-    return low < to_code_.least * z_units_ || high > to_code_.greatest * z_units_;
-}
-
-// ZClip::per_fragment compares shader_z with the range [A]: what rounds to n or f is inside.
-void FragmentValues::drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept {
-    auto kept = static_cast<std::size_t>(first);
-    for (auto i = kept; i < static_cast<std::size_t>(batch.count); ++i) {
-        if (!(batch.shader_z[i] >= to_code_.least && batch.shader_z[i] <= to_code_.greatest)) continue;
-        move_lane(i, kept++, batch, weights);
-    }
-    batch.count = static_cast<int>(kept);
-}
-
 // `depth` is that of fragments `first` on.
 void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights,
                                    double* depth) const noexcept {
@@ -176,7 +156,7 @@ void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes&
     batch.count = static_cast<int>(kept);
 }
 
-// The exact plane in the buffer's own units, rounded once to binary32, and that cut: D16F.
+// The exact plane in the buffer's own units, rounded once to binary32, and that cut: the chip's float formats.
 int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLanes& lanes,
                                        std::uint32_t* out) const noexcept {
     const bool in_units = z_units_ == code_units_;
@@ -192,7 +172,8 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
                                      std::uint32_t* out) const noexcept {
     switch (to_code_.kind) {
         case CodeKind::binary32: to_codes(shader_z, lanes.count, to_code_, out); return 0;
-        case CodeKind::d16f: return fill_rounded_codes(t, lanes, out);
+        case CodeKind::d16f:
+        case CodeKind::d24f: return fill_rounded_codes(t, lanes, out);
         case CodeKind::fixed:
         case CodeKind::fixed_product: break;
     }
@@ -214,17 +195,17 @@ int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const Tri
         to_codes(shader_z, lanes.count, to_code_, out);
         return 0;
     }
-    if (path != DepthPath::window_z || rules_.hypothesis.window_z != WindowZRule::chip)
-        return fill_exact_codes(t, lanes, shader_z, out);
-    const WindowZ24 rule{t.z, lanes.edges->area(), rules_.hypothesis};
-    if (to_code_.kind == CodeKind::d16f) {  // [M] Depth_buffer: every word of four captures
-        for (int i = 0; i < lanes.count; ++i) out[i] = code_of(rule.value(lanes.edge_values(i)));
+    if (!is_chip(path)) return fill_exact_codes(t, lanes, shader_z, out);
+    Lanes<double> value;
+    fill_chip_values(path, t, lanes, value.data());
+    if (!to_code_.is_fixed()) {
+        for (int i = 0; i < lanes.count; ++i) out[i] = code_of(value[static_cast<std::size_t>(i)]);
         return 0;
     }
-    // The exact sum is floored before it is clamped to the codes of the depth range.
+    // The chip cuts, whatever the rounding rule, and clamps to the codes of the depth range.
     const double least = depth_code(to_code_.least, to_code_), greatest = depth_code(to_code_.greatest, to_code_);
     for (int i = 0; i < lanes.count; ++i)
-        out[i] = static_cast<std::uint32_t>(std::clamp(rule.at(lanes.edge_values(i)), least, greatest));
+        out[i] = static_cast<std::uint32_t>(std::clamp(value[static_cast<std::size_t>(i)], least, greatest));
     return 0;
 }
 
@@ -243,7 +224,13 @@ int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, co
         case DepthPath::float32:
             for (int i = 0; i < lanes.count; ++i) out[i] = double{shader_z[i]} * code_units_;
             return 0;
-        case DepthPath::window_z: fallbacks = window_z_depth(t, lanes, h, out); break;
+        case DepthPath::window_z:
+            if (is_chip(path))
+                fill_chip_values(path, t, lanes, out);
+            else
+                fallbacks = window_z_depth(t, lanes, h, out);
+            break;
+        case DepthPath::w_buffer: fill_chip_values(path, t, lanes, out); return 0;
         case DepthPath::exact: plane_depth(t, lanes, out); break;
     }
     for (int i = 0; z_units_ != code_units_ && i < lanes.count; ++i) out[i] = out[i] * code_units_ / z_units_;
@@ -315,9 +302,10 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
     }
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
-    if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, rules_.interpolation, first, batch);
+    if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, rules_, first, batch);
     for (std::size_t a = 0; cut && a < texcoord_channels; ++a)
-        cut_coordinates({v[0]->texcoord[a], v[1]->texcoord[a], v[2]->texcoord[a]}, own, &batch.texcoord[a][f]);
+        cut_coordinates({v[0]->texcoord[a], v[1]->texcoord[a], v[2]->texcoord[a]},
+                        cut_w(w, {v[0]->w, v[1]->w, v[2]->w}), own, rules_.hypothesis, &batch.texcoord[a][f]);
     return fill_varying(varying, own);
 }
 
@@ -351,7 +339,7 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     else if (needs_float_z_ || clips)
         fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
     if (clips) {
-        drop_outside_depth_range(first, batch, weights);
+        drop_outside_depth_range(t, own, first, batch, weights);
         own.count = batch.count - first;
     }
     if (is_value(depth_.path, rules_.hypothesis) && (needs_.code || rejects_)) {

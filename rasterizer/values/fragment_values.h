@@ -61,7 +61,8 @@ class FragmentValues {
     void fill_weights(const DrawnTriangle& triangle, int first, const FragmentBatch& batch,
                       WeightLanes& weights) const noexcept;
     [[nodiscard]] bool may_leave_depth_range(const SetupTriangle& triangle) const noexcept;
-    void drop_outside_depth_range(int first, FragmentBatch& batch, WeightLanes& weights) const noexcept;
+    void drop_outside_depth_range(const SetupTriangle& t, const TriangleLanes& lanes, int first, FragmentBatch& batch,
+                                  WeightLanes& weights) const noexcept;
     void drop_rejected(int first, FragmentBatch& batch, WeightLanes& weights, double* depth) const noexcept;
     [[nodiscard]] int fill_rounded_codes(const SetupTriangle& triangle, const TriangleLanes& lanes,
                                          std::uint32_t* out) const noexcept;
@@ -73,6 +74,11 @@ class FragmentValues {
     // Depth as a value in the buffer's own units, not clamped.
     [[nodiscard]] int fill_depth_values(DepthPath path, const SetupTriangle& t, const DrawnTriangle& triangle,
                                         const TriangleLanes& lanes, const float* shader_z, double* out) const;
+    // window_z by the chip's rule, or w_buffer.
+    [[nodiscard]] bool is_chip(DepthPath path) const noexcept;
+    // Their values in the buffer's own units, with the offset that fragments add, not clamped.
+    void fill_chip_values(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
+                          double* out) const noexcept;
     // The code of a depth in the buffer's own units.
     [[nodiscard]] std::uint32_t code_of(double value) const noexcept { return depth_code(value, value_to_code_); }
     // The stored path, if it is one of depth_paths.h; drops what depth_replace rejects.
@@ -104,6 +110,9 @@ class FragmentValues {
     double code_units_;
     DepthConversion<float> to_code_;         // of shader_z
     DepthConversion<double> value_to_code_;  // of values in the buffer's own units
+    PolygonOffset offset_;                   // that fragments add (OffsetRule::fragments)
+    Rect clip_;                              // viewport and scissor
+    float w_scale_;                          // the w buffer's units in one of clip w
     bool clips_fragments_;
     bool rejects_;      // depth_replace
     bool is_reversed_;  // DepthOrder::greater

@@ -36,6 +36,8 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
     }
     const DepthHypothesis& h = rules_.hypothesis;
     const bool cut = cuts_coordinates(rules_, w);
+    const auto& vertex = triangle.record.vertex;
+    const Corners given{geometry.vertices[vertex[0]].w, geometry.vertices[vertex[1]].w, geometry.vertices[vertex[2]].w};
     // Under the default hypothesis coordinates go with the other attributes through the kernel.
     const bool is_plain = h.interpolant_bits >= 24 && h.divide == DivideRule::exact;
     const TriangleEdges edges = triangle.edges();
@@ -50,7 +52,7 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
             float* const out = &batch.unit[u][c][static_cast<std::size_t>(first)];
             const Corners value{v[0][4 * u + c], v[1][4 * u + c], v[2][4 * u + c]};
             if (cut)
-                cut_coordinates(value, own, out);
+                cut_coordinates(value, cut_w(w, given), own, rules_.hypothesis, out);
             else if (!is_plain)
                 fallbacks += interpolate(value, w, own, h, out);
             else if (is_constant(value))

@@ -1,14 +1,13 @@
-// rasterizer/values/window_z.h - 24-bit fixed-point window depth as NV2A (GeForce3 class) computes it.
+// rasterizer/values/window_z.h - window depth as NV2A (GeForce3 class) computes it, for every depth format.
 //
 // Rule     depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the
 //          reference; the others add b_j (z_j - z_R), each cut toward zero to 2^(ex - 28), ex the largest exponent of
-//          the three terms; depth = floor of the sum; 16-bit float depth: the sum cut to binary32, and that to its code
-//          (every word of four captures of suite Depth_buffer). z are binary32 in buffer units; vertex z with polygon offset is
-//          rounded to binary32 first [A].
-// Source   measured on silicon: 4,927,976 of 4,927,976 words; general and counter-clockwise triangles untested there.
+//          the three terms; the sum cut to 24 bits, offset added (offset_value.h). z are binary32 in buffer units; z and
+//          differences below 2^-126 are 0.
+// Source   measured on silicon: chip-depth.md 1, chip-float-depth.md 1 to 3.
 // Numbers  z_j - z_R is exact: 24 + 61 bits, because a z below 2^-36 of the other acts as any z below 2^-24 of it does;
-//          times 24 bits of weight 109 bits. Nearly all differences have 39 bits or fewer, and their products fit 64
-//          bits.
+//          times 24 bits of weight 109 bits. Nearly all differences have 29 bits or fewer, and their products are exact in
+//          binary64.
 // Tests    tests/rasterizer/values/window_z_test.cpp
 #pragma once
 #include <algorithm>
@@ -16,10 +15,11 @@
 #include <bit>
 #include <cstdint>
 
-#include "rasterizer/base/exact_sum.h"
+#include "rasterizer/base/two_terms.h"
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/rules/depth_hypothesis.h"
 #include "rasterizer/values/cut_weight.h"
+#include "rasterizer/values/offset_value.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
@@ -39,13 +39,11 @@ struct Dyadic {
     bool is_negative = false;
 };
 
-// A finite float as an integer times a power of two; denormals keep the exponent of the least normal number.
+// A finite float that is 0 or normal, as an integer times a power of two.
 [[nodiscard]] constexpr Dyadic as_dyadic(float z) noexcept {
     const auto bits = std::bit_cast<std::uint32_t>(z);
-    const std::uint32_t field = bits >> 23 & 0xff, fraction = bits & 0x7fffff;
     if ((bits << 1) == 0) return {};
-    return {Wide{field == 0 ? fraction : fraction | 0x800000u}, static_cast<int>(field == 0 ? 1u : field) - 150,
-            (bits >> 31) != 0};
+    return {Wide{(bits & 0x7fffff) | 0x800000u}, static_cast<int>(bits >> 23 & 0xff) - 150, (bits >> 31) != 0};
 }
 
 // a - b. A term whose exponent is more than 60 below the other's becomes the unit of that place: no cut can tell.
@@ -74,50 +72,58 @@ struct Dyadic {
     return result;
 }
 
+// z and differences that the chip takes as 0 (chip-float-depth.md 3.3).
+inline constexpr double least_depth = 0x1p-126;
+[[nodiscard]] constexpr float flushed_depth(float z) noexcept {
+    return z < static_cast<float>(least_depth) && z > -static_cast<float>(least_depth) ? 0.0f : z;
+}
+
+// The corner that the others are seen from: that of the largest exponent.
+[[nodiscard]] constexpr std::size_t reference_vertex(const EdgeValues& e) noexcept {
+    const auto width = [&](std::size_t i) {
+        return std::bit_width(static_cast<std::uint64_t>(e[i] < 0 ? -e[i] : e[i]));
+    };
+    if (width(1) >= width(0) && width(1) >= width(2)) return 1;
+    return width(0) >= width(2) ? 0 : 2;
+}
+
 // The chip's depth of one triangle: differences of corners are taken once, weights and sum at every fragment.
 class WindowZ24 {
   public:
-    constexpr WindowZ24(const std::array<double, 3>& z, std::int64_t area,
-                        const DepthHypothesis& hypothesis = {}) noexcept
-        : reciprocal_{static_cast<std::uint64_t>(area), hypothesis.reciprocal_bits}, sum_bits_{hypothesis.sum_bits} {
-        for (std::size_t i = 0; i < 3; ++i) z_[i] = static_cast<float>(z[i]);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Dyadic d = as_dyadic(z_[i]);
-            z_exponent_[i] = d.magnitude == 0 ? none : bit_width(d.magnitude) - 1 + d.exponent;
-            for (std::size_t r = 0; r < 3; ++r) difference_[r][i] = difference(z_[i], z_[r]);
-        }
-        // 39 bits of difference times 24 of weight fit in 64: then no 128-bit arithmetic is needed.
-        is_narrow_ = std::ranges::all_of(std::array{difference_[0][1], difference_[0][2], difference_[1][2]},
-                                         [](const Dyadic& d) { return bit_width(d.magnitude) <= 39; });
+    constexpr WindowZ24(const std::array<double, 3>& z, std::int64_t area, const DepthHypothesis& hypothesis = {},
+                        double offset = 0.0) noexcept
+        : weights_{area, hypothesis}, offset_{offset}, sum_bits_{hypothesis.sum_bits} {
+        for (std::size_t i = 0; i < 3; ++i) z_[i] = flushed_depth(static_cast<float>(z[i]));
+        is_narrow_ = true;
+        for (std::size_t r = 0; r < 3; ++r)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double d = double{z_[i]} - double{z_[r]};
+                const bool is_zero = d < least_depth && d > -least_depth;
+                is_narrow_ = is_narrow_ && two_sum(double{z_[i]}, -double{z_[r]}).low == 0.0 && cut_bits(d, 29) == d;
+                narrow_[r][i] = is_zero ? 0.0 : d;
+            }
+        for (std::size_t r = 0; r < 3 && !is_narrow_; ++r)
+            for (std::size_t i = 0; i < 3; ++i)
+                if (narrow_[r][i] != 0.0) difference_[r][i] = difference(z_[i], z_[r]);
     }
-    // The depth code at a fragment with edge values `e`, before the clamp to the buffer's range.
-    [[nodiscard]] constexpr double at(const EdgeValues& e) const noexcept {
-        const TwoTerms s = sum(e);
-        const double whole = floor(s.high);
-        return whole == s.high && s.low < 0.0 ? whole - 1.0 : whole;
+    // The value at a fragment with edge values `e`, in buffer units, with offset: 24 significant bits, not clamped.
+    [[nodiscard]] constexpr double value(const EdgeValues& e) const noexcept {
+        return offset_value(is_narrow_ ? narrow_sum(e) : wide_sum(e), offset_);
     }
-    // The sum that `at` floors, rounded to binary64.
-    [[nodiscard]] constexpr double value(const EdgeValues& e) const noexcept { return sum(e).high; }
 
   private:
     static constexpr int none = -10000;  // the exponent of 0
 
-    [[nodiscard]] static constexpr std::size_t reference(const EdgeValues& e) noexcept {
-        const auto exponent = [&](std::size_t i) { return std::bit_width(static_cast<std::uint64_t>(e[i])); };
-        if (exponent(1) >= exponent(0) && exponent(1) >= exponent(2)) return 1;
-        return exponent(0) >= exponent(2) ? 0 : 2;
-    }
-
-    template <class Integer>
+    // sign * magnitude * 2^exponent of a weight times a difference.
     struct Term {
-        Integer magnitude = 0;
+        Wide magnitude = 0;
         int exponent = 0;
         bool is_negative = false;
 
-        constexpr Term(CutWeight b, const Dyadic& z) noexcept
-            : magnitude{static_cast<Integer>(z.magnitude) * b.mantissa},
-              exponent{b.exponent + z.exponent},
-              is_negative{z.is_negative} {}
+        constexpr Term(double b, const Dyadic& z) noexcept
+            : magnitude{z.magnitude * as_dyadic(static_cast<float>(b)).magnitude},
+              exponent{as_dyadic(static_cast<float>(b)).exponent + z.exponent},
+              is_negative{z.is_negative != (b < 0.0)} {}
         [[nodiscard]] constexpr int leading_exponent() const noexcept {
             return magnitude == 0 ? none : bit_width(magnitude) - 1 + exponent;
         }
@@ -126,40 +132,40 @@ class WindowZ24 {
         [[nodiscard]] constexpr std::int64_t cut(int unit) const noexcept {
             if (magnitude == 0) return 0;
             const int right = unit - exponent;
-            constexpr int width = static_cast<int>(sizeof(Integer)) * 8;
-            const Integer kept = right >= width ? 0 : (right >= 0 ? magnitude >> right : magnitude << -right);
+            const Wide kept = right >= 128 ? 0 : (right >= 0 ? magnitude >> right : magnitude << -right);
             return is_negative ? -static_cast<std::int64_t>(kept) : static_cast<std::int64_t>(kept);
         }
     };
 
-    template <class Integer>
-    [[nodiscard]] constexpr TwoTerms sum_of(const EdgeValues& e) const noexcept {
-        const std::size_t r = reference(e), j = r == 0 ? 1 : 0, k = r == 2 ? 1 : 2;
-        const Term<Integer> pj{reciprocal_.weight(static_cast<std::uint64_t>(e[j])), difference_[r][j]};
-        const Term<Integer> pk{reciprocal_.weight(static_cast<std::uint64_t>(e[k])), difference_[r][k]};
-        const int largest = std::max({z_exponent_[r], pj.leading_exponent(), pk.leading_exponent()});
+    [[nodiscard]] constexpr TwoTerms wide_sum(const EdgeValues& e) const noexcept {
+        const std::size_t r = reference_vertex(e), j = r == 0 ? 1 : 0, k = r == 2 ? 1 : 2;
+        const std::array<double, 3> b = weights_.at(e);
+        const Term pj{b[j], difference_[r][j]}, pk{b[k], difference_[r][k]};
+        const int own = z_[r] == 0.0f ? none : exponent_of(double{z_[r]});
+        const int largest = std::max({own, pj.leading_exponent(), pk.leading_exponent()});
         if (largest == none) return {};
         const int unit = largest - (sum_bits_ - 1);
-        const auto products = static_cast<double>(pj.cut(unit) + pk.cut(unit)) * power_of_two(unit);
-        return two_sum(double{z_[r]}, products);
+        return two_sum(double{z_[r]}, static_cast<double>(pj.cut(unit) + pk.cut(unit)) * power_of_two(unit));
+    }
+    // The same where every product is exact in binary64.
+    [[nodiscard]] constexpr TwoTerms narrow_sum(const EdgeValues& e) const noexcept {
+        const std::size_t r = reference_vertex(e), j = r == 0 ? 1 : 0, k = r == 2 ? 1 : 2;
+        const std::array<double, 3> b = weights_.at(e);
+        const double z = double{z_[r]}, pj = b[j] * narrow_[r][j], pk = b[k] * narrow_[r][k];
+        const int largest = std::max({exponent_of(z), exponent_of(pj), exponent_of(pk)});
+        if (largest < -1000) return {};
+        const int unit = largest - (sum_bits_ - 1);
+        const double units = power_of_two(-unit);
+        const auto cut = [units](double p) { return static_cast<std::int64_t>(p * units); };
+        return two_sum(z, static_cast<double>(cut(pj) + cut(pk)) * power_of_two(unit));
     }
 
-    [[nodiscard]] constexpr TwoTerms sum(const EdgeValues& e) const noexcept {
-        return is_narrow_ ? sum_of<std::uint64_t>(e) : sum_of<Wide>(e);
-    }
-
-    // |v| < 2^62; a larger one is far outside every buffer.
-    [[nodiscard]] static constexpr double floor(double v) noexcept {
-        const double bounded = std::clamp(v, -0x1p62, 0x1p62);
-        const auto toward_zero = static_cast<double>(static_cast<std::int64_t>(bounded));
-        return toward_zero > bounded ? toward_zero - 1.0 : toward_zero;
-    }
-
-    CutReciprocal reciprocal_;
+    CutWeights weights_;
+    double offset_;
     int sum_bits_;
     std::array<float, 3> z_{};
-    std::array<int, 3> z_exponent_{};
-    std::array<std::array<Dyadic, 3>, 3> difference_{};  // [r][i] = z_i - z_r
+    std::array<std::array<double, 3>, 3> narrow_{};      // [r][i] = z_i - z_r
+    std::array<std::array<Dyadic, 3>, 3> difference_{};  // the same in full, where binary64 does not hold it
     bool is_narrow_ = false;
 };
 

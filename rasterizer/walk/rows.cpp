@@ -8,11 +8,12 @@ namespace strata::rasterizer {
 
 bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
-    // Of the sets, those with fewer than four lanes of binary64 are faster with batches. D16F has no vector
+    // Of the sets, those with fewer than four lanes of binary64 are faster with batches. D16F and D24F have no vector
     // conversion, and row tables hold max_row_pixels columns.
-    return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && depth.format != DepthFormat::d16f &&
+    const bool has_conversion = depth.format != DepthFormat::d16f && depth.format != DepthFormat::d24f;
+    return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && has_conversion &&
            (depth.format == DepthFormat::d32f || geometry.rules.depth_rounding != DepthRounding::product_even) &&
-           !clips_fragments && geometry.state.depth_order == DepthOrder::less &&
+           !clips_fragments && geometry.state.depth_order == DepthOrder::less && !geometry.state.window_positions &&
            geometry.rules.plane_rule == PlaneRule::exact && geometry.rules.coverage == CoverageRule::snapped_edges &&
            geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
 }

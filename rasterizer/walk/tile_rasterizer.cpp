@@ -38,10 +38,10 @@ class TileRasterizer::Pass {
   private:
     void draw_group(std::span<const std::uint32_t> triangles) {
         for (std::size_t k = 0; k < triangles.size(); ++k) {
-            if (group_.box(k).area() == 0) continue;
             const TriangleRecord& record = geometry_.triangles[triangles[k]];
+            if (group_.box(k).area() == 0 && record.negative_w == 0) continue;
             use_material(record.material);
-            if (group_.small[k] != 0)
+            if (group_.small[k] != 0 && record.negative_w == 0)
                 draw_small(triangles[k], k);
             else
                 draw_large(triangles[k]);
@@ -85,7 +85,9 @@ class TileRasterizer::Pass {
 
     void draw_large(std::uint32_t index) {
         const DrawnTriangle triangle{geometry_, index};
-        const Rect box = intersection(centre_box(geometry_.points(triangle.record), rules_.subpixel_bits), rules_.clip);
+        const Rect corners = centre_box(geometry_.points(triangle.record), rules_.subpixel_bits);
+        // A negative w takes the triangle beyond its corners.
+        const Rect box = triangle.record.negative_w == 0 ? intersection(corners, rules_.clip) : rules_.clip;
         first_ = batch_.count;
         for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
             rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
@@ -101,7 +103,9 @@ class TileRasterizer::Pass {
 
     // The kernel stops where the batch is full or holds the next pixel, and goes on from there with an empty one.
     void emit(const DrawnTriangle& triangle, const Rect& rows) {
-        find_spans(triangle.edges(), rows, rules_.subpixel_bits, spans_.data());
+        const TriangleEdges edges{geometry_.points(triangle.record), geometry_.rules.tie_rule,
+                                  triangle.record.negative_w};
+        find_spans(edges, rows, rules_.subpixel_bits, spans_.data());
         RowRun run = row_run(triangle, rows);
         while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(triangle);
     }

@@ -2,12 +2,14 @@
 """The word that profile `geforce3` stores at D24: path `window_z`, rule `chip` (depth.md 4.4).
 
 Input lines:  x0 y0 z0 x1 y1 z1 x2 y2 z2 px py   (corners in 1/16 pixel, y down; z as bits of binary32 in buffer units)
-Output lines: the code, decimal.  Integers alone: nothing is rounded but where the page cuts.
+Output lines: the code, decimal.  Integers, but for the reciprocal, which the page has in binary64.
 """
+import math
 import sys
 
 SUBPIXEL_BITS = 4         # devices.md 2: raster.subpixel_bits of geforce3
-RECIPROCAL_BITS = 28      # devices.md 2: raster.reciprocal_bits, m
+RECIPROCAL_BITS = 29      # devices.md 2: raster.reciprocal_bits, m
+DEFICIT = 2               # devices.md 2: raster.reciprocal_deficit, d
 SUM_BITS = 29             # devices.md 2: raster.sum_bits, g
 MAX_CODE = (1 << 24) - 1  # depth.md 1.1: largest code of d24
 Z_UNIT = -149             # every finite binary32 is an integer times 2^-149
@@ -29,7 +31,7 @@ def edge(px, py, qx, qy, x, y):
 
 
 def edge_values(x0, y0, x1, y1, x2, y2, column, row):
-    """(e0, e1, e2), A at the centre of a pixel (coverage.md 1.2), the interior positive: coverage.md 5.2."""
+    """(e0, e1, e2) at the centre of a pixel (coverage.md 1.2), the interior positive: coverage.md 5.2."""
     half = 1 << SUBPIXEL_BITS - 1
     cx, cy = (column << SUBPIXEL_BITS) + half, (row << SUBPIXEL_BITS) + half
     area = edge(x0, y0, x1, y1, x2, y2)
@@ -38,13 +40,17 @@ def edge_values(x0, y0, x1, y1, x2, y2, column, row):
         area, e1, e2 = -area, -e1, -e2
     if area == 0:
         raise ValueError("no area: coverage.md 6.3 gives no fragments")
-    return (area - e1 - e2, e1, e2), area
+    return (area - e1 - e2, e1, e2)
 
 
-def reciprocal(area):
-    """(R, s): r = R 2^-s, 1/A cut to m bits: depth.md 4.4, first line."""
-    shift = RECIPROCAL_BITS + area.bit_length() - 1
-    return (1 << shift) // area, shift
+def reciprocal(edges):
+    """(R, s): r = R 2^-s of the sum of cut edge values: depth.md 4.4. Python's floats are binary64."""
+    total = (float(edges[0]) + float(edges[1])) + float(edges[2])
+    low = 1.0 / total
+    if math.frexp(total)[0] != 0.5:
+        low *= 1.0 - DEFICIT * 2.0 ** -32
+    mantissa, exponent = math.frexp(low)   # low = mantissa 2^exponent, 1/2 <= mantissa < 1: m bits are left of the point
+    return int(math.ldexp(mantissa, RECIPROCAL_BITS)), RECIPROCAL_BITS - exponent
 
 
 def reference_corner(e):
@@ -83,9 +89,10 @@ def aligned_sum(z_reference, products, unit):
     return total >> -unit
 
 
-def window_z(e, area, z):
+def window_z(e, z):
     """The code: depth.md 4.4. z in units of 2^-149; the depth range is 0 .. 1 (depth.md 5.1)."""
-    r, shift = reciprocal(area)
+    e = [cut(value, 24) for value in e]
+    r, shift = reciprocal(e)
     v = reference_corner(e)
     products = [cut(e[j] * r, 24) * (z[j] - z[v]) for j in (0, 1, 2) if j != v]   # units of 2^(-149 - shift)
     depth = aligned_sum(z[v] << shift, products, Z_UNIT - shift)
@@ -96,8 +103,8 @@ def answer(line):
     """One line of input to one of output."""
     t = line.split()
     x0, y0, x1, y1, x2, y2, px, py = (int(t[i]) for i in (0, 1, 3, 4, 6, 7, 9, 10))
-    e, area = edge_values(x0, y0, x1, y1, x2, y2, px, py)
-    return str(window_z(e, area, (z_integer(t[2]), z_integer(t[5]), z_integer(t[8]))))
+    e = edge_values(x0, y0, x1, y1, x2, y2, px, py)
+    return str(window_z(e, (z_integer(t[2]), z_integer(t[5]), z_integer(t[8]))))
 
 
 def main():

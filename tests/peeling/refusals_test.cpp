@@ -244,3 +244,15 @@ TEST_CASE("options that no profile could mean are input errors that name the fie
     CHECK(message([&](RenderOptions& o) { o.second_list = &broken; }) ==
           "draw list: instances[0].mesh: expected less than 0, found 3");
 }
+
+TEST_CASE("a w buffer is the chip's own, and needs a view with perspective") {
+    RenderOptions options = options_for(one_fragment());
+    options.depth_path = strata::rasterizer::DepthPath::w_buffer;
+    options.depth = DepthFormat::d24;
+    CHECK(
+        sentence({"geforce3", "shadow_map"}, options) ==
+        "profile geforce3 has no w buffer for a parallel projection, whose w is 1 everywhere; use depth path window_z, "
+        "or a camera with perspective");
+    CHECK(sentence({"geforce8", "dual"}, options) ==
+          "profile geforce8 has no w buffer; use --profile geforce3 with --depth d16, d24, d16f or d24f");
+}

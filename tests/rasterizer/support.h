@@ -33,6 +33,8 @@ using Random = std::mt19937_64;
     }
     t.z = z;
     t.inverse_w = inverse_w;
+    t.given_z = z;
+    for (std::size_t i = 0; i < 3; ++i) t.w[i] = 1.0f / inverse_w[i];
     return t;
 }
 
@@ -52,7 +54,7 @@ using Random = std::mt19937_64;
         for (std::size_t k = 0; k < 3; ++k) {
             const auto& [r, green, b, a, s, tt] = t.attribute[k];
             const std::array color{r, green, b, a};
-            g.vertices.push_back({.front = color, .back = color, .texcoord = {s, tt}});
+            g.vertices.push_back({.w = 1.0f / t.inverse_w[k], .front = color, .back = color, .texcoord = {s, tt}});
             g.corners.push_back({t.p[k], t.unsnapped[k], static_cast<float>(t.z[k]), t.inverse_w[k]});
         }
         g.offset_z.push_back(t.z);  // of any precision

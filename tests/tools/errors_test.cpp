@@ -55,11 +55,11 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "shadow-demo, showroom, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},
-         "strata: --depth: expected d16, d24 or d32f, found 'd25' (did you mean 'd24'?)"},
+         "strata: --depth: expected d16, d24, d32f, d16f or d24f, found 'd25' (did you mean 'd24'?)"},
         {{"render", "teapot", "--depth", "d\n24"},
-         "strata: --depth: expected d16, d24 or d32f, found 'd\\x0a24' (did you mean 'd24'?)"},
+         "strata: --depth: expected d16, d24, d32f, d16f or d24f, found 'd\\x0a24' (did you mean 'd24'?)"},
         {{"render", "teapot", "--depth", "\xff\xc0\x80\x1b\xf4\x90\x80\x80\xed\xa0\x80\xc3\xa9\xe2\x82"},
-         "strata: --depth: expected d16, d24 or d32f, found "
+         "strata: --depth: expected d16, d24, d32f, d16f or d24f, found "
          "'\\xff\\xc0\\x80\\x1b\\xf4\\x90\\x80\\x80\\xed\\xa0\\x80\xc3\xa9\\xe2\\x82'"},
         {{"render", "teapot", "--no-audit=-1"}, "strata: --no-audit: expected no value, found one"},
         {{"scene", "teapot", "--json=nan"}, "strata: --json: expected no value, found one"},

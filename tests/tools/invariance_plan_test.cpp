@@ -97,7 +97,7 @@ TEST_CASE("every fault of a plan is one sentence with its place") {
     CHECK_THAT(message(R"({"grids": [{"scene": "s"}, {"depth": "d16"}]})"),
                Catch::StartsWith("p.json: /grids/1: expected keys scene, "));
     CHECK(message(R"({"grids": [{"depth_format": ["d16", "d17"]}]})") ==
-          "p.json: /grids/0/depth_format/1: expected d16, d24 or d32f, found 'd17'");
+          "p.json: /grids/0/depth_format/1: expected d16, d24, d32f, d16f or d24f, found 'd17'");
     CHECK_THAT(message(R"({"common": {"near_far": "ratio:1"}, "grids": [{}]})"),
                Catch::StartsWith("p.json: /common/near_far: expected orbit, ratio:R with R from 2.6"));
     CHECK_THAT(message(R"({"grids": [{"alpha": true}]})"),

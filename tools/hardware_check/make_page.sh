@@ -16,6 +16,7 @@ status=0
 {
     cat tools/hardware_check/introduction.md
     sed -e '1,2d' -e '/!\[difference\]/d' "$work/report/report.md" | cat -s
+    echo
     echo "## Hypotheses, each scored on the captures that it can change"
     echo
     echo '```'

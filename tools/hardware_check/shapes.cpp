@@ -1,6 +1,7 @@
 #include "tools/hardware_check/shapes.h"
 
 #include <bit>
+#include <cmath>
 
 namespace strata::hardware_check {
 
@@ -63,6 +64,13 @@ void place(pipeline::Surface& surface, const pipeline::Texture& image, float x, 
     for (ClipVertex& v : soup.vertices) v.texcoord = {v.x - x, v.y - y};
     state.texture = &image;
     static_cast<void>(surface.draw(state, std::move(soup)));
+}
+
+void limit_depth(pipeline::DrawState& state, double least, double greatest, double units) {
+    state.depth_near = static_cast<float>(least / units);
+    if (double{state.depth_near} * units > least) state.depth_near = next_below(state.depth_near);
+    state.depth_far = static_cast<float>(greatest / units);
+    if (double{state.depth_far} * units < greatest) state.depth_far = std::nextafter(state.depth_far, 2.0f);
 }
 
 float next_below(float positive) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(positive) - 1); }

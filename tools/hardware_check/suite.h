@@ -29,7 +29,10 @@ Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& 
 Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_vertex_shader_rounding(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_zpass_pixel_count(std::string_view name, const pipeline::DeviceProfile& profile);
 
 }  // namespace strata::hardware_check

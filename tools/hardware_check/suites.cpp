@@ -19,6 +19,7 @@ constexpr Subjects set_of(Subject a, Subject b) {
 constexpr Subjects colors = set_of(Subject::color, Subject::color);
 constexpr Subjects coordinates = set_of(Subject::coordinates, Subject::coordinates);
 constexpr Subjects quotients_and_coordinates = set_of(Subject::texture_depth, Subject::coordinates);
+constexpr Subjects words = set_of(Subject::window_depth, Subject::window_depth);
 constexpr Subjects words_and_colors = set_of(Subject::window_depth, Subject::color);
 
 }  // namespace
@@ -44,7 +45,10 @@ std::span<const Suite> suites() {
         Suite{"Texture_perspective", draw_texture_perspective, set_of(Subject::color, Subject::coordinates)},
         Suite{"Texture_shadow_comparator", draw_texture_shadow_comparator, quotients_and_coordinates},
         Suite{"Vertex_shader_rounding_tests", draw_vertex_shader_rounding},
+        Suite{"W_buffering", draw_w_buffering, words},
+        Suite{"W_param", draw_w_param},
         Suite{"Window_clip", draw_window_clip},
+        Suite{"ZMinMaxControl", draw_z_min_max_control},
         Suite{"ZPass_pixel_count", draw_zpass_pixel_count}};
     return all;
 }

@@ -4,6 +4,7 @@
 
 #include "peeling/prepared_lists.h"
 #include "pipeline/device/check.h"
+#include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/walk/tile_rasterizer.h"
 
@@ -34,10 +35,12 @@ peeling::PreparedLists prepared(const RunInput& input, pipeline::DepthFormat for
                                    .depth = {DepthPath::exact, format, DepthPath::perspective_rq}}};
 }
 
-// window_z is the chip's rule for fixed-point codes.
+// window_z and w_buffer are the chip's rules.
 bool has_path(const RunInput& input, DepthPath path, pipeline::DepthFormat format) {
     const bool has_chip_rule = input.profile.raster.window_z == rasterizer::WindowZ::buffer_units;
-    return path != DepthPath::window_z || (has_chip_rule && format != pipeline::DepthFormat::d32f);
+    if (path != DepthPath::window_z && path != DepthPath::w_buffer) return true;
+    const bool has_w = path == DepthPath::window_z || pipeline::has_perspective(input.view);
+    return has_chip_rule && has_w && format != pipeline::DepthFormat::d32f;
 }
 
 FragmentFact* find(History& history, std::uint32_t primitive) {
@@ -48,7 +51,7 @@ FragmentFact* find(History& history, std::uint32_t primitive) {
 void add_depths(const RunInput& input, const Geometry& geometry, const rasterizer::Rect& window,
                 std::span<History> histories) {
     const pipeline::DepthFormat format = histories[0].depth_format;
-    for (std::size_t path = 0; path < 6; ++path) {
+    for (std::size_t path = 0; path < depth_path_names.size(); ++path) {
         if (!has_path(input, static_cast<DepthPath>(path), format)) continue;
         auto take = [&](rasterizer::FragmentBatch& batch) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)

@@ -27,12 +27,12 @@ struct FragmentFact {
     std::uint32_t code = 0;                       // in the algorithm's key format
     bool front_facing = true, is_masked = false;  // masked: cut by its material's alpha
     // By depth path, in the frame's depth format; empty where the format or device has no such path.
-    std::array<std::optional<std::uint32_t>, 6> path_codes{};
+    std::array<std::optional<std::uint32_t>, 7> path_codes{};
 };
 
 // As options name them.
-inline constexpr std::array<std::string_view, 6> depth_path_names{"window_z", "perspective_rq", "depth_replace",
-                                                                  "float32",  "float32_plane",  "exact"};
+inline constexpr std::array<std::string_view, 7> depth_path_names{
+    "window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact", "w_buffer"};
 
 enum class Fate : std::uint8_t {
     passed,

@@ -56,8 +56,8 @@ Target of_channels(const StoredPart& part, const std::vector<std::string>& names
 Target own_depth(const StoredPart& part, const std::string& format) {
     Target target = of_channels(part, {"Zbits"}, Meaning::depth);
     target.name = "depth";
-    for (const pipeline::Format known :
-         {pipeline::Format::d16, pipeline::Format::d24, pipeline::Format::d24s8, pipeline::Format::d32f})
+    for (const pipeline::Format known : {pipeline::Format::d16, pipeline::Format::d24, pipeline::Format::d24s8,
+                                         pipeline::Format::d32f, pipeline::Format::d16f, pipeline::Format::d24f})
         if (pipeline::info(known).name == format) target.code = code_of(known);
     return target;
 }
@@ -128,7 +128,8 @@ Code code_of(pipeline::Format format) {
     switch (pipeline::depth_format(format)) {
         case pipeline::DepthFormat::d16: return Code::unorm16;
         case pipeline::DepthFormat::d24: return Code::unorm24;
-        case pipeline::DepthFormat::d16f: return Code::integer;
+        case pipeline::DepthFormat::d16f:
+        case pipeline::DepthFormat::d24f: return Code::integer;
         case pipeline::DepthFormat::d32f: break;
     }
     return Code::single;

@@ -150,7 +150,7 @@ TEST_CASE("of several missing features the first is named, and the ideal device 
     CHECK(check(device("geforce8"), needed)->extension == "STRATA_ordered_rmw");
     CHECK_FALSE(check(device("ideal"), needed));
     // NV2A's own blending and surfaces belong to no device of the others' kind.
-    const std::set<Feature> nv2a{Feature::signed_blend, Feature::d16f, Feature::narrow_surfaces};
+    const std::set<Feature> nv2a{Feature::signed_blend, Feature::d16f, Feature::narrow_surfaces, Feature::d24f};
     for (const Feature feature : strata::enum_values<Feature>)
         CHECK(has(device("ideal"), feature) == !nv2a.contains(feature));
 }

@@ -35,6 +35,7 @@ constexpr FeatureOfDevices feature_table[] = {
     {Feature::signed_blend, "signed blend equations", "", "3"},
     {Feature::d16f, "16-bit float depth buffers", "", "3"},
     {Feature::narrow_surfaces, "surfaces of 15 and 16 bits or without alpha", "", "3"},
+    {Feature::d24f, "24-bit float depth buffers", "", "3"},
 };
 
 constexpr std::array<std::string_view, 7> device_names{"geforce3", "geforce8",     "geforce8_dx101", "ideal",
@@ -88,9 +89,10 @@ TEST_CASE("each format of a target asks for its own feature") {
         };
         for (const Format format : {rgba8, s8, d24, d24s8}) takes(format, "381ilsp");
         for (const Format format : {rgba16f, rgba32f, r16f, r32f, rg32f, d32f}) takes(format, "81ilsp");
-        for (const Format format : {x8r8g8b8, x1a7r8g8b8, r5g6b5, x1r5g5b5, d16f}) takes(format, "3");
+        for (const Format format : {x8r8g8b8, x1a7r8g8b8, r5g6b5, x1r5g5b5, d16f, d24f}) takes(format, "3");
         takes(d16, "3ilsp");
         CHECK(runs(device_names[i], DepthFormat::d16f) == (i == 0));
+        CHECK(runs(device_names[i], DepthFormat::d24f) == (i == 0));
     }
 }
 
@@ -156,7 +158,7 @@ TEST_CASE("a depth is cleared to a value outside 0 to 1, or to NaN, only where a
     for (const float value : {-1.0f, -0x1p-149f, std::nextafter(1.0f, 2.0f), 2.0f, not_a_number}) {
         CHECK(check_depth_clear(clamping, DepthFormat::d32f, value)->extension == "NV_depth_buffer_float");
         CHECK_FALSE(check_depth_clear(device_named("ideal"), DepthFormat::d32f, value));
-        for (const DepthFormat fixed : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f})
+        for (const DepthFormat fixed : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d24f})
             CHECK_FALSE(check_depth_clear(clamping, fixed, value));
     }
     for (const float value : {0.0f, -0.0f, 0.5f, 1.0f})

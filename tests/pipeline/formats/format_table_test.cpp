@@ -39,6 +39,7 @@ constexpr FormatRow format_rows[] = {
     {Format::x1a7r8g8b8, "x1a7r8g8b8", ChannelType::unorm8, 4, 4, "cn"},
     {Format::r5g6b5, "r5g6b5", ChannelType::unorm8, 4, 2, "cn"},
     {Format::x1r5g5b5, "x1r5g5b5", ChannelType::unorm8, 4, 2, "cn"},
+    {Format::d24f, "d24f", ChannelType::depth, 1, 4, "d"},
 };
 
 [[nodiscard]] bool has_trait(const FormatRow& row, char trait) {
@@ -67,7 +68,8 @@ TEST_CASE("each format has its name, channels and bytes a pixel, and is of colou
 }
 
 TEST_CASE("a depth format and the target that holds it name each other, d24s8 being a d24") {
-    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f})
+    for (const DepthFormat format :
+         {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f, DepthFormat::d24f})
         CHECK(depth_format(target_format(format)) == format);
     CHECK(target_format(DepthFormat::d16) == Format::d16);
     CHECK(target_format(DepthFormat::d24) == Format::d24);

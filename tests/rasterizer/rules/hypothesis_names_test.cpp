@@ -27,6 +27,17 @@ void add_numbers(std::vector<Named>& names, const std::string& name, Subject sub
     DepthHypothesis& h = rules.hypothesis;
     InterpolationHypothesis& i = rules.interpolation;
     if (key == "interpolant_bits") h.interpolant_bits = value == "double" ? 53 : std::stoi(value);
+    if (name == "weights=area") h.weights = WeightRule::area, h.reciprocal_bits = 28;
+    if (name == "weights=cut_edges") h.weights = WeightRule::cut_edges, h.reciprocal_bits = 29;
+    if (key == "reciprocal_deficit") h.reciprocal_deficit = std::stoi(value);
+    if (value == "first_quad") h.w_slope = WSlope::first_quad;
+    if (value == "last_quad") h.w_slope = WSlope::last_quad;
+    if (value == "corners") rules.offset_rule = OffsetRule::corners;
+    if (value == "fragments") rules.offset_rule = OffsetRule::fragments;
+    if (name == "perspective_color=cut_products") i.perspective_color = PerspectiveColor::cut_products;
+    if (name == "perspective_coordinates=cut_products")
+        i.perspective_coordinates = PerspectiveCoordinates::cut_products;
+    if (name == "perspective_coordinates=exact_plane") i.perspective_coordinates = PerspectiveCoordinates::exact_plane;
     if (key == "reciprocal_bits") h.reciprocal_bits = std::stoi(value);
     if (key == "sum_bits") h.sum_bits = std::stoi(value);
     if (key == "vertex_color_bits") i.vertex_color_bits = std::stoi(value);
@@ -43,7 +54,7 @@ void add_numbers(std::vector<Named>& names, const std::string& name, Subject sub
     if (value == "window_corner") h.plane_anchor = PlaneAnchor::window_corner;
     if (value == "edge_products") i.perspective_color = PerspectiveColor::edge_products;
     if (value == "weight_products") i.perspective_color = PerspectiveColor::weight_products;
-    if (value == "exact_plane") i.texture_coordinates = CoordinateRule::exact_plane;
+    if (name == "texture_coordinates=exact_plane") i.texture_coordinates = CoordinateRule::exact_plane;
     if (value == "cut_weights") i.texture_coordinates = CoordinateRule::cut_weights;
     return rules;
 }
@@ -64,8 +75,12 @@ TEST_CASE("the hypotheses of depth are these, in this order, each about what its
     expected.emplace_back("divide=low_reciprocal", Subject::texture_depth);
     expected.emplace_back("window_z=exact", Subject::window_depth);
     expected.emplace_back("window_z=float32", Subject::window_depth);
-    add_numbers(expected, "reciprocal_bits", Subject::window_depth, {24, 25, 26, 27, 29, 30});
+    expected.emplace_back("weights=area", Subject::window_depth);
+    add_numbers(expected, "reciprocal_deficit", Subject::window_depth, {0, 1, 3, 4});
+    add_numbers(expected, "reciprocal_bits", Subject::window_depth, {24, 25, 26, 27, 28, 30});
     add_numbers(expected, "sum_bits", Subject::window_depth, {24, 25, 26, 27, 28});
+    expected.emplace_back("w_slope=last_quad", Subject::window_depth);
+    expected.emplace_back("offset_rule=fragments", Subject::window_depth);
     expected.emplace_back("depth_rounding=floor", Subject::window_depth);
     expected.emplace_back("quantize_reference=false", Subject::texture_depth);
     expected.emplace_back("plane_anchor=window_corner", Subject::window_depth);
@@ -76,13 +91,16 @@ TEST_CASE("the hypotheses of depth are these, in this order, each about what its
 }
 
 TEST_CASE("where the given rules hold another value already, the list names the default in its place") {
-    RasterRules given{.depth_rounding = DepthRounding::floor};
+    RasterRules given{.depth_rounding = DepthRounding::floor, .offset_rule = OffsetRule::fragments};
     given.hypothesis = {.interpolant_bits = full_double,
                         .divide = DivideRule::low_reciprocal,
                         .window_z = WindowZRule::float32,
+                        .weights = WeightRule::area,
                         .reciprocal_bits = 24,
+                        .reciprocal_deficit = 4,
                         .sum_bits = 24,
                         .quantize_reference = false,
+                        .w_slope = WSlope::last_quad,
                         .plane_anchor = PlaneAnchor::window_corner};
     std::vector<Named> expected;
     add_numbers(expected, "interpolant_bits", Subject::texture_depth, {16, 17, 18, 19, 20, 21, 22, 23, 24});
@@ -90,8 +108,13 @@ TEST_CASE("where the given rules hold another value already, the list names the 
     expected.emplace_back("divide=cut_reciprocal", Subject::texture_depth);
     expected.emplace_back("window_z=chip", Subject::window_depth);
     expected.emplace_back("window_z=exact", Subject::window_depth);
+    expected.emplace_back("weights=area", Subject::window_depth);  // with 28 bits
+    expected.emplace_back("weights=cut_edges", Subject::window_depth);
+    add_numbers(expected, "reciprocal_deficit", Subject::window_depth, {0, 1, 2, 3});
     add_numbers(expected, "reciprocal_bits", Subject::window_depth, {25, 26, 27, 28, 29, 30});
     add_numbers(expected, "sum_bits", Subject::window_depth, {25, 26, 27, 28, 29});
+    expected.emplace_back("w_slope=first_quad", Subject::window_depth);
+    expected.emplace_back("offset_rule=corners", Subject::window_depth);
     expected.emplace_back("depth_rounding=nearest", Subject::window_depth);
     expected.emplace_back("quantize_reference=true", Subject::texture_depth);
     expected.emplace_back("plane_anchor=first_vertex", Subject::window_depth);
@@ -105,14 +128,19 @@ TEST_CASE("the hypotheses of interpolation are these, in this order, about colou
     std::vector<Named> expected;
     add_numbers(expected, "vertex_color_bits", Subject::color, {12, 13, 14, 15, 16});
     expected.emplace_back("perspective_color=weight_products", Subject::color);
+    expected.emplace_back("perspective_color=cut_products", Subject::color);
+    expected.emplace_back("perspective_coordinates=cut_products", Subject::coordinates);
     expected.emplace_back("texture_coordinates=cut_weights", Subject::coordinates);
     CHECK(names_of(interpolation_hypotheses({})) == expected);
     CHECK(first_misnamed(interpolation_hypotheses({})).empty());
     RasterRules chip;
-    chip.interpolation = {14, PerspectiveColor::weight_products, CoordinateRule::cut_weights};
+    chip.interpolation = {14, PerspectiveColor::weight_products, CoordinateRule::cut_weights,
+                          PerspectiveCoordinates::cut_products};
     expected.clear();
     add_numbers(expected, "vertex_color_bits", Subject::color, {12, 13, 15, 16, 24});
     expected.emplace_back("perspective_color=edge_products", Subject::color);
+    expected.emplace_back("perspective_color=cut_products", Subject::color);
+    expected.emplace_back("perspective_coordinates=exact_plane", Subject::coordinates);
     expected.emplace_back("texture_coordinates=exact_plane", Subject::coordinates);
     CHECK(names_of(interpolation_hypotheses(chip)) == expected);
     CHECK(first_misnamed(interpolation_hypotheses(chip)).empty());

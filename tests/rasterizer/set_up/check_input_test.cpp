@@ -67,7 +67,7 @@ TEST_CASE("a raster state is refused by the name of its first wrong field") {
     CHECK(state([](RasterState& s) { s.cull = static_cast<CullFace>(4); }) ==
           "raster state: cull: expected one of none, front, back, front_and_back, found 4");
     CHECK(state([](RasterState& s) { s.depth_format = static_cast<DepthFormat>(200); }) ==
-          "raster state: depth_format: expected one of d16, d24, d32f, d16f, found 200");
+          "raster state: depth_format: expected one of d16, d24, d32f, d16f, d24f, found 200");
 }
 
 TEST_CASE("a soup whose numbers lead out of it is refused by the first of them") {

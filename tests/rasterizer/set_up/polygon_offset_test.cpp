@@ -41,7 +41,7 @@ TEST_CASE("the slope of polygon offset is the larger window slope, within 2^-49 
         if (doubled_area(p[0], p[1], p[2]) == 0) continue;
         const std::array z{random_float(random, 0, 1), random_float(random, 0, 1), random_float(random, 0, 1)};
         const Rational exact = model_slope(p, z, bits);
-        const Rational found{largest_slope(p, z, bits)};
+        const Rational found{largest_slope(p, {z[0], z[1], z[2]}, bits)};
         // relative to the two products of a component, which may cancel
         Rational reach = 0;
         for (std::size_t i = 1; i < 3; ++i)

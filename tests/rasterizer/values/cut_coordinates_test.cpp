@@ -17,10 +17,13 @@ constexpr int nowhere = -100000;  // the exponent of 0
 
 [[nodiscard]] std::array<Rational, 3> cut_shares(const std::array<SubpixelPoint, 3>& p, int x, int y) {
     std::array<Rational, 3> b = barycentric(p, x, y, bits);
-    const Rational area{abs(doubled_area(p[0], p[1], p[2]))}, r = cut_to_bits(Rational{1} / area, 28);
+    const Rational area{abs(doubled_area(p[0], p[1], p[2]))};
+    Rational sum;
+    for (Rational& share : b) sum += share = cut_to_bits(share * area, 24);
+    const Rational r = cut_to_bits((sum == power(floor_log2(sum)) ? Rational{1} : 1 - power(-31)) / sum, 29);
     int largest = nowhere, shared = 0;
     for (Rational& share : b) {
-        share = cut_to_bits(share * area * r, 24);
+        share = cut_to_bits(share * r, 24);
         largest = std::max(largest, exponent(share));
     }
     for (std::size_t i = 0; i < 3; ++i) shared |= exponent(b[i]) == largest ? 1 << i : 0;
@@ -43,7 +46,7 @@ constexpr int nowhere = -100000;  // the exponent of 0
     const auto px = static_cast<std::uint16_t>(x), py = static_cast<std::uint16_t>(y);
     const double unused = 0;
     float out = 0;
-    cut_coordinates(u, {&edges, bits, &px, &py, &unused, &unused, 1, true}, &out);
+    cut_coordinates(u, {1, 1, 1}, {&edges, bits, &px, &py, &unused, &unused, 1, true}, DepthHypothesis{}, &out);
     return out;
 }
 

@@ -33,15 +33,33 @@ using Shares = std::array<Rational, 3>;
     return e;
 }
 
-[[nodiscard]] Shares perspective_shares(const EdgeValues& e, const std::array<float, 3>& inverse_w,
-                                        PerspectiveColor rule) {
+// r of the chip: of a sum as binary64 has it, a hair low unless that is a power of two, cut to 29 bits.
+[[nodiscard]] Rational low_reciprocal(const Rational& sum) {
+    const Rational held = to_53_bits(sum), exact = to_53_bits(Rational{1} / held);
+    return held == power(floor_log2(held)) ? exact : cut_to_bits(to_53_bits(exact * (1 - power(-31))), 29);
+}
+
+// By the rule of the w buffer, every step cut.
+[[nodiscard]] Shares cut_shares_of(const EdgeValues& e, const std::array<float, 3>& w) {
+    Shares p;
+    for (std::size_t i = 0; i < 3; ++i)
+        p[i] = cut_to_bits(cut_to_bits(Rational{e[i]}, 24) * cut_to_bits(Rational{1} / Rational{w[i]}, 24), 24);
+    const Rational r = low_reciprocal(to_53_bits(p[0] + p[1]) + p[2]);
+    for (Rational& each : p) each = cut_to_bits(each * r, 24);
+    return p;
+}
+
+[[nodiscard]] Shares perspective_shares(const EdgeValues& e, const std::array<float, 3>& w,
+                                        const std::array<float, 3>& inverse_w, PerspectiveColor rule) {
+    if (rule == PerspectiveColor::cut_products) return cut_shares_of(e, w);
     const bool by_weights = rule == PerspectiveColor::weight_products;
-    const Rational reciprocal =
-        cut_to_bits(Rational{1} / Rational{e[0] + e[1] + e[2]}, 28);  // of the area, as the chip cuts it
+    Shares cut;
+    for (std::size_t i = 0; i < 3; ++i) cut[i] = cut_to_bits(Rational{e[i]}, 24);
+    const Rational reciprocal = low_reciprocal(cut[0] + cut[1] + cut[2]);
     Shares p;
     for (std::size_t i = 0; i < 3; ++i) {
         p[i] = Rational{e[i]};
-        if (by_weights) p[i] = cut_to_bits(p[i] * reciprocal, 24);
+        if (by_weights) p[i] = cut_to_bits(cut[i] * reciprocal, 24);
         p[i] = to_53_bits(p[i] * Rational{inverse_w[i]});
         if (by_weights) p[i] = cut_to_bits(p[i], 24);
     }
@@ -78,6 +96,10 @@ using Shares = std::array<Rational, 3>;
     return codes;
 }
 
+[[nodiscard]] std::array<float, 3> w_of(const std::array<float, 3>& inverse_w) {
+    return {1.0f / inverse_w[0], 1.0f / inverse_w[1], 1.0f / inverse_w[2]};
+}
+
 [[nodiscard]] SetupTriangle colored_triangle(Random& random, int n) {
     while (true) {
         std::array<SubpixelPoint, 3> p;
@@ -86,9 +108,11 @@ using Shares = std::array<Rational, 3>;
         SetupTriangle t = window_triangle(p, shade_bits);
         for (std::size_t i = 0; i < 3; ++i) {
             t.inverse_w[i] = random_float(random, 0.05f, 4);
+            t.w[i] = 1.0f / t.inverse_w[i];
             for (float& u : t.attribute[i]) u = random_float(random, 0, 1);
         }
-        if (n % 4 == 0) t.inverse_w[1] = t.inverse_w[0];  // two of three equal are unequal all the same
+        if (n % 4 == 0)
+            t.inverse_w[1] = t.inverse_w[0], t.w[1] = t.w[0];  // two of three equal are unequal all the same
         return t;
     }
 }
@@ -96,9 +120,10 @@ using Shares = std::array<Rational, 3>;
 }  // namespace
 
 TEST_CASE(
-    "with unequal w colours are weighted by products with 1/w, of edge values or of cut weights, rounded as written",
+    "with unequal w colours are weighted by products with 1/w, of edge values or of weights, cut or rounded as written",
     "[slow]") {
-    for (const PerspectiveColor rule : {PerspectiveColor::edge_products, PerspectiveColor::weight_products}) {
+    for (const PerspectiveColor rule :
+         {PerspectiveColor::edge_products, PerspectiveColor::weight_products, PerspectiveColor::cut_products}) {
         Random random{651};
         std::uint64_t fragments = 0, wrong = 0;
         for (int n = 0; n < 45; ++n) {
@@ -107,8 +132,8 @@ TEST_CASE(
             rules.interpolation.perspective_color = rule;
             rules.interpolation.vertex_color_bits = n % 2 == 0 ? 14 : 24;
             for (const Fragment& f : draw(window_geometry({t}, 14, 14, rules), {}, everything).fragments) {
-                const auto expected = shaded(t, perspective_shares(values_of_edges(t, f.x, f.y), t.inverse_w, rule),
-                                             n % 2 == 0 ? 14 : 24);
+                const auto expected = shaded(
+                    t, perspective_shares(values_of_edges(t, f.x, f.y), t.w, t.inverse_w, rule), n % 2 == 0 ? 14 : 24);
                 ++fragments;
                 for (std::size_t c = 0; c < 4; ++c)
                     wrong += f.color[c] != static_cast<float>(expected[c]) / 255.0f ? 1 : 0;
@@ -119,7 +144,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("weights that end on a 256th or a hair beside it fall on their own side, by either rule for products",
+TEST_CASE("weights that end on a 256th or a hair beside it fall on their own side, by any rule for products",
           "[slow]") {
     // Edge values whose products with 1/w are k / 256 of their sum, the sum being `odd` times a power of two: r is inexact.
     std::uint64_t wrong = 0, cases = 0, unlike = 0, not_whole = 0;
@@ -132,14 +157,15 @@ TEST_CASE("weights that end on a 256th or a hair beside it fall on their own sid
                     EdgeValues e{};
                     for (std::size_t i = 0; i < 3; ++i)
                         e[i] = static_cast<std::int64_t>(static_cast<double>(12 * odd * k[i]) / inverse_w[i]);
-                    std::array<std::array<std::int32_t, 3>, 2> found;
+                    std::array<std::array<std::int32_t, 3>, 3> found;
                     for (const PerspectiveColor rule :
-                         {PerspectiveColor::edge_products, PerspectiveColor::weight_products}) {
-                        Shares b = perspective_shares(e, inverse_w, rule);
+                         {PerspectiveColor::edge_products, PerspectiveColor::weight_products,
+                          PerspectiveColor::cut_products}) {
+                        Shares b = perspective_shares(e, w_of(inverse_w), inverse_w, rule);
                         const std::size_t rest = vertex_of_the_rest(b);
                         b[rest] = 1 - b[(rest + 1) % 3] - b[(rest + 2) % 3];
                         auto& w = found[static_cast<std::size_t>(rule)];
-                        w = ColorWeights{inverse_w, e[0] + e[1] + e[2], rule}.at(e);
+                        w = ColorWeights{w_of(inverse_w), inverse_w, e[0] + e[1] + e[2], {}, rule}.at(e);
                         ++cases;
                         wrong += Integer{w[0]} != floor(256 * b[0]) || Integer{w[2]} != floor(256 * b[2]) ||
                                          w[0] + w[1] + w[2] != 256

@@ -19,7 +19,7 @@ enum class Says : std::uint8_t { drawn, not_modelled, unknown };
 
 Says says_of(const Suite& suite, const std::string& name) {
     pipeline::DeviceProfile nothing = *pipeline::find_profile("geforce3");
-    nothing.has_d16 = nothing.has_d24 = nothing.has_d16f = false;
+    nothing.has_d16 = nothing.has_d24 = nothing.has_d16f = nothing.has_d24f = false;
     try {
         return suite.draw(name, nothing).reason == unknown_name_reason ? Says::unknown : Says::not_modelled;
     } catch (const pipeline::Refused&) {
@@ -92,8 +92,8 @@ TEST_CASE("every name of the depth suites is drawn, or said to be not modelled")
         CHECK(all_are(Says::drawn, "Depth_buffer", cleared(wide + "z24_C{}_FZn_M{:06x}" + end, 0xffffff, 48)) == 98);
         CHECK(all_are(end == zb ? Says::drawn : Says::not_modelled, "Depth_buffer",
                       cleared(wide + "z16_C{}_FZy_M{:06x}" + end, 0xffff, 48)) == 98);
-        CHECK(all_are(Says::not_modelled, "Depth_buffer", cleared(wide + "z24_C{}_FZy_M{:06x}" + end, 0xfeffff, 48)) ==
-              98);
+        CHECK(all_are(end == zb ? Says::drawn : Says::not_modelled, "Depth_buffer",
+                      cleared(wide + "z24_C{}_FZy_M{:06x}" + end, 0xfeffff, 48)) == 98);
         const Says fixed = end == zb ? Says::drawn : Says::not_modelled;
         CHECK(all_are(fixed, "Depth_buffer_fixed_function", cleared("z16_C{}_FZn_M{:06x}" + end, 0xffff, 4)) == 10);
         CHECK(all_are(fixed, "Depth_buffer_fixed_function", cleared("z24_C{}_FZn_M{:06x}" + end, 0xffffff, 4)) == 10);
@@ -107,7 +107,7 @@ TEST_CASE("every name of the depth suites is drawn, or said to be not modelled")
     CHECK(all_are(Says::drawn, "Depth_Clamp", with({"depth_clamp_W0_C0_ZB0", "depth_clamp_W0_C1_ZB0"}, flags)) == 8);
     const Names others{"depth_clamp_W0_C0_ZB1", "depth_clamp_W0_C1_ZB1", "depth_clamp_W1_C0_ZB0",
                        "depth_clamp_W1_C1_ZB0", "depth_clamp_W1_C0_ZB1", "depth_clamp_W1_C1_ZB1"};
-    CHECK(all_are(Says::not_modelled, "Depth_Clamp", with(others, flags)) == 24);
+    CHECK(all_are(Says::drawn, "Depth_Clamp", with(others, flags)) == 24);
     const Names offsets{"_Ofs0.685", "_Ofs0.822", "_Ofs3.015", "_Ofs3.216"};
     CHECK(all_are(Says::not_modelled, "Depth_Clamp", with({"depth_equal", "depth_equal_WBuf"}, offsets)) == 8);
     Names zpass{"ZPass"};
@@ -142,9 +142,46 @@ TEST_CASE("every name of the geometry suites is drawn, or said to be not modelle
     Names regions = with(with({"I_", "E_"}, first), {"-x0y0_w0h0", "-x16y16_w8h8"});
     regions.insert(regions.end(), {"sI_x60y60_w64h64-x0y0_w64h64", "sE_x60y60_w64h64-x0y0_w64h64"});
     CHECK(all_are(Says::drawn, "Window_clip", regions) == 46);
-    CHECK(all_are(Says::not_modelled, "Window_clip", with({"r"}, regions)) == 46);
+    CHECK(all_are(Says::drawn, "Window_clip", with({"r"}, regions)) == 46);
     CHECK(all_are(Says::drawn, "Texture_perspective",
                   with(with({"tex_tex_pers_", "tex_diff_pers_"}, {"y_", "n_"}), {"quad", "bitri"})) == 8);
+}
+
+TEST_CASE("every name of the suites of offset, w and depth range is drawn, or said to be not modelled") {
+    const Names formats{"16D_", "16F_", "24D_", "24F_"},
+        offsets{"_V1_ZB0_ZS0", "_V1_ZB0_ZS1", "_V1_ZB1_ZS0", "_V1_ZB1_ZS1"};
+    const Names shapes{"FloorQuad", "RoofQuad", "WallQuad", "LargeZ", "TriH", "TriV"};
+    const Names z = with(with(with({"ZBuf"}, formats), shapes), offsets), flat{"_V1_ZB0_ZS0_ZB", "_V1_ZB1_ZS0_ZB"};
+    CHECK(all_are(Says::drawn, "W_buffering", with(z, {"_ZB"})) == 96);
+    CHECK(all_are(Says::not_modelled, "W_buffering", z) == 96);  // colours
+    CHECK(all_are(Says::drawn, "W_buffering", with(with(with({"WBuf"}, formats), shapes), flat)) == 48);
+    const Names wide{"FloorQuad", "RoofQuad", "WallQuad", "LargeZ"}, sloped{"_V1_ZB0_ZS1_ZB", "_V1_ZB1_ZS1_ZB"};
+    CHECK(all_are(Says::drawn, "W_buffering", with(with(with({"WBuf"}, formats), wide), sloped)) == 32);
+    CHECK(all_are(Says::not_modelled, "W_buffering", with(with(with({"WBuf"}, formats), {"TriH", "TriV"}), sloped)) ==
+          16);
+    CHECK(all_are(Says::drawn, "W_buffering",
+                  {"WBuf24D_Riddick_V1_ZB0_ZS0_ZB", "ZBuf24D_Trunc0_V1_ZB0_ZS0_ZB", "ZBuf24D_TruncNeg_V1_ZB0_ZS0_ZB",
+                   "WBuf24D_ClipW-159-000_V1_ZB0_ZS1_ZB"}) == 4);
+    CHECK(all_are(Says::not_modelled, "W_buffering",
+                  {"WBuf24D_ClipF-150-032_V1_ZB0_ZS1_ZB", "ZBuf16D_FloorQuad_V0_ZB0_ZS1_ZB",
+                   "WBuf24D_LineStrip_V1_ZB0_ZS0_ZB"}) == 3);
+    CHECK(all_are(Says::unknown, "W_buffering",
+                  {"ZBuf24D_Riddick_V1_ZB0_ZS0_ZB", "WBuf24D_Trunc0_V1_ZB0_ZS0_ZB", "XBuf24D_TriH_V1_ZB0_ZS0_ZB",
+                   "ZBuf32D_TriH_V1_ZB0_ZS0_ZB", "ZBuf24G_TriH_V1_ZB0_ZS0_ZB", "ZBuf24D_TriH-15-000_V1_ZB0_ZS0_ZB",
+                   "ZBuf24D_TriH_V2_ZB0_ZS0_ZB", "ZBuf24D_TriH_V1_ZB0_ZS0_ZB_"}) == 8);
+
+    const Names factors{"0.00", "-0.00", "1.00", "-1.00", "inf", "-inf", "-0.50", "-3.08e-33", "-1.88e-37"};
+    CHECK(all_are(Says::drawn, "W_param", with({"prog_w_zero_inf__quad_w", "prog_w_zero_inf__bitri_w"}, factors)) ==
+          18);
+    CHECK(all_are(Says::not_modelled, "W_param",
+                  {"ff_w_zero_inf__quad_w0.00", "rcc_w_zero_inf__z0.25", "w_gaps", "w_pos_strip_tex_persp"}) == 4);
+    CHECK(all_are(Says::unknown, "W_param",
+                  {"prog_w_zero_inf__quad_w", "prog_w_zero_inf__quad_wx", "prog_w_zero_inf__tri_w1.00",
+                   "prog_w_zero_inf__quad_w1e-30"}) == 4);
+    const Names modes = with({"", "WBuf_"}, with({"", "NEARFAR_"}, with({"ZCULL", "ZCLAMP"}, {"", "_IgnW"})));
+    CHECK(all_are(Says::drawn, "ZMinMaxControl", with({"Ctrl_"}, modes)) == 16);
+    CHECK(all_are(Says::not_modelled, "ZMinMaxControl", with({"CtrlFixed_"}, modes)) == 16);
+    CHECK(all_are(Says::unknown, "ZMinMaxControl", {"Ctrl_", "Ctrl_ZCULLED", "Ctrl_NEARFAR_WBuf_ZCULL"}) == 3);
 }
 
 TEST_CASE("every name of the texture suites is drawn, or said to be not modelled") {

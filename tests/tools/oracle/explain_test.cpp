@@ -285,7 +285,7 @@ TEST_CASE(
     const peeling::Algorithm& algorithm = *peeling::find_algorithm("depth_units");
     const auto histories = explain(input, algorithm, {3, 2, 17, 12});
     int compared = 0, wrong = 0, apart = 0, shares = 0;
-    for (std::size_t path = 0; path < 6; ++path) {
+    for (std::size_t path = 0; path < 7; ++path) {
         peeling::RenderOptions options = input.options;
         options.depth_path = static_cast<rasterizer::DepthPath>(path);
         peeling::Renderer renderer{input.list, input.view, input.profile, options};

@@ -1,6 +1,7 @@
 // Suites Depth_buffer: DepthFmt_<z16|z24>_C<y|n>_FZ<y|n>_M<clear>[_ZB], words or colours, and
 // Depth_buffer_fixed_function, the same without DepthFmt_. Slopes of depth over small and wide quads.
 // chip-depth.md 2, chip-geometry.md 5.4.
+#include <bit>
 #include <vector>
 
 #include "rasterizer/rules/depth_code.h"
@@ -22,6 +23,11 @@ struct Setting {
     bool is_float = false, shows_depth = false;
 };
 
+// The greatest code that the test counts to: of 24-bit floats the last finite number.
+std::uint32_t greatest_code(DepthFormat format) {
+    return format == DepthFormat::d24f ? 0xfeffffu : rasterizer::max_code(format);
+}
+
 // Parses names such as z16_Cn_FZn_M00ffff. C says whether the chip compresses the buffer, which
 // changes no stored value. A clear word above the format's greatest code is no name of the suite.
 std::optional<Setting> parse(std::string_view name) {
@@ -35,8 +41,9 @@ std::optional<Setting> parse(std::string_view name) {
     const auto clear = take(name, "M") ? to_hexadecimal(name) : std::nullopt;
     if (!clear) return std::nullopt;
     s.clear = *clear;
-    s.format = format == "z24" ? DepthFormat::d24 : s.is_float ? DepthFormat::d16f : DepthFormat::d16;
-    if (s.clear > rasterizer::max_code(s.format)) return std::nullopt;
+    s.format = format == "z24" ? (s.is_float ? DepthFormat::d24f : DepthFormat::d24)
+                               : (s.is_float ? DepthFormat::d16f : DepthFormat::d16);
+    if (s.clear > greatest_code(s.format)) return std::nullopt;
     return s;
 }
 
@@ -61,14 +68,16 @@ struct Slope {
 // Window z of code `k`, in the buffer's own values. A fixed format counts codes, a float format
 // holds another number.
 float value_of(DepthFormat format, float k) {
-    return format == DepthFormat::d16f ? rasterizer::d16f_value(static_cast<std::uint32_t>(k)) : k;
+    const auto code = static_cast<std::uint32_t>(k);
+    if (format == DepthFormat::d16f) return rasterizer::d16f_value(code);
+    return format == DepthFormat::d24f ? std::bit_cast<float>(code << 7) : k;
 }
 
 // The quads of chip-depth.md 2: a grid of 31 x 32 with depths that rise quad by quad, then three
 // wide ones. All in binary32, as the test computes them.
 std::vector<Slope> window_slopes(DepthFormat format) {
     constexpr int columns = 31, rows = 32;
-    const std::uint32_t max = rasterizer::max_code(format);
+    const std::uint32_t max = greatest_code(format);
     // The test divides by the number of its quads and one more: the last one stays below the
     // greatest code.
     const float step = static_cast<float>(max) / static_cast<float>(columns * rows + 3 + 1);
@@ -153,22 +162,22 @@ Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, 
     surface.clear_depth(s.clear);
     surface.draw({.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}}, std::move(soup));
     if (!s.shows_depth) return {.image = surface.color()};
-    return {.reading = s.format == DepthFormat::d24 ? Reading::depth24 : Reading::depth16, .image = surface.depth()};
+    return {
+        .reading = s.format == DepthFormat::d24 || s.format == DepthFormat::d24f ? Reading::depth24 : Reading::depth16,
+        .image = surface.depth()};
 }
 
 // Why some pictures of these two suites are not modelled.
-const Drawing colors_unknown{std::nullopt,
-                             "how the chip weighs colours where w differs is not emulated yet (chip-float-depth.md 7)"};
+const Drawing colors_unknown{std::nullopt, "the colours of this suite are not described"};
+
 const Drawing float_colors{std::nullopt,
                            "its colours were computed from float depths; no capture was at hand to confirm how"};
-const Drawing z24_float{std::nullopt, "24-bit float depth is not emulated yet (chip-float-depth.md 3.3)"};
 
 }  // namespace
 
 Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& profile) {
     const auto setting = take(name, "DepthFmt_") ? parse(name) : std::nullopt;
     if (!setting) return unknown_name;
-    if (setting->format == DepthFormat::d24 && setting->is_float) return z24_float;
     if (setting->is_float && !setting->shows_depth) return float_colors;
     TriangleSoup soup;
     for (const Slope& slope : window_slopes(setting->format)) add_slope(soup, slope, 0, false);
@@ -179,8 +188,7 @@ Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::
     const auto setting = parse(name);
     if (!setting) return unknown_name;
     if (!setting->shows_depth) return colors_unknown;
-    if (setting->format == DepthFormat::d24 && setting->is_float) return z24_float;
-    if (setting->is_float) return {std::nullopt, "16-bit float depth behind the fixed pipeline is not described"};
+    if (setting->is_float) return {std::nullopt, "float depth behind the fixed pipeline is not described"};
     TriangleSoup soup;
     for (Slope slope : world_slopes()) {
         for (float& z : slope.z) z = chip_window_z(z, static_cast<float>(rasterizer::max_code(setting->format)));

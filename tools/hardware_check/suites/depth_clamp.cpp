@@ -37,6 +37,16 @@ bool take_flag(std::string_view& name, std::string_view key, bool& flag) {
     return true;
 }
 
+TriangleSoup floor() { return world_quad({{{-10, -2.5, 20}, {10, -2.5, 20}, {10, -2.5, 0}, {-10, -2.5, 0}}}); }
+
+// The range of chip-geometry.md 5.3: about w = 9 to 17. DrawState takes limits from 0 to 1.
+void limit(pipeline::DrawState& state, bool w_buffer) {
+    if (w_buffer)
+        limit_depth(state, 9.01f, 16.49f, units);
+    else
+        limit_depth(state, 14988020, 15869663, units);
+}
+
 }  // namespace
 
 Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile) {
@@ -44,26 +54,22 @@ Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& p
     const bool known = take_flag(name, "depth_clamp_W", w_buffer) && take_flag(name, "_C", clamp) &&
                        take_flag(name, "_ZB", bias) && take_flag(name, "_FR", full) &&
                        take_flag(name, "_VSH", by_program);
-    if (name.starts_with("depth_equal_")) return {std::nullopt, "equality of two draws in this range is not described"};
+    if (name.starts_with("depth_equal_")) return {std::nullopt, "the place of its floor is not described"};
     if (!known || !name.empty()) return unknown_name;
-    if (w_buffer) return {std::nullopt, "the w buffer is not emulated"};
-    if (bias) return {std::nullopt, "polygon offset in this range is not described"};
     pipeline::Surface surface{profile, {}};
     surface.clear_color(unpack(0xfe251135));
     surface.clear_depth(0xffffff);
     pipeline::DrawState state{.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}};
+    if (w_buffer) state.depth_path = rasterizer::DepthPath::w_buffer;
     // Two posts, one near and one far, drawn with the full range.
     surface.draw(state, world_quad({{{-2, 2, 2}, {-1, 2, 2}, {-1, -6.5, 2}, {-2, -6.5, 2}}}));
     surface.draw(state, world_quad({{{1, 2, 10}, {2, 2, 10}, {2, -6.5, 10}, {1, -6.5, 10}}}));
     state.depth_clamp = clamp;
-    // The range of chip-geometry.md 5.3: about w = 9 to 17. DrawState takes limits from 0 to 1.
-    if (!full) {
-        state.depth_near = static_cast<float>(14988020.0 / units);
-        state.depth_far = static_cast<float>(15869665.0 / units);
-    }
+    if (!full) limit(state, w_buffer);
+    if (bias) state.polygon_offset = {.enabled = true, .units = w_buffer ? -5.0f : -500000.0f};
     // The floor goes from z = 20 to 0 and leaves the range at both ends: fragments are removed
     // there, not the triangle.
-    surface.draw(state, world_quad({{{-10, -2.5, 20}, {10, -2.5, 20}, {10, -2.5, 0}, {-10, -2.5, 0}}}));
+    surface.draw(state, floor());
     return {Picture{.reading = Reading::drawn, .image = surface.color(), .background = unpack(0xfe251135)}, {}};
 }
 

@@ -43,12 +43,10 @@ ClipVertex vertex(const Corner& c, bool is_textured, bool corrected) {
     return v;
 }
 
-// The exact value, rounded, is within 2 units of the chip's colours everywhere (chip-geometry.md 5.1); ours is as far
-// from it at most.
-constexpr Bound within_four{std::uint64_t{picture_width} * picture_height, 4};
-// Texels that the chip takes from the other side of a cell's edge: 1 in the corrected capture at hand, none in the
-// other one; no quad was at hand.
-constexpr Bound few_texels{8, 255};
+// Where 256 times a weight lies next to an integer (chip-float-depth.md 7).
+constexpr Bound few_colors{5, 1};
+// Texels from the other side of a cell's edge: none in the captures at hand, but no quad was there.
+constexpr Bound few_texels{5, 255};
 
 }  // namespace
 
@@ -79,7 +77,11 @@ Drawing draw_texture_perspective(std::string_view name, const pipeline::DevicePr
     surface.clear_color(unpack(0xfe251135));
     const pipeline::Texture texture = checker();
     surface.draw({.texture = is_textured ? &texture : nullptr}, std::move(soup));
-    return {Picture{.image = surface.color(), .bound = is_textured ? few_texels : within_four}, {}};
+    return {Picture{.image = surface.color(),
+                    .bound = !corrected    ? Bound{}
+                             : is_textured ? few_texels
+                                           : few_colors},
+            {}};
 }
 
 }  // namespace strata::hardware_check

@@ -1,6 +1,7 @@
 // Suite Window_clip: <I|E>_x<X>y<Y>_w<W>h<H>-x<X>y<Y>_w<W>h<H>, an s in front: the second region was set first. Two
 // clip regions, drawn inside or outside of; both limits of a region are inside. Writing a limit of region 0 sets all
-// eight regions, so that with an s the first region alone is left.
+// eight regions, so that with an s the first region alone is left. An r in front of all: into a target of 256 x 256
+// pixels, which is shown at (192, 112).
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -31,8 +32,7 @@ std::optional<rasterizer::Rect> take_region(std::string_view& name) {
 }  // namespace
 
 Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& profile) {
-    // Names with an r draw into an off-screen target.
-    if (name.starts_with("r")) return {std::nullopt, "clipping in an off-screen target is not described"};
+    const bool is_off_screen = take(name, "r");
     const bool second_is_overwritten = take(name, "s");
     const bool exclusive = take(name, "E_");
     if (!exclusive && !take(name, "I_")) return unknown_name;
@@ -44,12 +44,19 @@ Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& p
     // regions in the other.
     constexpr Argb below = 0xff337788, above = 0xffff7733;
     const Box square{0, 0, 256, 256};
-    pipeline::Surface surface{profile, {}};
+    const int width = is_off_screen ? 256 : picture_width, height = is_off_screen ? 256 : picture_height;
+    pipeline::Surface surface{profile, {.width = width, .height = height}};
     surface.clear_color(unpack(0xfe111213));
     surface.draw({}, box(square, exclusive ? above : below));
     for (const rasterizer::Rect& region : {*first, second_is_overwritten ? *first : *second})
         surface.draw({.window_clip = region}, box(square, exclusive ? below : above));
-    return {Picture{.image = surface.color()}, {}};
+    if (!is_off_screen) return {Picture{.image = surface.color()}, {}};
+    // The target is shown texel by texel.
+    pipeline::Surface window{profile, {}};
+    window.clear_color(unpack(0xfe332233));
+    const pipeline::Texture target = as_texture(surface.color());
+    place(window, target, 192, 112, {});
+    return {Picture{.image = window.color()}, {}};
 }
 
 }  // namespace strata::hardware_check

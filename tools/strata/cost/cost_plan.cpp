@@ -39,6 +39,8 @@ void set_depth_format(CostCell& cell, pipeline::DepthFormat format) {
     if (format == pipeline::DepthFormat::d16) open(cell, &pipeline::DeviceProfile::has_d16, "d16");
     if (format == pipeline::DepthFormat::d24) open(cell, &pipeline::DeviceProfile::has_d24, "d24");
     if (format == pipeline::DepthFormat::d32f) open(cell, &pipeline::DeviceProfile::has_d32f, "d32f");
+    if (format == pipeline::DepthFormat::d16f) open(cell, &pipeline::DeviceProfile::has_d16f, "d16f");
+    if (format == pipeline::DepthFormat::d24f) open(cell, &pipeline::DeviceProfile::has_d24f, "d24f");
 }
 
 void set_depth_path(CostCell& cell, rasterizer::DepthPath path) {
@@ -47,7 +49,8 @@ void set_depth_path(CostCell& cell, rasterizer::DepthPath path) {
     if (path == DepthPath::depth_replace) open(cell, &pipeline::DeviceProfile::has_depth_replace, "depth_replace");
     if (path == DepthPath::perspective_rq)
         open(cell, &pipeline::DeviceProfile::has_fragment_programs, "fragment programs");
-    if (path != DepthPath::window_z || cell.profile.raster.window_z == rasterizer::WindowZ::buffer_units) return;
+    const bool is_chip = path == DepthPath::window_z || path == DepthPath::w_buffer;
+    if (!is_chip || cell.profile.raster.window_z == rasterizer::WindowZ::buffer_units) return;
     cell.profile.raster.window_z = rasterizer::WindowZ::buffer_units;
     cell.opened += cell.opened.empty() ? "window_z" : ", window_z";
 }

@@ -130,7 +130,7 @@ Command add_hard_cases(CLI::App& root) {
     std::vector<std::string> profiles;
     for (const auto& profile : pipeline::builtin_profiles()) profiles.push_back(profile.name);
     add_names(*app, "--profile", options->profiles, profiles, "devices (default geforce3,geforce8,ideal,llvmpipe)");
-    add_names(*app, "--depth", options->formats, names_of(depth_formats), "depth formats (default all)");
+    add_names(*app, "--depth", options->formats, names_of(depth_formats), "depth formats (default d16, d24 and d32f)");
     add_names(*app, "--algorithm", options->algorithms, algorithm_names(), "algorithms (default all)");
     add_option(*app, options->shard,
                {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);

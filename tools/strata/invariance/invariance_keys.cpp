@@ -136,7 +136,7 @@ std::vector<PlanKey> make_keys() {
          "separate", set_vertex_path},
         {"pair", "WRITE:COMPARE, the path that writes depth and the one that compares",
          "two depth paths with a colon between, such as window_z:perspective_rq", "window_z:perspective_rq", set_pair},
-        {"depth_format", "depth buffers", "d16, d24 or d32f", "d16,d24",
+        {"depth_format", "depth buffers", "d16, d24, d32f, d16f or d24f", "d16,d24",
          [](Cell& c, const std::string& t) { return assign(c.format, to_choice(depth_formats, t)); }},
         {"subpixel_bits", "grids of window positions", "profile, 4, 8 or 12", "profile", set_subpixel_bits},
         {"near_far", "depth ranges: orbit, ratio:FAR/NEAR, or NEAR:FAR",

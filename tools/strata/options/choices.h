@@ -8,8 +8,11 @@
 
 namespace strata::tools {
 
-inline const std::vector<Choice<pipeline::DepthFormat>> depth_formats{
-    {"d16", pipeline::DepthFormat::d16}, {"d24", pipeline::DepthFormat::d24}, {"d32f", pipeline::DepthFormat::d32f}};
+inline const std::vector<Choice<pipeline::DepthFormat>> depth_formats{{"d16", pipeline::DepthFormat::d16},
+                                                                      {"d24", pipeline::DepthFormat::d24},
+                                                                      {"d32f", pipeline::DepthFormat::d32f},
+                                                                      {"d16f", pipeline::DepthFormat::d16f},
+                                                                      {"d24f", pipeline::DepthFormat::d24f}};
 
 inline const std::vector<Choice<pipeline::Format>> color_formats{
     {"rgba8", pipeline::Format::rgba8}, {"rgba16f", pipeline::Format::rgba16f}, {"rgba32f", pipeline::Format::rgba32f}};

@@ -1,0 +1,66 @@
+// rasterizer/values/chip_values.cpp - depths that the chip computes itself, window_z and w_buffer, and the depth range that looks at
+// them (fragment_values.h).
+#include <algorithm>
+
+#include "rasterizer/set_up/polygon_offset.h"
+#include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/move_lane.h"
+#include "rasterizer/values/w_buffer.h"
+#include "rasterizer/values/window_z.h"
+
+namespace strata::rasterizer {
+
+bool FragmentValues::is_chip(DepthPath path) const noexcept {
+    return path == DepthPath::w_buffer ||
+           (path == DepthPath::window_z && rules_.hypothesis.window_z == WindowZRule::chip);
+}
+
+void FragmentValues::fill_chip_values(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
+                                      double* out) const noexcept {
+    const auto fill = [&](const auto& rule) {
+        for (int i = 0; i < lanes.count; ++i) out[i] = rule.value(lanes.edge_values(i));
+    };
+    const DepthHypothesis& h = rules_.hypothesis;
+    if (path == DepthPath::w_buffer) {
+        const std::array<float, 3> w = scaled_w(t, w_scale_);
+        const bool has_slope = offset_.enabled && offset_.factor != 0.0f;
+        return fill(WBuffer{w, h, chip_offset(has_slope ? w_slope(t, w, clip_, rules_) : 0.0, offset_)});
+    }
+    if (!offset_.enabled) return fill(WindowZ24{t.z, lanes.edges->area(), h});
+    const double slope = largest_slope(t.p, t.given_z, rules_.subpixel_bits);
+    fill(WindowZ24{t.given_z, lanes.edges->area(), h, chip_offset(slope, offset_)});
+}
+
+// A convex combination leaves the range only if a corner does; the products are exact. A w buffer's w may, whatever z does.
+bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcept {
+    if (depth_.path == DepthPath::w_buffer) {
+        const std::array<float, 3> w = scaled_w(t, w_scale_);
+        const auto [low, high] = std::minmax({w[0], w[1], w[2]});
+        return offset_.enabled || low < value_to_code_.least || high > value_to_code_.greatest;
+    }
+    const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
+    return low < to_code_.least * z_units_ || high > to_code_.greatest * z_units_;
+}
+
+// ZClip::per_fragment compares the chip's value with the range, where the chip makes one (depth.md 5.2): the w buffer's, else that of
+// window z, whichever path is stored. Elsewhere shader_z [A]: what rounds to n or f is inside.
+void FragmentValues::drop_outside_depth_range(const SetupTriangle& t, const TriangleLanes& lanes, int first,
+                                              FragmentBatch& batch, WeightLanes& weights) const noexcept {
+    Lanes<double> value;
+    const DepthPath path = depth_.path == DepthPath::w_buffer ? depth_.path : DepthPath::window_z;
+    const bool by_chip = z_units_ == code_units_ && depth_.format != DepthFormat::d32f && is_chip(path);
+    if (by_chip) fill_chip_values(path, t, lanes, value.data());
+    const auto begin = static_cast<std::size_t>(first);
+    auto kept = begin;
+    for (auto i = kept; i < static_cast<std::size_t>(batch.count); ++i) {
+        const double v = by_chip ? value[i - begin] : double{batch.shader_z[i]};
+        const DepthConversion<double>& range = value_to_code_;
+        const double least = by_chip ? range.least : double{to_code_.least};
+        const double greatest = by_chip ? range.greatest : double{to_code_.greatest};
+        if (!(v >= least && v <= greatest)) continue;
+        move_lane(i, kept++, batch, weights);
+    }
+    batch.count = static_cast<int>(kept);
+}
+
+}  // namespace strata::rasterizer

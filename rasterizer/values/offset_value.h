@@ -1,0 +1,37 @@
+// rasterizer/values/offset_value.h - polygon offset as NV2A (GeForce3 class) adds it to a fragment's value.
+//
+// Rule     v = cut(value, 24); with offset v = cut(v + o, 24), o = cut(cut(slope * factor, 24) + bias, 24), slope cut to 24
+//          bits, everything toward zero and in the buffer's own units. The slope of a z buffer is the larger of |dz/dx|
+//          and |dz/dy| of the triangle, per pixel.
+// Source   coverage.md 9.3, chip-float-depth.md 2.
+// Tests    tests/rasterizer/values/w_buffer_test.cpp
+#pragma once
+#include "rasterizer/base/two_terms.h"
+#include "rasterizer/rules/raster_state.h"
+#include "rasterizer/values/cut_weight.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+// high + low cut toward zero to 24 bits; |low| is at most half a unit in the last place of high.
+[[nodiscard]] constexpr double cut_sum_24(TwoTerms s) noexcept {
+    const double cut = cut_bits(s.high, 24);
+    const bool is_below = cut == s.high && s.low != 0.0 && (s.low < 0.0) != (s.high < 0.0);
+    // The magnitude is a hair less than `high`, which has 24 bits: the one before it.
+    return is_below ? cut_bits(std::bit_cast<double>(std::bit_cast<std::uint64_t>(cut) - 1), 24) : cut;
+}
+
+// o of a triangle whose value has that slope.
+[[nodiscard]] constexpr double chip_offset(double slope, const PolygonOffset& offset) noexcept {
+    if (!offset.enabled) return 0.0;
+    const double sloped = offset.factor == 0.0f ? 0.0 : cut_bits(cut_bits(slope, 24) * offset.factor, 24);
+    return cut_sum_24(two_sum(sloped, double{offset.units}));
+}
+
+[[nodiscard]] constexpr double offset_value(TwoTerms value, double offset) noexcept {
+    const double v = cut_sum_24(value);
+    return offset == 0.0 ? v : cut_sum_24(two_sum(v, offset));
+}
+
+}  // namespace strict
+}  // namespace strata::rasterizer

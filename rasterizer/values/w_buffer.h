@@ -1,0 +1,55 @@
+// rasterizer/values/w_buffer.h - the depth of NV2A's w buffer: w itself, interpolated by perspective weights.
+//
+// Rule     w = w1 + b0 (w0 - w1) + b2 (w2 - w1) with the weights of perspective_weights.h; each product cut toward zero to
+//          2^(ex - 28), ex the largest exponent of w1 and the products; the sum cut to 24 bits, offset added
+//          (offset_value.h). w_i are binary32, times the pass's scale rounded once. The slope of the offset is |w(P) - w(Q)|
+//          of two neighbouring pixels along the steeper axis, one number a triangle (WSlope).
+// Source   depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the place of P and Q are open there.
+// Numbers  Differences and products in binary64: exact but for the remainder's product, which is rounded there.
+// Tests    tests/rasterizer/values/w_buffer_test.cpp
+#pragma once
+#include <algorithm>
+
+#include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/offset_value.h"
+#include "rasterizer/values/perspective_weights.h"
+
+namespace strata::rasterizer {
+inline namespace strict {
+
+// The corners' w in the buffer's units.
+[[nodiscard]] constexpr std::array<float, 3> scaled_w(const SetupTriangle& t, float scale) noexcept {
+    return {t.w[0] * scale, t.w[1] * scale, t.w[2] * scale};
+}
+
+class WBuffer {
+  public:
+    constexpr WBuffer(const std::array<float, 3>& w, const DepthHypothesis& hypothesis, double offset = 0.0) noexcept
+        : weights_{w, hypothesis},
+          base_{w[1]},
+          first_{double{w[0]} - double{w[1]}},
+          last_{double{w[2]} - double{w[1]}},
+          offset_{offset},
+          sum_bits_{hypothesis.sum_bits} {}
+    // 24 significant bits, with offset, not clamped.
+    [[nodiscard]] constexpr double value(const EdgeValues& e) const noexcept {
+        const std::array<double, 3> b = weights_.at(e);
+        const double p0 = b[0] * first_, p2 = b[2] * last_;
+        const int unit = std::max({exponent_of(base_), exponent_of(p0), exponent_of(p2)}) - (sum_bits_ - 1);
+        const double units = power_of_two(-unit);
+        const auto cut = [units](double p) { return static_cast<std::int64_t>(p * units); };
+        return offset_value(two_sum(base_, static_cast<double>(cut(p0) + cut(p2)) * power_of_two(unit)), offset_);
+    }
+
+  private:
+    PerspectiveWeights weights_;
+    double base_, first_, last_, offset_;
+    int sum_bits_;
+};
+
+// |w(P) - w(Q)| of a triangle that is drawn within `clip`; 0 if it covers nothing of it.
+[[nodiscard]] double w_slope(const SetupTriangle& t, const std::array<float, 3>& w, const Rect& clip,
+                             const RasterRules& rules) noexcept;
+
+}  // namespace strict
+}  // namespace strata::rasterizer

@@ -1,0 +1,196 @@
+// Suite W_buffering: <Z|W>Buf<16|24><D|F>_<shape>[-left-top]_V<program>_ZB<bias>_ZS<slope>[_ZB]: depth formats, polygon
+// offset and the w buffer over wide shapes whose corners lie far outside of the window. chip-float-depth.md 9.1.
+#include <vector>
+
+#include "rasterizer/rules/depth_code.h"
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+namespace {
+
+using pipeline::DepthFormat;
+using rasterizer::DepthPath;
+
+// The settings that a capture's name spells.
+struct BufferSetting {
+    bool is_w = false, is_float = false, is_16 = false, by_program = false, has_bias = false, has_slope = false,
+         shows_depth = false;
+    std::string_view shape;
+    int left = 150, top = 0;  // of the window clip
+
+    [[nodiscard]] DepthFormat format() const {
+        if (is_16) return is_float ? DepthFormat::d16f : DepthFormat::d16;
+        return is_float ? DepthFormat::d24f : DepthFormat::d24;
+    }
+};
+
+// A digit 0 or 1 behind `key`.
+std::optional<bool> take_bit(std::string_view& name, std::string_view key) {
+    if (!take(name, key) || name.empty() || (name[0] != '0' && name[0] != '1')) return std::nullopt;
+    const bool bit = name[0] == '1';
+    name.remove_prefix(1);
+    return bit;
+}
+
+// Three decimal digits behind a dash, as ClipF and ClipW have them.
+std::optional<int> take_three_digits(std::string_view& name) {
+    if (!take(name, "-") || name.size() < 3) return std::nullopt;
+    int value = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (name[i] < '0' || name[i] > '9') return std::nullopt;
+        value = 10 * value + (name[i] - '0');
+    }
+    name.remove_prefix(3);
+    return value;
+}
+
+std::optional<BufferSetting> parse_buffer_setting(std::string_view name) {
+    BufferSetting s;
+    s.is_w = name.starts_with("W");
+    if (!take(name, "WBuf") && !take(name, "ZBuf")) return std::nullopt;
+    s.is_16 = name.starts_with("16");
+    if (!take(name, "16") && !take(name, "24")) return std::nullopt;
+    s.is_float = name.starts_with("F");
+    if (!take(name, "D_") && !take(name, "F_")) return std::nullopt;
+    s.shape = name.substr(0, name.find_first_of("-_"));
+    name.remove_prefix(s.shape.size());
+    if (name.starts_with("-")) {
+        const auto left = take_three_digits(name), top = take_three_digits(name);
+        if (!left || !top) return std::nullopt;
+        s.left = *left;
+        s.top = *top;
+    }
+    const auto program = take_bit(name, "_V"), bias = take_bit(name, "_ZB"), slope = take_bit(name, "_ZS");
+    if (!program || !bias || !slope) return std::nullopt;
+    s.by_program = *program;
+    s.has_bias = *bias;
+    s.has_slope = *slope;
+    s.shows_depth = take(name, "_ZB");
+    return name.empty() ? std::optional<BufferSetting>{s} : std::nullopt;
+}
+
+// Window x, y, z and w, as the pass-through program leaves them.
+struct WindowPoint {
+    float x, y, z, w;
+};
+
+// The two depths of the wide shapes.
+constexpr WindowPoint far_at(float x, float y) { return {x, y, 16809768.0f, 325.8057861328125f}; }
+constexpr WindowPoint near_at(float x, float y) { return {x, y, 16572698.0f, 58.379993438720703f}; }
+
+void add(TriangleSoup& soup, const std::array<WindowPoint, 3>& p) {
+    const auto vertex = [](const WindowPoint& q) { return at(q.x, q.y, q.z, {1, 1, 1, 1}, q.w); };
+    add_triangle(soup, vertex(p[0]), vertex(p[1]), vertex(p[2]));
+}
+void add(TriangleSoup& soup, const std::array<WindowPoint, 4>& p) {
+    add(soup, std::array{p[0], p[1], p[2]});
+    add(soup, std::array{p[0], p[2], p[3]});
+}
+
+// 24 slivers each, side by side or one below the other, from 325 down to 58; z and w are the same number.
+void add_slivers(TriangleSoup& soup, bool horizontal) {
+    for (int i = 0; i < 24; ++i) {
+        const auto n = static_cast<float>(i);
+        if (horizontal) {
+            const float x = 160 + 20 * n + 0.5f, y = n + 0.5f;
+            add(soup, std::array<WindowPoint, 3>{{{x, y, 325, 325}, {x + 10, y, 325, 325}, {x, y + 199.5f, 58, 58}}});
+        } else {
+            const float x = 160 + n + 0.5f, y = 20 * n + 0.5f;
+            add(soup, std::array<WindowPoint, 3>{{{x, y, 325, 325}, {x + 199.5f, y, 58, 58}, {x, y + 10, 325, 325}}});
+        }
+    }
+}
+
+constexpr float large = 16777046.0f;
+
+// A shape of the table, or nothing.
+std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
+    TriangleSoup soup;
+    const bool clipped_floor = s.shape == "ClipF", clipped_wall = s.shape == "ClipW";
+    if (s.shape == "FloorQuad" || clipped_floor) {
+        add(soup, std::array{far_at(53.1875f, -34.3125f), far_at(586.75f, -34.3125f), near_at(1808.6875f, 453),
+                             near_at(-1168.6875f, 453)});
+    } else if (s.shape == "RoofQuad") {
+        add(soup, std::array{near_at(-1168.6875f, 0), near_at(1808.6875f, 0), far_at(586.75f, 487.3125f),
+                             far_at(53.1875f, 487.3125f)});
+    } else if (s.shape == "WallQuad" || clipped_wall) {
+        add(soup, std::array{far_at(637.3125f, -26.8125f), far_at(637.3125f, 506.75f), near_at(150, 1728.6875f),
+                             near_at(150, -1248.6875f)});
+    } else if (s.shape == "LargeZ") {
+        add(soup, std::array<WindowPoint, 4>{{{0, 0, large, large},
+                                              {640, 0, large, large},
+                                              {640, 480, large + 1, large + 1},
+                                              {0, 480, large + 1, large + 1}}});
+    } else if (s.shape == "TriH" || s.shape == "TriV") {
+        add_slivers(soup, s.shape == "TriH");
+    } else if (s.shape == "Riddick" && s.is_w) {
+        add(soup, std::array<WindowPoint, 3>{{{-12630.8125f, 21456.1875f, 0, 2026.6815f},
+                                              {270.4375f, 266.5f, 0, 668074.8125f},
+                                              {317.25f, 262.375f, 0, 714052.1875f}}});
+    } else if ((s.shape == "Trunc0" || s.shape == "TruncNeg") && !s.is_w) {
+        // Just inside of the step of 1/16 pixel above the window, and on it.
+        const float y = s.shape == "Trunc0" ? -0.0625f + 0.001f : -0.0625f;
+        add(soup, std::array<WindowPoint, 4>{{{-1168.6875f, y, 0, 1},
+                                              {1808.6875f, y, 0, 1},
+                                              {586.75f, 487.3125f, 500000, 1},
+                                              {53.1875f, 487.3125f, 500000, 1}}});
+    } else {
+        return std::nullopt;
+    }
+    return soup;
+}
+
+const Drawing colors_of_slopes{std::nullopt, "colour pictures of this suite are not described"};
+const Drawing fixed_pipeline{std::nullopt, "positions of the fixed pipeline are not described"};
+const Drawing no_lines{std::nullopt, "lines are not modelled"};
+
+const Drawing unknown_quad{std::nullopt,
+                           "which quad gives the w slope of this shape is not known (chip-float-depth.md 4.5)"};
+
+// What is open: the reciprocal of one sum, the slope of slivers, weights where w differs, and the last bits of a w slope
+// (chip-float-depth.md 1.2, 2.3, 4.4, 4.5).
+Bound bound_of(const BufferSetting& s) {
+    const bool is_24_float = s.format() == DepthFormat::d24f;
+    if (s.is_w && s.has_slope) return {std::uint64_t{picture_width} * picture_height, 2};
+    if (s.is_w) return {is_24_float ? 1500u : 220u, 1};
+    if (s.shape == "TriH" && s.has_slope) return {is_24_float ? 1100u : 168u, 1};
+    return s.shape == "TruncNeg" ? Bound{4, 1} : Bound{};
+}
+
+}  // namespace
+
+Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& profile) {
+    const auto s = parse_buffer_setting(name);
+    if (!s) return unknown_name;
+    if (s->shape == "LineStrip") return no_lines;
+    auto soup = shape_of(*s);
+    if (!soup) return unknown_name;
+    if (!s->shows_depth) return colors_of_slopes;
+    if (!s->by_program) return fixed_pipeline;
+    const bool is_sliver = s->shape == "TriH" || s->shape == "TriV" || s->shape == "ClipF";
+    if (s->is_w && s->has_slope && is_sliver) return unknown_quad;
+
+    pipeline::Surface surface{profile, {.depth = s->format()}};
+    surface.clear_depth(s->is_16 ? 0xffff : 0xffffff);
+    pipeline::DrawState state{
+        .depth = {.enabled = true, .func = pipeline::CompareFunc::lequal, .write = true},
+        .window_clip = rasterizer::Rect{s->left, s->top, picture_width, picture_height},
+        .depth_clamp = true,
+        .polygon_offset = {.enabled = s->has_bias || s->has_slope,
+                           .factor = !s->has_slope ? 0.0f
+                                     : s->is_w     ? 65536.0f
+                                                   : 16.0f,
+                           .units = s->has_bias ? 16.0f : 0.0f},
+    };
+    if (s->is_w) state.depth_path = DepthPath::w_buffer;
+    surface.draw(state, std::move(*soup));
+    // The stencil beside the depth is cleared to 0.
+    return {
+        Picture{
+            .reading = s->is_16 ? Reading::depth16 : Reading::depth24, .image = surface.depth(), .bound = bound_of(*s)},
+        {}};
+}
+
+}  // namespace strata::hardware_check
