@@ -45,6 +45,19 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
     return *prepared;
 }
 
+rasterizer::TriangleSoup PreparedLists::opaque_soup() const {
+    return transform(s_.list, s_.view, prepare_options(Selection::opaque));
+}
+
+rasterizer::TriangleSoup PreparedLists::transparent_soup() const {
+    return transform(s_.list, s_.view, prepare_options(transparent_selection()));
+}
+
+std::vector<std::uint32_t> PreparedLists::submission(ListOrder order) const {
+    const Ordering in_order = ordering(order);
+    return in_order ? in_order(transparent_soup()).triangles : std::vector<std::uint32_t>{};
+}
+
 // Binning is apart from preparing: a list that is kept may be binned again for another tile size.
 void PreparedLists::bin(int tile_size_px) {
     const Stopwatch watch{seconds_};
@@ -123,19 +136,27 @@ PartSort PreparedLists::parts_of(const rasterizer::TriangleSoup& soup, ListOrder
 
 Ordering PreparedLists::ordering(ListOrder order) const {
     const Sort& sort = s_.options.sort;
+    // A reversed depth range turns z round a second time.
+    const bool is_reversed = s_.raster.depth_order == rasterizer::DepthOrder::greater;
+    const NearerZ nearer =
+        is_reversed != (s_.raster.depth_near > s_.raster.depth_far) ? NearerZ::greater : NearerZ::less;
     switch (order) {
         // No ordering at all keeps the list as the scene has it, which spares the walk over the centroids.
         case ListOrder::given:
             if (sort.rule == SortRule::none) return {};
-            return [&sort](const auto& soup) { return SubmissionOrder{submission_order(soup, sort), {}}; };
+            return [&sort, nearer](const auto& soup) {
+                return SubmissionOrder{submission_order(soup, sort, nearer), {}};
+            };
         case ListOrder::back_to_front:
-            return [](const auto& soup) {
-                return SubmissionOrder{submission_order(soup, {.rule = SortRule::reverse}), {}};
+            return [nearer](const auto& soup) {
+                return SubmissionOrder{submission_order(soup, {.rule = SortRule::reverse}, nearer), {}};
             };
         case ListOrder::sets:
         case ListOrder::objects: break;
     }
-    return [this, order, &sort](const auto& soup) { return submission_order(soup, sort, parts_of(soup, order)); };
+    return [this, order, &sort, nearer](const auto& soup) {
+        return submission_order(soup, sort, parts_of(soup, order), nearer);
+    };
 }
 
 }  // namespace strata::peeling

@@ -36,6 +36,11 @@ class PreparedLists {
     void bin(int tile_size_px);
     [[nodiscard]] const pipeline::PreparedDraw* opaque() const noexcept { return opaque_ ? &*opaque_ : nullptr; }
     [[nodiscard]] const pipeline::PreparedDraw* second() const noexcept { return second_ ? &*second_ : nullptr; }
+    // What they are set up from, for whoever wants the vertices; and the numbers of the transparent soup's triangles in the
+    // order in which they are submitted, empty if as listed.
+    [[nodiscard]] rasterizer::TriangleSoup opaque_soup() const;
+    [[nodiscard]] rasterizer::TriangleSoup transparent_soup() const;
+    [[nodiscard]] std::vector<std::uint32_t> submission(ListOrder order) const;
     [[nodiscard]] double seconds() const noexcept { return seconds_; }
     [[nodiscard]] const Settings& settings() const noexcept { return s_; }
 

@@ -15,6 +15,7 @@
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/parallel.h"
 #include "rasterizer/base/require.h"
+#include "rasterizer/rules/depth_key.h"
 
 namespace strata::peeling {
 
@@ -92,6 +93,15 @@ bool needs(const Algorithm& algorithm, Feature feature) {
     return std::find(algorithm.features.begin(), algorithm.features.end(), feature) != algorithm.features.end();
 }
 
+void turn_keys_round(FrameFragments& fragments) {
+    for (CapturedFragment& fragment : fragments.all) {
+        fragment.shader_z = rasterizer::depth_key(fragment.shader_z);
+        fragment.code = rasterizer::depth_key(fragment.code);
+        fragment.exact_code = rasterizer::depth_key(fragment.exact_code);
+    }
+    for (std::uint32_t& code : fragments.opaque) code = rasterizer::depth_key(code);
+}
+
 bool flushes_depths(const DeviceProfile& profile, const rasterizer::RasterState& raster) noexcept {
     return profile.denormals == DenormalRule::flush && std::max(raster.depth_near, raster.depth_far) < 0x1p-126f;
 }
@@ -135,6 +145,11 @@ void add_audit_diagnostics(const Algorithm& algorithm, const RenderOptions& opti
 }
 
 }  // namespace
+
+void turn_keys_round(Image& image) {
+    if (!is_depth(image.format)) return;
+    for (std::uint32_t& code : image.codes) code = rasterizer::depth_key(code);
+}
 
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {
     constexpr std::int64_t large = 128, many = 32;
@@ -263,8 +278,7 @@ struct Renderer::State {
         if (auto lacking = check_size(profile, options.width, options.height)) return lacking;
         if (auto lacking = check_depth(profile, depth_of(algorithm))) return lacking;
         if (auto lacking = check(profile, color_format)) return lacking;
-        if (options.raster.depth_near > options.raster.depth_far)
-            return Refusal{"peeling over a reversed depth range yet", "", "use a depth range with near below far"};
+        if (auto lacking = check_order()) return lacking;
         if (options.raster.depth_clamp)
             if (auto lacking = check(profile, Feature::depth_clamp)) return lacking;
         if (options.keep_layers && !algorithm.makes_layers)
@@ -274,6 +288,36 @@ struct Renderer::State {
             return Refusal{"choice of the depth that " + algorithm.name + " compares", "",
                            "use depth_units, front_to_back, dual or dual_independent"};
         return peeling::refusal(algorithm, profile);
+    }
+
+    // Keys of reversed depth (rasterizer/rules/depth_key.h) are those of float codes; a light's map would need both orders.
+    [[nodiscard]] Verdict check_order() const {
+        if (!is_reversed()) {
+            if (options.raster.depth_near > options.raster.depth_far)
+                return Refusal{"peeling with LESS over a reversed depth range", "",
+                               "use a depth range with near below far, or --depth-order greater"};
+            return std::nullopt;
+        }
+        if (depth.format != DepthFormat::d32f)
+            return Refusal{"peeling with GREATER over fixed-point depth", "",
+                           "use --depth d32f, where reversed depth gains anything"};
+        if (options.compare_epsilon.absolute != 0 || !options.quantize_reference)
+            return Refusal{"reversed depth together with depths that are compared between codes", "",
+                           "use --compare-epsilon in ulp"};
+        if (lists.settings().list.light)
+            return Refusal{"reversed depth together with a light that casts shadows", "", "use --depth-order less"};
+        return std::nullopt;
+    }
+
+    [[nodiscard]] bool is_reversed() const noexcept {
+        return options.raster.depth_order == rasterizer::DepthOrder::greater;
+    }
+
+    // Keys become depths where they leave the machine.
+    void show_depths(FrameResult& result) const {
+        if (!is_reversed()) return;
+        for (Image* image : {&result.color, &result.depth}) turn_keys_round(*image);
+        for (KeptLayer& layer : result.layers) turn_keys_round(layer.depth);
     }
 
     // By the options alone: every pass of a peel sees the same fragments and compares what it stores.
@@ -322,6 +366,7 @@ struct Renderer::State {
             result.outcome = Outcome::refused;
             return result;
         }
+        show_depths(result.frame);
         note_machine(algorithm, result.frame.diagnostics);
         if (options.audit && traces == nullptr)
             add_audit_diagnostics(algorithm, options, {was_invariant, flushes_depths(profile, options.raster)},
@@ -410,6 +455,7 @@ RenderResult Renderer::depth_pass(const std::function<void(double)>& progress, c
     const Stopwatch watch{result.seconds.passes};
     result.frame = run(frame, draw_depth, state_->options.execution, state_->options.threads, progress, instruments);
     std::swap(result.frame.depth, result.frame.color);
+    state_->show_depths(result.frame);
     result.seconds.geometry = state_->lists.seconds();
     return result;
 }
@@ -433,6 +479,7 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
         region.publish(region.opaque_color());
     };
     static_cast<void>(run(frame, capture, Execution::literal, 1));
+    if (state_->is_reversed()) turn_keys_round(found);
     return found;
 }
 

@@ -19,13 +19,15 @@ using Keys = std::vector<double>;  // by the triangle's number
 
 // The sum in place of the mean: a division by 3 would only round. Corner by corner in the order of the list, in
 // binary64.
-Keys centroid_keys(const TriangleSoup& soup) {
+Keys centroid_keys(const TriangleSoup& soup, NearerZ nearer) {
+    const double sign = nearer == NearerZ::less ? 1.0 : -1.0;
     Keys keys;
     keys.reserve(soup.indices.size() / 3);
     for (std::size_t i = 0; i + 2 < soup.indices.size(); i += 3) {
         const auto z = [&](std::size_t corner) { return double{soup.vertices[soup.indices[i + corner]].z}; };
         const double sum = (z(0) + z(1)) + z(2);
-        keys.push_back(sum == sum ? sum : 0);  // a NaN is dropped at set-up; here it must only not upset the order
+        keys.push_back(sum == sum ? sign * sum
+                                  : 0);  // a NaN is dropped at set-up; here it must only not upset the order
     }
     return keys;
 }
@@ -94,15 +96,16 @@ void sort_numbers(Numbers& numbers, const Keys& keys, const Sort& sort) {
 
 }  // namespace
 
-std::vector<std::uint32_t> submission_order(const TriangleSoup& soup, const Sort& sort) {
+std::vector<std::uint32_t> submission_order(const TriangleSoup& soup, const Sort& sort, NearerZ nearer) {
     Numbers numbers(soup.indices.size() / 3);
     std::iota(numbers.begin(), numbers.end(), 0u);
-    sort_numbers(numbers, centroid_keys(soup), sort);
+    sort_numbers(numbers, centroid_keys(soup, nearer), sort);
     return numbers;
 }
 
-pipeline::SubmissionOrder submission_order(const TriangleSoup& soup, const Sort& sort, const PartSort& parts) {
-    const Keys keys = centroid_keys(soup);
+pipeline::SubmissionOrder submission_order(const TriangleSoup& soup, const Sort& sort, const PartSort& parts,
+                                           NearerZ nearer) {
+    const Keys keys = centroid_keys(soup, nearer);
     std::vector<Numbers> members(parts.sorts.size());
     // A run holds whole triangles of one object: first_index and index_count are multiples of 3.
     for (std::size_t run = 0; run < soup.runs.size(); ++run) {

@@ -125,6 +125,20 @@ pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double e
     return look_at(orbit_camera(bounds, azimuth_degrees, elevation_degrees), aspect);
 }
 
+pipeline::View as_seen_under(const pipeline::View& view, const ClipConvention& from, const ClipConvention& to) {
+    using rasterizer::ClipDepth;
+    const FloatEnvironment environment;
+    pipeline::View seen = view;
+    for (int column = 0; column < 4; ++column) {
+        const double w = view.projection[column][3];
+        double& z = seen.projection[column][2];
+        const bool is_zero_to_one = to.clip_depth == ClipDepth::zero_to_one;
+        if (from.clip_depth != to.clip_depth) z = is_zero_to_one ? (z + w) / 2 : z * 2 - w;
+        if (from.depth_order != to.depth_order) z = is_zero_to_one ? w - z : -z;
+    }
+    return seen;
+}
+
 pipeline::View camera_view(const SceneCamera& camera, double image_aspect) {
     const FloatEnvironment environment;
     // A camera of the file that has an aspect of its own keeps it: a picture of another shape is then

@@ -1,12 +1,14 @@
 // scenes/camera.h - views: an orbit round a scene's bounds, a camera file, a camera of a glTF scene.
 //
-// Rule     gluLookAt and gluPerspective in binary64 with our own sin, cos; matrices column-major, clip depth -1 to 1.
+// Rule     gluLookAt and gluPerspective in binary64 with our own sin, cos; matrices column-major, clip depth -1 to 1
+//          unless as_seen_under converts it.
 // Source   scenes.md 7; GLU 1.3 sections 4.1 and 4.2; glTF 2.0 section 3.10.3 (also infinite far).
 // Tests    tests/scenes/camera_test.cpp against wide arithmetic, camera_file_test.cpp
 #pragma once
 #include <string>
 
 #include "rasterizer/base/vector.h"
+#include "rasterizer/rules/raster_state.h"
 #include "scenes/scene.h"
 
 namespace strata::scenes {
@@ -24,6 +26,17 @@ struct LookAt {  // what a camera file of the first form says
 [[nodiscard]] LookAt orbit_camera(const Bounds& bounds, double azimuth_degrees, double elevation_degrees);
 [[nodiscard]] pipeline::View orbit_view(const Bounds& bounds, double azimuth_degrees, double elevation_degrees,
                                         double aspect);
+
+// What clip-space z means: where the volume ends, and whether near is the greater depth (0 <= z <= w then has near at w).
+struct ClipConvention {
+    rasterizer::ClipDepth clip_depth = rasterizer::ClipDepth::minus_one_to_one;
+    rasterizer::DepthOrder depth_order = rasterizer::DepthOrder::less;
+    friend bool operator==(const ClipConvention&, const ClipConvention&) = default;
+};
+// The same volume under another convention: z and w are the third and fourth rows of the projection, in binary64. To 0 to 1:
+// z' = (z + w) / 2; from it: z' = 2 z - w; near exchanged with far: z' = w - z, or -z where z runs from -w.
+[[nodiscard]] pipeline::View as_seen_under(const pipeline::View& view, const ClipConvention& from,
+                                           const ClipConvention& to);
 
 // The camera's own aspect if it has one, else the image's.
 [[nodiscard]] pipeline::View camera_view(const SceneCamera& camera, double image_aspect);

@@ -88,10 +88,11 @@ rasterizer::VertexExtras vertex_extras(const DrawList& list, const View& view, c
 }
 
 // Depths between which all fragments of a part lie (vertices.md 6).
-// With depth clamp a fragment may have any depth of the range.
+// With depth clamp a fragment may have any depth of the range, and of keys depth_bound says nothing.
 DrawPart part_of(const rasterizer::Geometry& geometry, const PrimitiveRange& primitives) {
     DrawPart part{primitives, 1, 0};
-    if (geometry.state.depth_clamp) return {primitives, 0, 1};
+    const bool is_reversed = geometry.state.depth_order == rasterizer::DepthOrder::greater;
+    if (geometry.state.depth_clamp || is_reversed) return {primitives, 0, 1};
     const double units = z_units(geometry.state, geometry.rules);
     const auto before = [](const rasterizer::TriangleRecord& t, std::uint32_t primitive) {
         return t.primitive < primitive;

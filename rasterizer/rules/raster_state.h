@@ -25,6 +25,9 @@ struct Rect {
 
 // The view volume in z: -w <= z <= w (OpenGL) or 0 <= z <= w (Direct3D).
 enum class ClipDepth : std::uint8_t { minus_one_to_one, zero_to_one };
+// The depth test that keeps the nearer of two fragments. `greater`: reversed depth, nearer depths are greater; passes then compare
+// keys (depth_key.h).
+enum class DepthOrder : std::uint8_t { less, greater };
 // Where clip-space +y points on the surface. `up`: OpenGL's default framebuffer, row 0 of memory is the top of the
 // window.
 enum class YDirection : std::uint8_t { up, down };
@@ -51,6 +54,7 @@ struct RasterState {
     // glDepthRange, clamped to [0,1] where it is used; near > far is a reversed range.
     float depth_near = 0.0f, depth_far = 1.0f;
     ClipDepth clip_depth = ClipDepth::minus_one_to_one;
+    DepthOrder depth_order = DepthOrder::less;
     YDirection y_direction = YDirection::up;
     std::optional<Rect> scissor;
     // ARB_depth_clamp: nothing is clipped at near and far; depth is clamped just before the test.

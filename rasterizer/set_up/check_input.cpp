@@ -61,6 +61,7 @@ void check(const RasterState& state) {
         for (const float value : {plane.a, plane.b, plane.c, plane.d}) its.finite({"clip_planes", i}, value);
     }
     its.listed("clip_depth", state.clip_depth);
+    its.listed("depth_order", state.depth_order);
     its.listed("y_direction", state.y_direction);
     its.listed("cull", state.cull);
     its.listed("front_face", state.front_face);

@@ -46,6 +46,7 @@ namespace {
 }  // namespace
 
 double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> triangles) {
+    if (geometry.state.depth_order == DepthOrder::greater) return std::numeric_limits<double>::infinity();
     const auto larger = [](double a, double b) {
         return a > b ? a : b;
     };  // without a branch, as std::max of a list is not

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "rasterizer/base/nv20_arithmetic.h"
+#include "rasterizer/rules/depth_key.h"
 #include "rasterizer/set_up/window.h"
 #include "rasterizer/values/color_weights.h"
 #include "rasterizer/values/cut_coordinates.h"
@@ -94,6 +95,8 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
                      (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
+    is_reversed_ = geometry.state.depth_order == DepthOrder::greater;
+    assert((!is_reversed_ || is_float) && "reversed depth has keys for codes of D32F alone");
     is_plain_ = kernels_.depth != nullptr && rules_.plane_rule == PlaneRule::exact && !clips_fragments_ &&
                 !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || (depth.path == DepthPath::float32 && has_vector_codes(to_code_)));
@@ -362,10 +365,24 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     return fallbacks;
 }
 
+// Arrays that nobody asked for hold what they held before.
+void FragmentValues::turn_into_keys(int first, FragmentBatch& batch) const noexcept {
+    for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(batch.count); ++i) {
+        if (needs_.shader_z) batch.shader_z[i] = depth_key(batch.shader_z[i]);
+        if (needs_.code) batch.code[i] = depth_key(batch.code[i]);
+        if (needs_.reference) {
+            batch.reference_code[i] = depth_key(batch.reference_code[i]);
+            batch.reference_z[i] = double{depth_key(static_cast<float>(batch.reference_z[i]))};
+        }
+        if (needs_.exact_code) batch.exact_code[i] = depth_key(batch.exact_code[i]);
+    }
+}
+
 int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const {
     int fallbacks = 0;
     if (!fill_depth(triangle, first, batch, weights))
         fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
+    if (is_reversed_) turn_into_keys(first, batch);
     if (needs_attributes_ && rules_.plane_rule != PlaneRule::exact)
         fill_float_attributes(triangle, first, batch);
     else if (needs_attributes_)

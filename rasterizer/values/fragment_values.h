@@ -89,6 +89,9 @@ class FragmentValues {
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;
 
+    // Turns the depths of fragments [first, batch.count) into keys (rules/depth_key.h).
+    void turn_into_keys(int first, FragmentBatch& batch) const noexcept;
+
     [[nodiscard]] int fill_units(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                  const WeightLanes& weights) const;  // unit_values.cpp
 
@@ -102,7 +105,8 @@ class FragmentValues {
     DepthConversion<float> to_code_;         // of shader_z
     DepthConversion<double> value_to_code_;  // of values in the buffer's own units
     bool clips_fragments_;
-    bool rejects_;  // depth_replace
+    bool rejects_;      // depth_replace
+    bool is_reversed_;  // DepthOrder::greater
     bool needs_float_z_, needs_attributes_;
     // The pass asks for no more than shader_z and its code by DepthPath::float32: one kernel does it all.
     bool is_plain_;

@@ -12,9 +12,9 @@ bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const R
     // conversion, and row tables hold max_row_pixels columns.
     return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && depth.format != DepthFormat::d16f &&
            (depth.format == DepthFormat::d32f || geometry.rules.depth_rounding != DepthRounding::product_even) &&
-           !clips_fragments && geometry.rules.plane_rule == PlaneRule::exact &&
-           geometry.rules.coverage == CoverageRule::snapped_edges && geometry.rules.subpixel_bits <= 8 &&
-           region.width() <= max_row_pixels;
+           !clips_fragments && geometry.state.depth_order == DepthOrder::less &&
+           geometry.rules.plane_rule == PlaneRule::exact && geometry.rules.coverage == CoverageRule::snapped_edges &&
+           geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
 }
 
 void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,

@@ -6,6 +6,8 @@
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/nearest_name.h"
+#include "scenes/packs/pack_scene.h"
+#include "scenes/packs/plain_triangles.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
 #include "scenes/procedural/parameters.h"
 #include "scenes/procedural/plane_stack.h"
@@ -133,7 +135,11 @@ Scene load_scene(const std::string& spec, const SceneOptions& options) {
     // file.
     if (is_procedural(spec)) return make_procedural(spec, options);
     if (is_gltf_path(spec)) return load_gltf(spec, options);
-    throw InputError(spec, "scene", fmt::format("a .gltf or .glb file, or one of {}", fmt::join(names(), ", ")),
+    if (is_pack(spec)) return load_pack(spec, options);
+    if (is_plain_triangles(spec)) return load_plain_triangles(spec, options);
+    throw InputError(spec, "scene",
+                     fmt::format("a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of {}",
+                                 fmt::join(names(), ", ")),
                      quoted_with_suggestion(scene_name(spec), names()));
 }
 

@@ -17,7 +17,7 @@ FLOORS = {
     "rasterizer": ["base", "rules", "coverage", "set_up", "values", "walk"],
     "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
     "peeling": ["programs", "closed", "algorithms", "audit", "", "truth"],
-    "scenes": ["numbers", "", "gltf/document", "images", "files", "procedural", "gltf"],
+    "scenes": ["numbers", "", "gltf/document", "images", "files", "packs", "procedural", "gltf"],
     "tools": ["hardware_check", "oracle", "library", "python", "recipes", "strata", "bench"],
 }
 # Which floors a floor stands on. scenes stands beside peeling.

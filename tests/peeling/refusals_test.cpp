@@ -200,7 +200,9 @@ TEST_CASE("a reversed depth range is refused by name, and depth clamping where t
     options.raster.depth_far = 0;
     for (const auto& algorithm : strata::peeling::algorithms())
         CHECK(sentence({"ideal", algorithm.name}, options) ==
-              "profile ideal has no peeling over a reversed depth range yet; use a depth range with near below far");
+              "profile ideal has no peeling with LESS over a reversed depth range; use a depth range with near below "
+              "far, or "
+              "--depth-order greater");
 }
 
 TEST_CASE("fragments of a refused run are refused with the same sentence") {

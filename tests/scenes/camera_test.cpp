@@ -125,3 +125,25 @@ TEST_CASE("a glTF camera projects as section 3.10.3 says: finite, infinite and o
     check_close(o * Point{2, -4, -1, 1}, {1, -1, -1, 1});
     check_close(o * Point{-2, 4, -3, 1}, {-1, 1, 1, 1});
 }
+
+TEST_CASE("a view under another convention sees the same volume: near and far come where the convention has them") {
+    using strata::rasterizer::ClipDepth;
+    using strata::rasterizer::DepthOrder;
+    const double n = 1.9, f = 4.2;
+    const pipeline::View view = look_at({.near = n, .far = f}, 1.5);
+    for (const ClipDepth from_clip : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one})
+        for (const DepthOrder from_order : {DepthOrder::less, DepthOrder::greater})
+            for (const ClipDepth clip : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one})
+                for (const DepthOrder order : {DepthOrder::less, DepthOrder::greater}) {
+                    const ClipConvention between{from_clip, from_order}, to{clip, order};
+                    const pipeline::View seen = as_seen_under(as_seen_under(view, {}, between), between, to);
+                    const double least = clip == ClipDepth::zero_to_one ? 0 : -1;
+                    for (const double z : {n, f}) {
+                        const bool is_near = z == n;
+                        const double expected = is_near == (order == DepthOrder::less) ? least : 1.0;
+                        check_close(seen.projection * Point{0.3, -0.2, -z, 1},
+                                    {view.projection[0][0] * 0.3, view.projection[1][1] * -0.2, expected * z, z});
+                    }
+                }
+    CHECK(as_seen_under(view, {}, {}).projection == view.projection);
+}

@@ -50,7 +50,8 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "softpipe, or a JSON file, found "
          "'geforce4' (did you mean 'geforce3'?)"},
         {{"render", "teapt"},
-         "strata: teapt: scene: expected a .gltf or .glb file, or one of teapot, volume-beam, random, planes, "
+         "strata: teapt: scene: expected a .gltf or .glb file, a pack's folder, triangles in .npy or .json, or one of "
+         "teapot, volume-beam, random, planes, "
          "shadow-demo, hard, found 'teapt' "
          "(did you mean 'teapot'?)"},
         {{"render", "teapot", "--depth", "d25"},

@@ -1,8 +1,6 @@
-// tools/oracle/numbers_file.cpp - the headers of .npy files, the names of raw layouts, and little-endian numbers.
+// tools/oracle/numbers_file.cpp - pictures in .npy files, the names of raw layouts, and little-endian numbers.
 //
-// Rule     .npy: the bytes 93 "NUMPY", version (1.0 has a 16-bit length, 2.0 and 3.0 a 32-bit one), then a Python dictionary with the keys
-//          descr, fortran_order and shape. One channel of f4 or u4 is a depth, one of u1 or u2 another target.
-// Source   NumPy Enhancement Proposal 1.
+// Rule     Of .npy files, one channel of f4 or u4 is a depth, one of u1 or u2 another target.
 #include "tools/oracle/numbers_file.h"
 
 #include <fmt/format.h>
@@ -11,7 +9,6 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/text_file.h"
-#include "scenes/gltf/document/place.h"
 
 namespace strata::oracle {
 
@@ -55,67 +52,36 @@ void take(std::string_view bytes, const std::string& path, bool bottom_up, Targe
                 little_endian(bytes.substr((y * row + i) * size, size));
 }
 
-// What stands behind 'key': up to one of `ends`.
-std::string entry(std::string_view header, std::string_view key, std::string_view ends) {
-    const std::size_t at = header.find(fmt::format("'{}':", key));
-    if (at == std::string_view::npos) return "";
-    const std::size_t first = header.find_first_not_of(' ', at + key.size() + 3);
-    if (first == std::string_view::npos) return "";
-    return std::string(header.substr(first, header.find_first_of(ends, first) - first));
-}
-
-// "(480, 640, 4" as numbers; empty for anything else.
-std::vector<int> sides(std::string_view text) {
-    std::vector<int> found;
-    if (!text.starts_with('(')) return found;
-    for (std::size_t at = 1; at < text.size();) {
-        if (text[at] == ' ' || text[at] == ',') {
-            ++at;
-            continue;
-        }
-        int side = 0;
-        const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), side);
-        if (error != std::errc{}) return {};
-        found.push_back(side);
-        at = static_cast<std::size_t>(end - text.data());
-    }
-    return found;
-}
-
-Code element(const std::string& path, const std::string& described) {
-    for (const auto& [text, code] :
-         {std::pair{"'|u1'", Code::unorm8}, std::pair{"'<u2'", Code::unorm16}, std::pair{"'<u4'", Code::integer},
-          std::pair{"'<f2'", Code::half}, std::pair{"'<f4'", Code::single}})
-        if (described == text) return code;
-    throw InputError(path, "descr", "elements |u1, <u2, <u4, <f2 or <f4", scenes::one_line(described));
-}
-
 }  // namespace
 
+Code code_of(scenes::Element element, const std::string& file) {
+    switch (element) {
+        case scenes::Element::u1: return Code::unorm8;
+        case scenes::Element::u2: return Code::unorm16;
+        case scenes::Element::u4: return Code::integer;
+        case scenes::Element::f2: return Code::half;
+        case scenes::Element::f4: return Code::single;
+        case scenes::Element::i4: break;
+    }
+    throw InputError(file, "descr", "elements |u1, <u2, <u4, <f2 or <f4", "<i4");
+}
+
 Target read_npy(const std::string& path) {
-    const std::string file = scenes::read_text_file(path, max_bytes);
-    const std::string_view bytes = file;
-    if (!bytes.starts_with("\x93NUMPY") || bytes.size() < 12) throw InputError(path, "file", "a .npy file", "another");
-    const std::size_t length_bytes = bytes[6] == 1 ? 2 : 4;
-    const std::size_t length = little_endian(bytes.substr(8, length_bytes)), begin = 8 + length_bytes;
-    if (length > bytes.size() - begin) throw InputError(path, "header", "a whole one", "an end within it");
-    const std::string_view header = bytes.substr(begin, length);
-    if (entry(header, "fortran_order", ",}") != "False")
-        throw InputError(path, "fortran_order", "False (numpy.ascontiguousarray makes it so)", "another order");
-    const std::vector<int> shape = sides(entry(header, "shape", ")"));
-    const auto fits = [](int side) { return side >= 1 && side <= max_side; };
+    const scenes::NumberArray array = scenes::read_npy(path);
+    const auto& shape = array.shape;
+    const auto fits = [](std::size_t side) { return side >= 1 && side <= max_side; };
     if ((shape.size() != 2 && shape.size() != 3) || !fits(shape[0]) || !fits(shape[1]) ||
         (shape.size() == 3 && (shape[2] < 1 || shape[2] > 4)))
         throw InputError(path, "shape", "(rows, columns) or (rows, columns, channels), at most 16384 and 4",
-                         scenes::one_line(entry(header, "shape", ")")) + ")");
-    Target target{.code = element(path, entry(header, "descr", ",}")),
-                  .width = shape[1],
-                  .height = shape[0],
-                  .channels = shape.size() == 3 ? shape[2] : 1};
+                         fmt::format("({})", fmt::join(shape, ", ")));
+    Target target{.code = code_of(array.element, path),
+                  .width = static_cast<int>(shape[1]),
+                  .height = static_cast<int>(shape[0]),
+                  .channels = shape.size() == 3 ? static_cast<int>(shape[2]) : 1};
     const bool is_wide = target.code == Code::single || target.code == Code::integer;
     target.meaning = target.channels > 1 ? Meaning::color : is_wide ? Meaning::depth : Meaning::other;
     target.name = target.channels > 1 ? "color" : is_wide ? "depth" : "value";
-    take(bytes.substr(begin + length), path, false, target);
+    take(array.bytes, path, false, target);
     return target;
 }
 

@@ -38,6 +38,9 @@ struct Target {
     }
 };
 
+// Of a target's codes.
+[[nodiscard]] Code code_of(pipeline::Format format);
+
 struct Picture {
     std::string file{};
     std::vector<Target> targets{};  // at least one

@@ -19,24 +19,7 @@ namespace {
 
 using scenes::StoredPart;
 
-Code code_of(pipeline::Format format) {
-    switch (pipeline::info(format).type) {
-        case pipeline::ChannelType::unorm8: return Code::unorm8;
-        case pipeline::ChannelType::half: return Code::half;
-        case pipeline::ChannelType::single: return Code::single;
-        case pipeline::ChannelType::stencil: return Code::integer;
-        case pipeline::ChannelType::depth: break;
-    }
-    switch (pipeline::depth_format(format)) {
-        case pipeline::DepthFormat::d16: return Code::unorm16;
-        case pipeline::DepthFormat::d24: return Code::unorm24;
-        case pipeline::DepthFormat::d16f: return Code::integer;
-        case pipeline::DepthFormat::d32f: break;
-    }
-    return Code::single;
-}
-
-Code code_of(scenes::StoredType type) noexcept {
+Code code_of_channel(scenes::StoredType type) noexcept {
     switch (type) {
         case scenes::StoredType::half: return Code::half;
         case scenes::StoredType::single: return Code::single;
@@ -61,7 +44,7 @@ Target of_channels(const StoredPart& part, const std::vector<std::string>& names
     const std::size_t stride = pixel_bytes(part.header);
     for (std::size_t c = 0; c < names.size(); ++c) {
         const scenes::ChannelPlace place = *scenes::find_channel(part.header, names[c]);
-        target.code = code_of(place.type);
+        target.code = code_of_channel(place.type);
         for (std::size_t i = 0; i < target.pixels(); ++i)
             std::memcpy(&target.codes[i * names.size() + c], &part.bytes[i * stride + place.offset],
                         size_of(place.type));
@@ -143,6 +126,23 @@ Target as_target(const pipeline::Image& image, std::string name) {
                   .channels = image.channels()};
     target.codes.assign(image.codes.begin(), image.codes.end());
     return target;
+}
+
+Code code_of(pipeline::Format format) {
+    switch (pipeline::info(format).type) {
+        case pipeline::ChannelType::unorm8: return Code::unorm8;
+        case pipeline::ChannelType::half: return Code::half;
+        case pipeline::ChannelType::single: return Code::single;
+        case pipeline::ChannelType::stencil: return Code::integer;
+        case pipeline::ChannelType::depth: break;
+    }
+    switch (pipeline::depth_format(format)) {
+        case pipeline::DepthFormat::d16: return Code::unorm16;
+        case pipeline::DepthFormat::d24: return Code::unorm24;
+        case pipeline::DepthFormat::d16f: return Code::integer;
+        case pipeline::DepthFormat::d32f: break;
+    }
+    return Code::single;
 }
 
 Picture read_picture(const std::string& path, const std::optional<RawLayout>& layout) {

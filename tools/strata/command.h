@@ -22,6 +22,7 @@ struct Command {
 [[nodiscard]] Command add_effects(CLI::App& root);
 [[nodiscard]] Command add_cost(CLI::App& root);
 [[nodiscard]] Command add_invariance(CLI::App& root);
+[[nodiscard]] Command add_golden(CLI::App& root);
 [[nodiscard]] Command add_hard_cases(CLI::App& root);
 [[nodiscard]] Command add_hardware_check(CLI::App& root);
 [[nodiscard]] Command add_reproduce(CLI::App& root);

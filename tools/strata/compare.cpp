@@ -1,11 +1,16 @@
 // tools/strata/compare.cpp - strata compare: how a candidate differs from a reference, by kinds of mistakes.
 #include "tools/oracle/compare.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 
+#include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
+#include "scenes/packs/pack_scene.h"
 #include "tools/oracle/drawings.h"
+#include "tools/oracle/pack/compare_packs.h"
 #include "tools/oracle/report.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
@@ -21,6 +26,7 @@ struct CompareOptions {
     std::string reference, candidate;
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
+    std::string algorithm;  // of packs; empty: all
     std::string heat, side, junit;
     bool json = false;
 };
@@ -29,11 +35,49 @@ void write_png(const std::string& path, const pipeline::Image& image) {
     if (!path.empty()) scenes::write_image(path, {.color = image});
 }
 
+// The algorithm that is asked for alone, or all.
+std::vector<oracle::PackPictures> chosen(std::vector<oracle::PackPictures> all, const std::string& algorithm) {
+    if (algorithm.empty()) return all;
+    std::vector<std::string> names;
+    for (const oracle::PackPictures& pictures : all) names.push_back(pictures.algorithm);
+    std::erase_if(all, [&](const oracle::PackPictures& pictures) { return pictures.algorithm != algorithm; });
+    if (all.empty())
+        throw CLI::ValidationError("--algorithm",
+                                   "expected " + one_of(names) + ", found " + found_but_near(algorithm, names));
+    return all;
+}
+
+// A pack and the folder of a port: the end and the passes of every algorithm that both have.
+int compare_folders(const CompareOptions& options) {
+    if (!options.heat.empty() || !options.side.empty() || !options.junit.empty())
+        throw CLI::ValidationError(
+            "--heat, --side and --junit",
+            "expected a picture as the candidate, found a folder; compare its picture.npy alone");
+    const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
+    const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
+    const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
+    if (found.empty()) throw InputError(options.candidate, "algorithms", "one that the pack has, too", "none");
+    print(options.json ? oracle::to_json(found) : oracle::to_text(found));
+    return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
+}
+
+// A pack stands for the picture of its only algorithm, or of the one that is asked for.
+oracle::Picture reference_of(const CompareOptions& options) {
+    if (!scenes::is_pack(options.reference)) return oracle::read_picture(options.reference, options.layout);
+    auto all = chosen(oracle::expected_pictures(options.reference), options.algorithm);
+    if (all.size() != 1)
+        throw CLI::ValidationError("--algorithm",
+                                   "expected one of the pack's, for a picture to compare with it, found none");
+    return std::move(all[0].picture);
+}
+
 // Files first: what stands on standard output has been written.
 int compare(const CompareOptions& options) {
     check_outputs(
         {{"--heat", options.heat, {".png"}}, {"--side", options.side, {".png"}}, {"--junit", options.junit, {".xml"}}});
-    const oracle::Picture reference = oracle::read_picture(options.reference, options.layout);
+    if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
+        return compare_folders(options);
+    const oracle::Picture reference = reference_of(options);
     const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
     const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances);
     write_png(options.heat, oracle::heat_map(found));
@@ -70,10 +114,12 @@ std::optional<oracle::Tolerances> to_tolerances(std::string_view text) {
 Command add_compare(CLI::App& root) {
     auto* app = root.add_subcommand("compare", "tell how a picture differs from a reference, by kinds of mistakes");
     const auto options = std::make_shared<CompareOptions>();
-    app->add_option("REFERENCE", options->reference, "an .exr, .png or .npy file, or bare numbers with --layout")
+    app->add_option("REFERENCE", options->reference,
+                    "a pack, an .exr, .png or .npy file, or bare numbers with --layout")
         ->required()
         ->type_name("");
-    app->add_option("CANDIDATE", options->candidate, "the same; the kinds of files may differ")
+    app->add_option("CANDIDATE", options->candidate,
+                    "the same, or for a pack a folder with what a port made; the kinds of files may differ")
         ->required()
         ->type_name("");
     add_option(
@@ -91,6 +137,8 @@ Command add_compare(CLI::App& root) {
                 "forgive colours and depths N codes apart, and N pixels of other coverage; nothing without this option",
                 "color=N, depth=N and coverage=N with commas between"},
                to_tolerances);
+    add_path(*app, options->algorithm,
+             {"--algorithm", "NAME", "of a pack: compare this one alone (default: all)", "an algorithm of the pack"});
     add_path(*app, options->heat, {"--heat", "FILE.png", "where which kind of difference is", "a file name"});
     add_path(*app, options->side,
              {"--side", "FILE.png", "reference, candidate and heat map side by side", "a file name"});

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "scenes/packs/pack_scene.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
 
@@ -84,6 +85,10 @@ void add_machine(Words& words, const peeling::RenderOptions& render) {
     if (render.depth) add(words, "--depth", name_of(depth_formats, *render.depth));
     if (render.depth_path) add(words, "--depth-path", name_of(depth_paths(), *render.depth_path));
     add_comparison(words, render);
+    if (render.raster.depth_order != rasterizer::DepthOrder::less)
+        add(words, "--depth-order", name_of(depth_orders, render.raster.depth_order));
+    if (render.raster.clip_depth != rasterizer::ClipDepth::minus_one_to_one)
+        add(words, "--clip-depth", name_of(clip_depths, render.raster.clip_depth));
     if (render.color_format) add(words, "--color-format", name_of(color_formats, *render.color_format));
     if (render.average_count != pipeline::Format::r16f)
         add(words, "--average-count", name_of(count_formats, render.average_count));
@@ -101,8 +106,16 @@ void add_order(Words& words, const peeling::RenderOptions& render) {
 }  // namespace
 
 std::string canonical_command(const std::string& verb, const RunOptions& options, const peeling::Algorithm& algorithm) {
-    Words words{"strata", verb, scenes::is_procedural(options.scene) ? options.scene : file_name(options.scene)};
-    add(words, "--algorithm", algorithm.name);
+    return canonical_command(verb, options, std::vector{&algorithm});
+}
+
+std::string canonical_command(const std::string& verb, const RunOptions& options,
+                              const std::vector<const peeling::Algorithm*>& algorithms) {
+    const bool is_procedural = scenes::is_procedural(options.scene);
+    Words words{"strata", verb, is_procedural ? options.scene : file_name(scenes::pack_folder(options.scene))};
+    std::string names;
+    for (const peeling::Algorithm* algorithm : algorithms) names += (names.empty() ? "" : ",") + algorithm->name;
+    add(words, "--algorithm", names);
     add(words, "--profile", file_name(options.profile));
     add_scene(words, options);
     add_view(words, options);

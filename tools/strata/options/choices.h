@@ -55,6 +55,12 @@ inline const std::vector<Choice<Simd>> simds{{"scalar", Simd::scalar},
 inline const std::vector<Choice<pipeline::Effects>> effects{{"needed", pipeline::Effects::needed},
                                                             {"all", pipeline::Effects::all}};
 
+inline const std::vector<Choice<rasterizer::DepthOrder>> depth_orders{{"less", rasterizer::DepthOrder::less},
+                                                                      {"greater", rasterizer::DepthOrder::greater}};
+
+inline const std::vector<Choice<rasterizer::ClipDepth>> clip_depths{
+    {"minus-one-to-one", rasterizer::ClipDepth::minus_one_to_one}, {"zero-to-one", rasterizer::ClipDepth::zero_to_one}};
+
 // Pixels a side.
 inline const std::vector<Choice<int>> tile_sizes{{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}};
 

@@ -6,6 +6,7 @@
 #include "peeling/registry.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
+#include "tools/strata/options/pack_options.h"
 #include "tools/strata/options/parse.h"
 
 namespace strata::tools {
@@ -120,6 +121,13 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
         ->type_name("NAME[,NAME...]|all");
 }
 
+void add_scene(CLI::App& app, const std::function<void(const std::string&)>& take) {
+    app.add_option_function<std::string>("SCENE", take,
+                                         "a .gltf or .glb file, a pack, or a built-in scene (strata scenes)")
+        ->required()
+        ->type_name("");
+}
+
 }  // namespace
 
 void add_profile_option(CLI::App& app, std::string& profile) {
@@ -153,6 +161,10 @@ void add_machine_options(CLI::App& app, peeling::RenderOptions& options) {
                {"--polygon-offset", "FACTOR,UNITS", "glPolygonOffset of everything that is drawn (default: off)",
                 "two numbers such as 1,1, each from -16777216 to 16777216"},
                to_polygon_offset);
+    add_choice(app, options.raster.depth_order, "--depth-order", depth_orders,
+               "the depth test that keeps the nearer fragment; greater: reversed depth, near at 1 (default less)");
+    add_choice(app, options.raster.clip_depth, "--clip-depth", clip_depths,
+               "where z of clip space ends (default minus-one-to-one; zero-to-one: glClipControl, Direct3D)");
     add_choice(app, options.color_format, "--color-format", color_formats,
                "colour target (default rgba8; rgba32f on ideal)");
     add_choice(app, options.average_count, "--average-count", count_formats,
@@ -188,9 +200,7 @@ std::vector<std::string> algorithm_names() {
 }
 
 void add_scene_options(CLI::App& app, std::string& scene, scenes::SceneOptions& options) {
-    app.add_option("SCENE", scene, "a .gltf or .glb file, or a built-in scene (strata scenes)")
-        ->required()
-        ->type_name("");
+    add_scene(app, [&scene](const std::string& given) { scene = given; });
     add_reading_options(app, options);
 }
 
@@ -205,7 +215,12 @@ void add_reading_options(CLI::App& app, scenes::SceneOptions& options) {
 }
 
 void add_picture_options(CLI::App& app, RunOptions& options) {
-    add_scene_options(app, options.scene, options.scene_options);
+    // Options are read in the order in which they are added, so that those which are given change what a pack says.
+    add_scene(app, [&options](const std::string& scene) {
+        options.scene = scene;
+        take_pack_state(options, scene);
+    });
+    add_reading_options(app, options.scene_options);
     add_algorithm_option(app, options);
     add_profile_option(app, options.profile);
     add_machine_options(app, options.render);
@@ -236,7 +251,10 @@ void add_view_options(CLI::App& app, RunOptions& options) {
     add_option(app, options.render.background,
                {"--background", "R,G,B", "sRGB values from 0 to 1 (default 0,0,0)",
                 "three numbers from 0 to 1 such as 0.2,0.2,0.3"},
-               to_rgb);
+               [&options](std::string_view text) {
+                   options.has_frame_background = false;
+                   return to_rgb(text);
+               });
 }
 
 void add_execution_options(CLI::App& app, RunOptions& options) {

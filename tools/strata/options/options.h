@@ -8,6 +8,7 @@
 #include "peeling/algorithms/algorithm.h"
 #include "peeling/render_options.h"
 #include "rasterizer/base/simd.h"
+#include "scenes/camera.h"
 #include "scenes/scene.h"
 #include "tools/strata/options/values.h"
 
@@ -24,7 +25,9 @@ struct RunOptions {
     std::string profile = "geforce8";                   // a name or a file
     std::string camera;                                 // --camera; empty: the orbit
     std::optional<Orbit> orbit;
-    bool takes_own_view = false;  // neither is given, and the scene turned out to have a view of its own
+    bool has_frame_background = false;       // the background is in the frame's colour space already: a pack's
+    bool takes_own_view = false;             // neither is given, and the scene turned out to have a view of its own
+    scenes::ClipConvention view_convention;  // of a view that comes with the scene
     peeling::RenderOptions render;
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     Simd simd = Simd::best;
@@ -67,6 +70,9 @@ void complete(RunOptions& options);
 // execution.
 [[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
                                             const peeling::Algorithm& algorithm);
+// The same of several.
+[[nodiscard]] std::string canonical_command(const std::string& verb, const RunOptions& options,
+                                            const std::vector<const peeling::Algorithm*>& algorithms);
 
 [[nodiscard]] std::vector<std::string> algorithm_names();
 

@@ -83,10 +83,14 @@ Session open_session(RunOptions& options) {
         std::fprintf(stderr, "strata: warning: %s\n", warning.c_str());
     warn_of_opaque(options, session.scene);
     options.takes_own_view = options.camera.empty() && !options.orbit && session.scene.own_view.has_value();
-    session.view = find_view(options, session.scene);
+    const scenes::ClipConvention own = options.takes_own_view ? options.view_convention : scenes::ClipConvention{};
+    const rasterizer::RasterState& raster = options.render.raster;
+    session.view =
+        scenes::as_seen_under(find_view(options, session.scene), own, {raster.clip_depth, raster.depth_order});
     check_sorted(options, session.scene);
     // Given as sRGB values; the frame blends in the colour space of the run.
-    options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
+    if (!options.has_frame_background)
+        options.render.background = scenes::from_encoded(options.render.background, options.scene_options.color_space);
     return session;
 }
 

@@ -1,0 +1,35 @@
+// scenes/packs/pack_scene.h - the scene of a golden pack: buffers as stored, materials, textures, instances, light and view.
+//
+// Rule     tools/oracle/PACK.md. What is written reads back to the same bits.
+// Tests    tests/scenes/packs/pack_scene_test.cpp
+#pragma once
+#include <string>
+
+#include "scenes/packs/json_fields.h"
+#include "scenes/packs/pack_files.h"
+#include "scenes/scene.h"
+
+namespace strata::scenes {
+
+inline constexpr int pack_version = 1;
+
+// A folder with a manifest.json, or that file.
+[[nodiscard]] bool is_pack(const std::string& path);
+// The folder.
+[[nodiscard]] std::string pack_folder(const std::string& path);
+
+// manifest.json as a value. InputError for what is none, and for a version that is not known.
+[[nodiscard]] nlohmann::json read_manifest(const std::string& folder);
+
+// The manifest's objects "scene" and "view"; the arrays go to `files`.
+[[nodiscard]] nlohmann::ordered_json scene_json(const Scene& scene, pipeline::ColorSpace space, PackFiles& files);
+[[nodiscard]] nlohmann::ordered_json view_json(const pipeline::View& view);
+
+// With the pack's view as the scene's own.
+[[nodiscard]] Scene read_pack_scene(const std::string& folder, const nlohmann::json& manifest);
+[[nodiscard]] pipeline::ColorSpace color_space_of(const std::string& folder, const nlohmann::json& manifest);
+
+// What load_scene does with a pack: InputError where the options ask for another scene or another colour space.
+[[nodiscard]] Scene load_pack(const std::string& path, const SceneOptions& options);
+
+}  // namespace strata::scenes

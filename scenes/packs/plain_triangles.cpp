@@ -1,0 +1,137 @@
+#include "scenes/packs/plain_triangles.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+
+#include "pipeline/vertices/check_list.h"
+#include "rasterizer/base/float_environment.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/bounds.h"
+#include "scenes/files/strict_json.h"
+#include "scenes/files/text_file.h"
+#include "scenes/numbers/srgb_encode.h"
+#include "scenes/packs/json_fields.h"
+#include "scenes/packs/npy.h"
+
+namespace strata::scenes {
+
+namespace {
+
+using nlohmann::json;
+using pipeline::Mesh;
+
+constexpr std::size_t most_json_bytes = std::size_t{1} << 28;
+constexpr Rgba half_white{1, 1, 1, 0.5f};
+
+// Every three positions are a triangle.
+void number_through(Mesh& mesh) {
+    mesh.indices.resize(mesh.positions.size() - mesh.positions.size() % 3);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
+}
+
+Mesh mesh_of_npy(const std::string& path) {
+    const NumberArray array = read_npy(path);
+    const auto& shape = array.shape;
+    if (array.element != Element::f4 || shape.size() != 3 || shape[1] != 3 || (shape[2] != 3 && shape[2] != 7))
+        throw InputError(path, "array", "f4 of shape (triangles, 3, 3) or (triangles, 3, 7)",
+                         fmt::format("{} of shape ({})", name(array.element), fmt::join(shape, ", ")));
+    Mesh mesh;
+    const auto value = [&](std::size_t i) { return std::bit_cast<float>(array.word(i)); };
+    const std::size_t width = shape[2];
+    for (std::size_t i = 0; i < array.count(); i += width) {
+        mesh.positions.push_back({value(i), value(i + 1), value(i + 2)});
+        mesh.colors.push_back(width == 7 ? Rgba{value(i + 3), value(i + 4), value(i + 5), value(i + 6)} : half_white);
+    }
+    number_through(mesh);
+    return mesh;
+}
+
+// A row of a list: `count` numbers that `Number` can hold.
+template <class Number>
+std::vector<Number> row_of(const json& row, std::size_t count, const std::string& file, const std::string& place) {
+    const auto fail = [&](const std::string& found) {
+        throw InputError(file, place, fmt::format("an array of {} numbers", count), found);
+    };
+    if (!row.is_array() || row.size() != count) fail(row.is_array() ? fmt::format("{}", row.size()) : row.type_name());
+    std::vector<Number> numbers;
+    for (const json& value : row) {
+        if constexpr (std::is_floating_point_v<Number>) {
+            if (!value.is_number() || !std::isfinite(value.get<float>())) fail("another value");
+        } else {
+            if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX) fail("another value");
+        }
+        numbers.push_back(value.get<Number>());
+    }
+    return numbers;
+}
+
+// Calls `take` with every row of the list.
+template <class Number, class Take>
+void for_each_row(JsonReader& io, const std::string& key, std::size_t count, const std::string& file, Take take) {
+    const json& list = io.at(key);
+    if (!list.is_array()) io.fail(key, "an array of arrays");
+    for (std::size_t i = 0; i < list.size(); ++i)
+        take(row_of<Number>(list[i], count, file, fmt::format("/{}/{}", key, i)));
+}
+
+pipeline::Matrix matrix_at(JsonReader& io, const std::string& key, const std::string& file) {
+    std::array<double, 16> entries{};
+    const auto numbers = row_of<double>(io.at(key), 16, file, "/" + key);
+    std::copy(numbers.begin(), numbers.end(), entries.begin());
+    return matrix_of(entries);
+}
+
+Mesh mesh_of_json(const std::string& path, std::optional<pipeline::View>& view) {
+    const json document = parse_strict_json(read_text_file(path, most_json_bytes), path, "triangles in JSON");
+    JsonReader io{document, path, ""};
+    Mesh mesh;
+    for_each_row<float>(io, "positions", 3, path, [&](const std::vector<float>& p) {
+        mesh.positions.push_back({p[0], p[1], p[2]});
+    });
+    if (document.contains("colors"))
+        for_each_row<float>(io, "colors", 4, path, [&](const std::vector<float>& c) {
+            mesh.colors.push_back({c[0], c[1], c[2], c[3]});
+        });
+    else
+        mesh.colors.assign(mesh.positions.size(), half_white);
+    if (mesh.colors.size() != mesh.positions.size())
+        throw InputError(path, "/colors", fmt::format("{}, one a position", mesh.positions.size()),
+                         std::to_string(mesh.colors.size()));
+    if (document.contains("indices"))
+        for_each_row<std::uint32_t>(io, "indices", 3, path, [&](const std::vector<std::uint32_t>& corners) {
+            mesh.indices.insert(mesh.indices.end(), corners.begin(), corners.end());
+        });
+    else
+        number_through(mesh);
+    if (document.contains("view") || document.contains("projection"))
+        view = {matrix_at(io, "view", path), matrix_at(io, "projection", path)};
+    io.end();
+    return mesh;
+}
+
+}  // namespace
+
+bool is_plain_triangles(const std::string& path) { return path.ends_with(".npy") || path.ends_with(".json"); }
+
+Scene load_plain_triangles(const std::string& path, const SceneOptions& options) {
+    const FloatEnvironment environment;
+    if (options.scene.value_or(0) != 0)
+        throw InputError(path, "--scene", "0, the only one", std::to_string(*options.scene));
+    Scene scene;
+    scene.name = std::filesystem::path(path).stem().string();
+    Mesh mesh = path.ends_with(".npy") ? mesh_of_npy(path) : mesh_of_json(path, scene.own_view);
+    mesh.name = "triangles";
+    for (Rgba& color : mesh.colors) color = from_encoded(color, options.color_space);
+    scene.list.materials = {
+        {.name = "triangles", .alpha_mode = pipeline::AlphaMode::blend, .double_sided = true, .unlit = true}};
+    scene.list.meshes.push_back(std::move(mesh));
+    scene.list.instances.push_back({.mesh = 0, .material = 0});
+    pipeline::check(scene.list);
+    scene.bounds = bounds_of(scene.list);
+    return scene;
+}
+
+}  // namespace strata::scenes

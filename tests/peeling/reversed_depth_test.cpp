@@ -1,0 +1,228 @@
+// Reversed depth (GREATER, near at 1) and clip space from 0 to 1. Models: the same fragments with depth 1 - d, every d and 1 - d exact
+// in binary32; fragments sorted by a plain loop; the real numbers of depths behind a perspective projection.
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "peeling/registry.h"
+#include "pipeline/device/check.h"
+#include "tests/peeling/rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::peeling::Outcome;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::rasterizer::ClipDepth;
+using strata::rasterizer::DepthOrder;
+
+// Depths k / 64 from 0 to 1, both included, ties among them; some pixels have an opaque surface.
+FragmentScene mixed_scene(unsigned seed) {
+    std::mt19937 random{seed};
+    FragmentScene scene{8, 8};
+    const auto share = [&](unsigned steps) {
+        return static_cast<float>(random() % (steps + 1)) / static_cast<float>(steps);
+    };
+    for (GivenPixel& pixel : scene.pixels) {
+        const unsigned count = random() % 7;
+        for (unsigned i = 0; i < count; ++i) {
+            const float depth = share(64), red = share(8), green = share(8), alpha = share(8);
+            pixel.fragments.push_back({depth, {red, green, 0.25f, alpha}});
+        }
+        if (random() % 3 == 0) {
+            const float depth = share(64);
+            pixel.opaque = GivenFragment{depth, {0, 0.5f, 1, 1}};
+        }
+    }
+    return scene;
+}
+
+// A scene draws clip z = 2 d - 1. These projections make it the z of the convention, with every operation exact.
+View view_under(ClipDepth clip, DepthOrder order) {
+    View view;
+    if (clip == ClipDepth::zero_to_one) {
+        view.projection[2][2] = 0.5;
+        view.projection[3][2] = 0.5;
+    }
+    if (order == DepthOrder::greater) {
+        view.projection[2][2] = -view.projection[2][2];
+        view.projection[3][2] = clip == ClipDepth::zero_to_one ? 0.5 : 0.0;
+    }
+    return view;
+}
+
+RenderOptions options_under(const FragmentScene& scene, ClipDepth clip, DepthOrder order) {
+    RenderOptions options = options_for(scene);
+    options.depth = DepthFormat::d32f;
+    options.raster.clip_depth = clip;
+    options.raster.depth_order = order;
+    return options;
+}
+
+std::uint32_t reversed_code(std::uint32_t code) {
+    return std::bit_cast<std::uint32_t>(1.0f - std::bit_cast<float>(code));
+}
+
+// Whether `reversed` holds 1 - d wherever `forward` holds d.
+bool are_reversed(const Image& forward, const Image& reversed) {
+    if (forward.codes.size() != reversed.codes.size() || forward.format != reversed.format) return false;
+    for (std::size_t i = 0; i < forward.codes.size(); ++i)
+        if (reversed_code(forward.codes[i]) != reversed.codes[i]) return false;
+    return true;
+}
+
+// Two walls across the frame, the farther one first.
+DrawList two_walls(float distance, float gap) {
+    DrawList list;
+    list.materials = {{.name = "wall", .alpha_mode = AlphaMode::blend, .double_sided = true, .unlit = true}};
+    for (const float e : {distance + gap, distance}) {
+        Mesh mesh;
+        const float half = 2.0f * e;  // wider than the frame
+        mesh.positions = {{-half, -half, -e}, {half, -half, -e}, {half, half, -e}, {-half, half, -e}};
+        mesh.colors.assign(4, Rgba{0.5f, 0.5f, 0.5f, 0.5f});
+        mesh.indices = {0, 1, 2, 0, 2, 3};
+        list.instances.push_back({.mesh = static_cast<std::uint32_t>(list.meshes.size()), .material = 0});
+        list.meshes.push_back(std::move(mesh));
+    }
+    return list;
+}
+
+}  // namespace
+
+TEST_CASE("under GREATER every algorithm composites what it does under LESS, and its depths are 1 - d") {
+    int ran = 0, refused = 0;
+    for (const unsigned seed : {1u, 2u}) {
+        const FragmentScene scene = mixed_scene(seed);
+        const DrawList list = draw_list(scene);
+        for (const char* profile : {"ideal", "geforce8", "llvmpipe"})
+            for (const auto& algorithm : strata::peeling::algorithms())
+                for (const ClipDepth clip : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one})
+                    for (const Running& running : all_ways_of_running) {
+                        INFO(profile << ' ' << algorithm.name << ' ' << static_cast<int>(clip));
+                        RenderOptions forward = options_under(scene, clip, DepthOrder::less);
+                        RenderOptions reversed = options_under(scene, clip, DepthOrder::greater);
+                        forward.keep_layers = reversed.keep_layers = algorithm.makes_layers;
+                        running.apply(forward);
+                        running.apply(reversed);
+                        const Machine machine{profile, algorithm.name};
+                        const RenderResult a = render(list, view_under(clip, DepthOrder::less), machine, forward);
+                        const RenderResult b = render(list, view_under(clip, DepthOrder::greater), machine, reversed);
+                        CHECK(a.refusal == b.refusal);
+                        if (a.refusal) {
+                            ++refused;
+                            continue;
+                        }
+                        ++ran;
+                        CHECK(a.frame.color == b.frame.color);
+                        CHECK(are_reversed(a.frame.depth, b.frame.depth));
+                        CHECK(a.frame.passes == b.frame.passes);
+                        CHECK(a.audit == b.audit);
+                        REQUIRE(a.frame.layers.size() == b.frame.layers.size());
+                        for (std::size_t i = 0; i < a.frame.layers.size(); ++i) {
+                            CHECK(a.frame.layers[i].color == b.frame.layers[i].color);
+                            CHECK(are_reversed(a.frame.layers[i].depth, b.frame.layers[i].depth));
+                        }
+                    }
+    }
+    CHECK(ran > 200);
+    CHECK(refused > 0);
+}
+
+TEST_CASE("clip space from 0 to 1 gives the bits of clip space from -1 to 1 where both projections are exact") {
+    const FragmentScene scene = mixed_scene(3);
+    const DrawList list = draw_list(scene);
+    for (const char* profile : {"ideal", "geforce8", "geforce3"})
+        for (const char* algorithm : {"front_to_back", "dual", "depth_units", "weighted_average", "a_buffer"}) {
+            RenderOptions symmetric = options_for(scene), half = options_for(scene);
+            half.raster.clip_depth = ClipDepth::zero_to_one;
+            const RenderResult a = render(list, {}, {profile, algorithm}, symmetric);
+            const RenderResult b =
+                render(list, view_under(ClipDepth::zero_to_one, DepthOrder::less), {profile, algorithm}, half);
+            CHECK(a.refusal == b.refusal);
+            CHECK(a.frame.color == b.frame.color);
+            CHECK(a.frame.depth == b.frame.depth);
+        }
+}
+
+TEST_CASE("layers of a reversed peel are the fragments of each pixel from the greatest depth down") {
+    std::mt19937 random{11};
+    FragmentScene scene{4, 4};
+    for (GivenPixel& pixel : scene.pixels)
+        for (unsigned i = random() % 6; i-- > 0;) {
+            const float depth = static_cast<float>(1 + random() % 4095) * 0x1p-12f;
+            pixel.fragments.push_back({depth, {0.5f, 0.25f, 0, 0.5f}});
+        }
+    RenderOptions options = options_under(scene, ClipDepth::zero_to_one, DepthOrder::greater);
+    options.keep_layers = true;
+    // The scene's d is what is stored: nothing turns it round on the way.
+    const View as_drawn = view_under(ClipDepth::zero_to_one, DepthOrder::less);
+    for (const char* name : {"front_to_back", "depth_units"}) {
+        const RenderResult result = render(draw_list(scene), as_drawn, {"ideal", name}, options);
+        REQUIRE(result.outcome == Outcome::done);
+        for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
+            std::vector<float> depths;
+            for (const GivenFragment& f : scene.pixels[p].fragments) depths.push_back(f.depth);
+            std::ranges::sort(depths, std::greater{});
+            depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
+            depths.resize(result.frame.layers.size(),
+                          0.0f);  // a pixel without a further layer keeps the clear value, 0
+            for (std::size_t layer = 0; layer < depths.size(); ++layer) {
+                INFO(name << " pixel " << p << " layer " << layer);
+                CHECK(std::bit_cast<float>(result.frame.layers[layer].depth.codes[p]) == depths[layer]);
+            }
+        }
+    }
+}
+
+TEST_CASE("reversed float depth tells walls apart that forward depth merges") {
+    // Near 1, far at infinity: clip z is e - 1 under LESS and 1 under GREATER, w is e; all of them exact for the distances here.
+    for (const float distance : {0x1p10f, 0x1p14f, 0x1p20f}) {
+        const float gap = distance * 0x1p-8f;
+        INFO(distance);
+        // 1 / e - 1 / (e + gap) in steps of binary32 below 1, which are 2^-24.
+        const double forward_steps = (1 / double{distance} - 1 / (double{distance} + double{gap})) * 0x1p24;
+        const DrawList list = two_walls(distance, gap);
+        const auto layers = [&](DepthOrder order) {
+            View view;
+            view.projection[2][3] = -1;
+            view.projection[3][3] = 0;
+            const bool is_reversed = order == DepthOrder::greater;
+            view.projection[2][2] = is_reversed ? 0 : -1;
+            view.projection[3][2] = is_reversed ? 1 : -1;
+            RenderOptions options;
+            options.width = options.height = 8;
+            options.threads = 1;
+            options.depth = DepthFormat::d32f;
+            options.raster.clip_depth = ClipDepth::zero_to_one;
+            options.raster.depth_order = order;
+            return render(list, view, {"geforce8", "front_to_back"}, options).audit.layers_max;
+        };
+        CHECK(layers(DepthOrder::greater) == 2);
+        // 1 - 2^-20 is a number of binary32, and less than half a step away it is the nearest.
+        CHECK(layers(DepthOrder::less) == (forward_steps < 0.5 ? 1 : 2));
+        CHECK((forward_steps < 0.5) == (distance == 0x1p20f));
+    }
+}
+
+TEST_CASE("reversed depth is refused by name where it has no float buffer, a comparison between codes, or a light") {
+    const FragmentScene scene = mixed_scene(4);
+    const auto refusal_of = [&](const auto& change, const char* profile = "ideal") {
+        RenderOptions options = options_under(scene, ClipDepth::minus_one_to_one, DepthOrder::greater);
+        change(options);
+        const RenderResult result = render(draw_list(scene), {}, {profile, "depth_units"}, options);
+        return result.refusal ? result.refusal->sentence(*find_profile(profile)) : std::string{};
+    };
+    using Catch::Contains;
+    CHECK(refusal_of([](RenderOptions&) {}).empty());
+    CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth = DepthFormat::d24; }), Contains("--depth d32f"));
+    CHECK_THAT(refusal_of([](RenderOptions& o) { o.depth.reset(); }, "geforce3"), Contains("GREATER over fixed-point"));
+    CHECK_THAT(refusal_of([](RenderOptions& o) { o.quantize_reference = false; }), Contains("between codes"));
+    CHECK_THAT(refusal_of([](RenderOptions& o) { o.compare_epsilon.absolute = 1e-3; }), Contains("between codes"));
+    CHECK(refusal_of([](RenderOptions& o) { o.compare_epsilon.ulps = 2; }).empty());
+    CHECK(refusal_of([](RenderOptions& o) { std::swap(o.raster.depth_near, o.raster.depth_far); }).empty());
+}

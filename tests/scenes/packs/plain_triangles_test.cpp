@@ -1,0 +1,77 @@
+// Model: the numbers as they were written.
+#include "scenes/packs/plain_triangles.h"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "scenes/packs/npy.h"
+#include "tests/support/own_folder.h"
+
+using namespace strata;
+using namespace strata::scenes;
+
+namespace {
+
+std::string written(const test::OwnFolder& folder, const std::string& name, const std::string& bytes) {
+    const std::string path = folder.path() + "/" + name;
+    std::ofstream{path, std::ios::binary} << bytes;
+    return path;
+}
+
+std::string triangles_npy(std::vector<std::size_t> shape) {
+    NumberArray array{.element = Element::f4, .shape = std::move(shape)};
+    for (std::size_t i = 0; i < array.count(); ++i)
+        array.append(std::bit_cast<std::uint32_t>(static_cast<float>(i) / 32.0f));
+    return to_npy(array);
+}
+
+}  // namespace
+
+TEST_CASE("triangles come from a .npy file with their numbers as they stand there") {
+    const test::OwnFolder folder;
+    const Scene plain = load_scene(written(folder, "a.npy", triangles_npy({2, 3, 3})), {});
+    const pipeline::Mesh& mesh = plain.list.meshes.at(0);
+    REQUIRE(mesh.positions.size() == 6);
+    CHECK((mesh.positions[5][0] == 15 / 32.0f && mesh.positions[5][2] == 17 / 32.0f));
+    CHECK((mesh.colors[3] == Rgba{1, 1, 1, 0.5f}));
+    CHECK(mesh.indices == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5});
+    CHECK(plain.name == "a");
+    CHECK_FALSE(plain.own_view);
+    const Scene colored = load_scene(written(folder, "b.npy", triangles_npy({1, 3, 7})), {});
+    CHECK((colored.list.meshes[0].colors[1] == Rgba{10 / 32.0f, 11 / 32.0f, 12 / 32.0f, 13 / 32.0f}));
+    CHECK(load_scene(written(folder, "c.npy", triangles_npy({0, 3, 3})), {}).bounds.is_empty());
+    for (const std::vector<std::size_t>& shape : {std::vector<std::size_t>{3, 3}, {1, 3, 4}, {1, 4, 3}, {9}})
+        CHECK_THROWS_WITH(load_scene(written(folder, "d.npy", triangles_npy(shape)), {}),
+                          Catch::Contains("d.npy: array: expected f4 of shape (triangles, 3, 3) or (triangles, 3, 7)"));
+}
+
+TEST_CASE("triangles come from a .json file, with a view if it has one") {
+    const test::OwnFolder folder;
+    const Scene scene = load_scene(
+        written(folder, "t.json",
+                R"({"positions": [[0, 0, 0.1], [1, 0, 0], [0, 1, 0], [1, 1, 0]], "indices": [[0, 1, 2], [2, 1, 3]],
+                    "colors": [[1, 0, 0, 0.5], [0, 1, 0, 1], [0, 0, 1, 0.25], [0, 0, 0, 0]],
+                    "view": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,-3,1], "projection": [1,0,0,0, 0,1,0,0, 0,0,-1,-1, 0,0,-0.5,0]})"),
+        {});
+    const pipeline::Mesh& mesh = scene.list.meshes.at(0);
+    CHECK(mesh.positions[0][2] == 0.1f);
+    CHECK(mesh.indices == std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3});
+    CHECK((mesh.colors[2] == Rgba{0, 0, 1, 0.25f}));
+    REQUIRE(scene.own_view);
+    CHECK((scene.own_view->view[3][2] == -3 && scene.own_view->projection[2][3] == -1));
+    const auto fails = [&](const std::string& text, const std::string& sentence) {
+        INFO(text);
+        CHECK_THROWS_WITH(load_scene(written(folder, "x.json", text), {}), Catch::Contains(sentence));
+    };
+    fails("[]", "x.json: /: expected an object");
+    fails("{}", "the key 'positions'");
+    fails(R"({"positions": [[0, 0]]})", "x.json: /positions/0: expected an array of 3 numbers, found 2");
+    fails(R"({"positions": [[0, 0, 1e39]]})", "/positions/0");
+    fails(R"({"positions": [[0, 0, "1"]]})", "/positions/0");
+    fails(R"({"positions": [[0, 0, 1]], "colors": []})", "/colors: expected 1, one a position, found 0");
+    fails(R"({"positions": [[0, 0, 1]], "indices": [[0, 1, 2]]})", "indices");
+    fails(R"({"positions": [[0, 0, 1]], "indices": [[0, -1, 2]]})", "/indices/0");
+    fails(R"({"positions": [], "colours": []})", "only the keys");
+    fails(R"({"positions": [], "view": [1]})", "/view: expected an array of 16 numbers, found 1");
+}

@@ -1,0 +1,91 @@
+// Model: other commands on the same scene: the pictures' bytes and digests, and what a changed file must say.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+using Catch::Contains;
+
+TEST_CASE("a pack checks, is a scene of every command, and its state stands for options that are not given") {
+    const Folder folder;
+    REQUIRE(
+        run_strata(folder, {"golden", "teapot:tessellation=3", "--size", "20x16", "--algorithm", "dual,front_to_back",
+                            "--depth", "d24", "--background", "0.2,0.4,0.6", "--colour", "linear", "-o", "pack"})
+            .status == 0);
+    const Ended check = run_strata(folder, {"golden", "--check", "pack"});
+    CHECK(check.status == 0);
+    CHECK(check.out == "pack: every file is what this program derives\n");
+    REQUIRE(
+        shell(folder,
+              "strata render teapot:tessellation=3 --size 20x16 --algorithm dual --depth d24 --background 0.2,0.4,0.6 "
+              "--colour linear -o scene.png && strata render pack --algorithm dual -o pack.png")
+            .status == 0);
+    CHECK(run_strata(folder, {"compare", "scene.png", "pack.png"}).status == 0);
+    CHECK(run_strata(folder, {"compare", "pack", "pack.png", "--algorithm", "dual"}).status == 1);  // PNG is encoded
+    CHECK(shell(folder,
+                "strata render pack/ --algorithm dual -o pack.exr && strata compare pack pack.exr --algorithm dual")
+              .status == 0);
+    CHECK(run_strata(folder, {"compare", "pack", "pack/expected"}).status == 0);
+    for (const std::string& line :
+         {std::string{"strata layers pack -o layers.exr"}, std::string{"strata passes pack --algorithm dual -o passes"},
+          std::string{"strata explain pack --pixel 10,8"}, std::string{"strata scene pack/manifest.json --json"},
+          std::string{"strata golden pack --algorithm dual -o again"}}) {
+        INFO(line);
+        if (line.find("scene") == std::string::npos) CHECK(shell(folder, line).status == 0);
+    }
+    // The options that are given win.
+    CHECK(shell(folder, "strata render pack --size 8x8 --depth d16 -o small.exr && strata digest --json small.exr")
+              .out.find("\"d16\"") != std::string::npos);
+    // A pack of a pack has the same pictures.
+    const auto digest_in = [&](const std::string& pack) {
+        const auto manifest = nlohmann::json::parse(content_of(folder / (pack + "/manifest.json")));
+        return manifest["results"][0]["picture"]["digest"].get<std::string>();
+    };
+    CHECK(digest_in("again") == digest_in("pack"));
+}
+
+TEST_CASE("golden says what it cannot do, and which byte of a pack has changed") {
+    const Folder folder;
+    const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
+        const Ended ended = run_strata(folder, words);
+        CHECK(ended.status == 2);
+        CHECK_THAT(ended.err, Contains(sentence));
+    };
+    fails({"golden"}, "strata: SCENE: expected a scene, or --check PACK, found none");
+    fails({"golden", "teapot"}, "strata: -o: expected a folder for the pack, found none");
+    fails({"golden", "teapot", "--check", "x"}, "strata: --check: expected a pack alone, found a scene beside it");
+    fails({"golden", "--check", "none"}, "none/manifest.json");
+    fails({"golden", "teapot", "--profile", "geforce3", "--algorithm", "dual", "-o", "p"},
+          "strata: dual: profile geforce3");
+    CHECK(folder.files().empty());
+    REQUIRE(run_strata(folder, {"golden", "planes:count=1,cells=1", "--size", "8x8", "-o", "p"}).status == 0);
+    fails({"golden", "planes:count=1,cells=1", "-o", "p"}, "p: folder: expected one that does not exist or is empty");
+    REQUIRE(shell(folder, "printf '\\007' | dd of=p/expected/dual/picture.npy bs=1 seek=200 conv=notrunc").status == 0);
+    const Ended check = run_strata(folder, {"golden", "--check", "p"});
+    CHECK(check.status == 1);
+    CHECK_THAT(check.out, Contains("expected/dual/picture.npy: byte 200, row 2, column 2, channel 0: expected ") &&
+                              Contains(", found 7"));
+    const Ended compare = run_strata(folder, {"compare", "p", "p/scene"});
+    CHECK(compare.status == 2);
+    CHECK_THAT(compare.err, Contains("p/scene: folder: expected ALGORITHM/picture.npy"));
+}
+
+TEST_CASE("reversed depth and clip space from 0 to 1 are options of every picture, written and read again") {
+    const Folder folder;
+    const std::string reversed = "--depth-order greater --clip-depth zero-to-one --size 24x18 --algorithm dual";
+    REQUIRE(shell(folder, "strata render teapot " + reversed + " -o r.exr && strata golden teapot " + reversed +
+                              " -o pack && strata render pack --algorithm dual -o p.exr")
+                .status == 0);
+    CHECK(run_strata(folder, {"compare", "r.exr", "p.exr"}).status == 0);
+    CHECK(run_strata(folder, {"golden", "--check", "pack"}).status == 0);
+    const auto manifest = nlohmann::json::parse(content_of(folder / "pack/manifest.json"));
+    CHECK(manifest["state"]["depth_order"] == "greater");
+    CHECK_THAT(manifest["command"].get<std::string>(), Contains("--depth-order greater --clip-depth zero-to-one"));
+    // The pack's view turned back is the usual one: the same picture but for what depths tie.
+    REQUIRE(shell(folder,
+                  "strata render pack --depth-order less --clip-depth minus-one-to-one --algorithm dual -o back.exr && "
+                  "strata render teapot --size 24x18 --algorithm dual -o usual.exr")
+                .status == 0);
+    CHECK(run_strata(folder, {"compare", "back.exr", "usual.exr", "--tolerance", "depth=4"}).status == 0);
+}

@@ -1,0 +1,102 @@
+// Model: a candidate is a copy of the expected tree with one number changed on purpose.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "peeling/registry.h"
+#include "scenes/camera.h"
+#include "scenes/packs/pack_scene.h"
+#include "tests/support/own_folder.h"
+#include "tools/oracle/pack/compare_packs.h"
+#include "tools/oracle/pack/golden.h"
+
+using namespace strata;
+using namespace strata::oracle;
+using Catch::Contains;
+
+namespace {
+
+std::string pack_and_copy(const std::string& folder, const std::vector<std::string>& algorithms,
+                          pipeline::DepthFormat depth) {
+    Golden golden{.scene = scenes::load_scene("random:triangles=10,seed=5", {}),
+                  .profile = *pipeline::find_profile("geforce8_dx101")};
+    golden.options.width = golden.options.height = 16;
+    golden.options.threads = 1;
+    golden.options.depth = depth;
+    golden.scene.own_view = scenes::orbit_view(golden.scene.bounds, 30, 20, 1);
+    for (const std::string& name : algorithms) golden.algorithms.push_back(peeling::find_algorithm(name));
+    write_pack(golden, folder + "/pack");
+    std::filesystem::copy(folder + "/pack/expected", folder + "/candidate", std::filesystem::copy_options::recursive);
+    return folder + "/pack";
+}
+
+void change_last_byte(const std::string& file) {
+    std::fstream stream{file, std::ios::in | std::ios::out | std::ios::binary};
+    stream.seekg(-1, std::ios::end);
+    const char byte = static_cast<char>(stream.get() ^ 1);
+    stream.seekp(-1, std::ios::end);
+    stream.put(byte);
+}
+
+}  // namespace
+
+TEST_CASE("the expected tree is its own right candidate, and so is the pack") {
+    for (const pipeline::DepthFormat depth : {pipeline::DepthFormat::d24, pipeline::DepthFormat::d32f}) {
+        const test::OwnFolder folder;
+        const std::string pack = pack_and_copy(
+            folder.path(), {"front_to_back", "dual", "coherent_stencil", "stencil_routed_k_buffer"}, depth);
+        const auto expected = expected_pictures(pack);
+        REQUIRE(expected.size() == 4);
+        for (const std::string& candidate : {folder.path() + "/candidate", pack}) {
+            const auto found = compare_packs(expected, candidate_pictures(pack, candidate));
+            REQUIRE(found.size() == 4);
+            for (const PackComparison& c : found) {
+                INFO(c.algorithm << to_text({c}));
+                CHECK(c.equal);
+                CHECK(c.accepted);
+                CHECK(c.passes_compared > 0);
+            }
+        }
+    }
+}
+
+TEST_CASE("the first pass that went another way is named, with its targets, and what is not there is told") {
+    const test::OwnFolder folder;
+    const std::string pack = pack_and_copy(folder.path(), {"dual", "weighted_average"}, pipeline::DepthFormat::d32f);
+    const auto expected = expected_pictures(pack);
+    const std::string candidate = folder.path() + "/candidate";
+    std::filesystem::remove_all(candidate + "/weighted_average");
+    const nlohmann::json manifest = scenes::read_manifest(pack);
+    // The second pass that writes a file of its own.
+    std::string target;
+    int number = -1;
+    for (const auto& pass : manifest["results"][0]["passes"])
+        for (const auto& described : pass["targets"]) {
+            const std::string own = "expected/dual/pass." + std::string{pass["number"] < 10 ? "00" : "0"} +
+                                    std::to_string(pass["number"].get<int>()) + "/" +
+                                    described["name"].get<std::string>() + ".npy";
+            if (number < 0 && pass["number"] >= 2 && described["file"] == own) {
+                number = pass["number"];
+                target = described["name"];
+                change_last_byte(candidate + own.substr(8));
+            }
+        }
+    REQUIRE(number >= 2);
+    change_last_byte(candidate + "/dual/picture.npy");
+    const auto found = compare_packs(expected, candidate_pictures(pack, candidate));
+    REQUIRE(found.size() == 1);
+    CHECK_FALSE(found[0].equal);
+    REQUIRE(found[0].first);
+    CHECK(found[0].first->number == number);
+    REQUIRE(found[0].picture);
+    CHECK(found[0].picture->differing == 1);
+    CHECK_THAT(to_text(found), Contains("dual: different") &&
+                                   Contains("the first pass that differs is " + std::to_string(number) + ",") &&
+                                   Contains(target + " at 1 pixels") && Contains("not compared"));
+    const auto document = nlohmann::json::parse(to_json(found));
+    CHECK(document[0]["first_pass"]["number"] == number);
+    CHECK(document[0]["picture"]["equal"] == false);
+    std::filesystem::remove_all(candidate);
+    std::filesystem::create_directories(candidate);
+    CHECK_THROWS_WITH(candidate_pictures(pack, candidate), Contains("folder: expected ALGORITHM/picture.npy"));
+}

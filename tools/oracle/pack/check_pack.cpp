@@ -1,0 +1,153 @@
+// tools/oracle/pack/check_pack.cpp - a pack against its own manifest, and against what is derived again.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <set>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/text_file.h"
+#include "scenes/packs/pack_scene.h"
+#include "tools/oracle/pack/golden.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using nlohmann::json;
+using scenes::NumberArray;
+
+constexpr std::size_t most_bytes = std::size_t{1} << 32;
+
+// The array as a .npy file has it; nothing for other files and for damaged ones.
+std::optional<NumberArray> array_of(const std::string& bytes, const std::string& name) {
+    if (!name.ends_with(".npy")) return std::nullopt;
+    try {
+        return scenes::parse_npy(bytes, name);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+// ", row 3, column 5, channel 1": the element that a byte behind the header belongs to.
+std::string place_of(const NumberArray& array, std::size_t element) {
+    static constexpr std::string_view of_two[] = {"row", "column"}, of_three[] = {"row", "column", "channel"},
+                                      of_four[] = {"row", "column", "sample", "channel"}, of_one[] = {"entry"};
+    const std::size_t sides = array.shape.size();
+    const std::string_view* names = sides == 1 ? of_one : sides == 2 ? of_two : sides == 3 ? of_three : of_four;
+    std::string place;
+    for (std::size_t side = sides; side-- > 0; element /= std::max<std::size_t>(array.shape[side], 1))
+        place = fmt::format(", {} {}", names[side], element % std::max<std::size_t>(array.shape[side], 1)) + place;
+    return place;
+}
+
+// `begin` is the array's place in the file.
+std::string place_in_file(const std::string& bytes, const std::string& name, std::size_t position) {
+    const auto array = array_of(bytes, name);
+    std::string place = fmt::format("byte {}", position);
+    if (!array || position + array->bytes.size() < bytes.size()) return place;
+    const std::size_t within = position + array->bytes.size() - bytes.size();
+    return place + place_of(*array, within / scenes::bytes_of(array->element));
+}
+
+std::string difference(const std::string& found, const std::string& expected, const std::string& name) {
+    if (found.size() != expected.size())
+        return fmt::format("size: expected {} bytes, found {}", expected.size(), found.size());
+    const auto at = std::mismatch(found.begin(), found.end(), expected.begin());
+    const auto position = static_cast<std::size_t>(at.first - found.begin());
+    return fmt::format("{}: expected {}, found {}", place_in_file(expected, name, position),
+                       static_cast<unsigned char>(expected[position]), static_cast<unsigned char>(found[position]));
+}
+
+// The first place where two manifests part, as a JSON pointer.
+std::string manifest_difference(const std::string& found, const std::string& expected) {
+    const json patch = json::diff(json::parse(found), json::parse(expected));
+    if (patch.empty()) return difference(found, expected, "manifest.json");
+    return fmt::format("{}: expected what is derived again, found something else", patch[0]["path"].get<std::string>());
+}
+
+std::uint64_t sum_at(const json& listed, std::size_t i) {
+    std::uint64_t value = 0;
+    const json sums = listed.value("sums", json::array());
+    if (i >= sums.size() || !sums[i].is_string()) return value;
+    const auto& digits = sums[i].get_ref<const std::string&>();
+    std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return value;
+}
+
+// Empty if the file is what the manifest's list says.
+std::string listed_difference(const std::string& bytes, const std::string& name, const json& listed) {
+    const scenes::ByteSums sums{sum_at(listed, 0), sum_at(listed, 1)};
+    const auto array = array_of(bytes, name);
+    const std::string_view hashed = array ? std::string_view{array->bytes} : std::string_view{bytes};
+    if (scenes::digest_of_bytes(hashed) == listed.value("digest", "") && scenes::sums_of(bytes) == sums) return "";
+    const auto changed = scenes::changed_byte(bytes, sums);
+    if (!changed) return "expected the bytes that its digest is of, found others, at more than one place";
+    return fmt::format("{}: expected {}, found {}", place_in_file(bytes, name, changed->position), changed->was,
+                       changed->is);
+}
+
+class Check {
+  public:
+    explicit Check(std::string folder) : folder_{std::move(folder)} {}
+
+    // The files that the manifest lists, each with its digest; and no others.
+    void files(const json& manifest) {
+        const json listed = manifest.value("files", json::object());
+        for (const auto& [name, entry] : listed.items()) {
+            if (const auto bytes = read(name)) note(name, listed_difference(*bytes, name, entry));
+        }
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+            if (!entry.is_regular_file()) continue;
+            const std::string name = std::filesystem::relative(entry.path(), folder_).generic_string();
+            if (name != "manifest.json" && !listed.contains(name)) note(name, "expected no such file, found one");
+        }
+    }
+
+    void derived(const Golden& golden) {
+        derive(golden, [&](const std::string& name, const std::string& expected) {
+            if (known_.contains(name)) return;  // one sentence a file
+            const auto found = read(name);
+            if (!found || *found == expected) return;
+            note(name,
+                 name == "manifest.json" ? manifest_difference(*found, expected) : difference(*found, expected, name));
+        });
+    }
+
+    std::vector<PackFault> faults{};
+
+  private:
+    std::optional<std::string> read(const std::string& name) {
+        try {
+            return scenes::read_text_file(folder_ + "/" + name, most_bytes);
+        } catch (const InputError&) {
+            note(name, "expected a file, found none");
+            return std::nullopt;
+        }
+    }
+
+    void note(const std::string& name, const std::string& sentence) {
+        if (sentence.empty() || !known_.insert(name).second) return;
+        faults.push_back({name, sentence});
+    }
+
+    std::string folder_;
+    std::set<std::string> known_{};
+};
+
+}  // namespace
+
+std::vector<PackFault> check_pack(const std::string& path) {
+    const std::string folder = scenes::pack_folder(path);
+    Check check{folder};
+    check.files(scenes::read_manifest(folder));
+    const bool has_inputs = std::ranges::none_of(check.faults, [](const PackFault& fault) {
+        return fault.file.starts_with("scene/") || fault.file == "profile.json";
+    });
+    // A changed input would change all that is derived from it: its own fault says enough.
+    if (has_inputs) check.derived(read_pack(path));
+    return check.faults;
+}
+
+}  // namespace strata::oracle

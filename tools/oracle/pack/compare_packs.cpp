@@ -1,0 +1,128 @@
+#include "tools/oracle/pack/compare_packs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tools/oracle/report.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+void count(const Comparison& comparison, PackComparison& to) {
+    to.equal &= comparison.equal;
+    to.accepted &= comparison.accepted;
+}
+
+std::optional<Comparison> compared(const Picture& reference, const Picture& candidate, const Tolerances& tolerances,
+                                   const std::string& what, PackComparison& to) {
+    if (reference.targets.empty()) return std::nullopt;
+    if (candidate.targets.empty()) {
+        to.missing.push_back(what);
+        return std::nullopt;
+    }
+    Comparison found = compare(reference, candidate, tolerances);
+    count(found, to);
+    return found;
+}
+
+void compare_passes(const PackPictures& reference, const PackPictures& candidate, const Tolerances& tolerances,
+                    PackComparison& to) {
+    for (const PassPicture& pass : reference.passes) {
+        const auto other = std::ranges::find(candidate.passes, pass.number, &PassPicture::number);
+        if (other == candidate.passes.end()) {
+            to.missing.push_back(fmt::format("pass {}", pass.number));
+            continue;
+        }
+        Comparison found = compare(pass.targets, other->targets, tolerances);
+        ++to.passes_compared;
+        count(found, to);
+        if (found.accepted || to.first) continue;
+        to.first = {pass.number, pass.iteration, pass.kind, std::move(found)};
+    }
+}
+
+std::string targets_of(const Comparison& comparison) {
+    std::string text;
+    for (const TargetReport& target : comparison.targets)
+        if (target.differing > 0)
+            text += fmt::format("{}{} at {} pixels", text.empty() ? "" : ", ", target.name, target.differing);
+    return text;
+}
+
+// The report of a picture, set in by two spaces.
+std::string indented(const std::string& text) {
+    std::string result = "  ";
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        result += text[i];
+        if (text[i] == '\n' && i + 1 < text.size()) result += "  ";
+    }
+    return result;
+}
+
+ordered_json parsed(const std::optional<Comparison>& comparison) {
+    return comparison ? ordered_json::parse(to_json(*comparison)) : ordered_json(nullptr);
+}
+
+}  // namespace
+
+std::vector<PackComparison> compare_packs(const std::vector<PackPictures>& reference,
+                                          const std::vector<PackPictures>& candidate, const Tolerances& tolerances) {
+    std::vector<PackComparison> all;
+    for (const PackPictures& expected : reference) {
+        const auto found = std::ranges::find(candidate, expected.algorithm, &PackPictures::algorithm);
+        if (found == candidate.end()) continue;
+        PackComparison comparison{.algorithm = expected.algorithm};
+        comparison.picture = compared(expected.picture, found->picture, tolerances, "picture", comparison);
+        comparison.layers = compared(expected.layers, found->layers, tolerances, "layers", comparison);
+        compare_passes(expected, *found, tolerances, comparison);
+        all.push_back(std::move(comparison));
+    }
+    return all;
+}
+
+std::string to_text(const std::vector<PackComparison>& comparisons) {
+    std::string text;
+    for (const PackComparison& c : comparisons) {
+        const char* verdict = c.equal ? "equal" : c.accepted ? "within the tolerance" : "different";
+        text += fmt::format("{}: {}\n", c.algorithm, verdict);
+        for (const auto& [what, comparison] : {std::pair{"picture", &c.picture}, std::pair{"layers", &c.layers}})
+            if (*comparison && !(*comparison)->equal)
+                text += fmt::format("  {}:\n{}", what, indented(to_text(**comparison)));
+        if (c.first)
+            text += fmt::format("  the first pass that differs is {}, a {} pass of iteration {}: {}\n", c.first->number,
+                                c.first->kind, c.first->iteration, targets_of(c.first->comparison));
+        else if (c.passes_compared > 0 && c.accepted)
+            text += fmt::format("  all {} passes compared are alike\n", c.passes_compared);
+        if (!c.missing.empty())
+            text += fmt::format("  not compared, for the candidate has none: {}\n", fmt::join(c.missing, ", "));
+    }
+    return text;
+}
+
+std::string to_json(const std::vector<PackComparison>& comparisons) {
+    ordered_json document = ordered_json::array();
+    for (const PackComparison& c : comparisons) {
+        ordered_json first = nullptr;
+        if (c.first)
+            first = {{"number", c.first->number},
+                     {"iteration", c.first->iteration},
+                     {"kind", c.first->kind},
+                     {"comparison", parsed(c.first->comparison)}};
+        document.push_back({{"algorithm", c.algorithm},
+                            {"equal", c.equal},
+                            {"accepted", c.accepted},
+                            {"picture", parsed(c.picture)},
+                            {"layers", parsed(c.layers)},
+                            {"passes_compared", c.passes_compared},
+                            {"first_pass", std::move(first)},
+                            {"missing", c.missing}});
+    }
+    return document.dump(2) + '\n';
+}
+
+}  // namespace strata::oracle

@@ -1,0 +1,34 @@
+// tools/oracle/pack/compare_packs.h - how a candidate differs from a pack: the end, and the first pass that went another way.
+//
+// Rule     Each algorithm that the candidate has anything of is compared: its picture, its layers, then its passes in their order up
+//          to the first that differs.
+// Tests    tests/tools/oracle/pack_pictures_test.cpp
+#pragma once
+#include "tools/oracle/compare.h"
+#include "tools/oracle/pack/pack_pictures.h"
+
+namespace strata::oracle {
+
+struct PassDifference {
+    int number = 0, iteration = 0;
+    std::string kind{};
+    Comparison comparison{};
+};
+
+struct PackComparison {
+    std::string algorithm{};
+    std::optional<Comparison> picture{}, layers{};
+    int passes_compared = 0;
+    std::optional<PassDifference> first{};  // the first pass that differs
+    std::vector<std::string> missing{};     // "picture", "pass 3": what the candidate has not
+    bool equal = true, accepted = true;     // of what was compared
+};
+
+[[nodiscard]] std::vector<PackComparison> compare_packs(const std::vector<PackPictures>& reference,
+                                                        const std::vector<PackPictures>& candidate,
+                                                        const Tolerances& tolerances = {});
+
+[[nodiscard]] std::string to_text(const std::vector<PackComparison>& comparisons);
+[[nodiscard]] std::string to_json(const std::vector<PackComparison>& comparisons);
+
+}  // namespace strata::oracle

@@ -1,0 +1,95 @@
+#include "tools/oracle/pack/golden.h"
+
+#include <filesystem>
+
+#include "peeling/registry.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/profile_json.h"
+#include "scenes/files/text_file.h"
+#include "scenes/packs/pack_scene.h"
+#include "tools/oracle/pack/draw_json.h"
+#include "tools/oracle/pack/result_json.h"
+#include "tools/oracle/pack/state_json.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+// The folder goes again unless all of it was written.
+class NewFolder {
+  public:
+    explicit NewFolder(const std::string& path) : path_{path} {
+        std::error_code error;
+        if (std::filesystem::exists(path_, error) && !std::filesystem::is_empty(path_, error))
+            throw InputError(path, "folder", "one that does not exist or is empty", "something");
+        std::filesystem::create_directories(path_);
+    }
+    NewFolder(const NewFolder&) = delete;
+    NewFolder& operator=(const NewFolder&) = delete;
+    ~NewFolder() {
+        std::error_code ignored;
+        if (!keep_) std::filesystem::remove_all(path_, ignored);
+    }
+    void keep() noexcept { keep_ = true; }
+
+  private:
+    std::filesystem::path path_;
+    bool keep_ = false;
+};
+
+}  // namespace
+
+void derive(const Golden& golden, const scenes::PackFiles::Sink& sink) {
+    scenes::PackFiles files{sink};
+    ordered_json manifest{{"format", "strata-pack"}, {"version", scenes::pack_version}, {"command", golden.command}};
+    files.add_text("profile.json", scenes::to_json(golden.profile));
+    manifest["scene"] = scenes::scene_json(golden.scene, golden.color_space, files);
+    manifest["view"] = scenes::view_json(*golden.scene.own_view);
+    manifest["state"] = state_json(golden.options);
+    manifest["draws"] = draws_json({golden.scene.list, *golden.scene.own_view, golden.profile, golden.options}, files);
+    manifest["results"] = ordered_json::array();
+    for (const peeling::Algorithm* algorithm : golden.algorithms)
+        manifest["results"].push_back(result_json(golden, *algorithm, files));
+    manifest["files"] = files.list();
+    sink("manifest.json", manifest.dump(1) + '\n');
+}
+
+void write_pack(const Golden& golden, const std::string& folder) {
+    NewFolder place{folder};
+    derive(golden, [&](const std::string& name, const std::string& bytes) {
+        const std::filesystem::path path = std::filesystem::path(folder) / name;
+        std::filesystem::create_directories(path.parent_path());
+        scenes::write_file(path.string(), bytes);
+    });
+    place.keep();
+}
+
+Golden read_pack(const std::string& path) {
+    const std::string folder = scenes::pack_folder(path), file = folder + "/manifest.json";
+    const json manifest = scenes::read_manifest(folder);
+    Golden golden;
+    golden.color_space = scenes::color_space_of(folder, manifest);
+    golden.scene = scenes::load_pack(path, {.color_space = golden.color_space});
+    const std::string profile = folder + "/profile.json";
+    golden.profile = scenes::parse_profile(scenes::read_text_file(profile), profile);
+    golden.options = read_state(manifest, file);
+    scenes::JsonReader top{manifest, file, ""};
+    top.text("command", golden.command);
+    const json& results = top.at("results");
+    if (!results.is_array()) top.fail("results", "an array");
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        scenes::JsonReader result{results[i], file, "/results/" + std::to_string(i)};
+        std::string name;
+        result.text("algorithm", name);
+        golden.algorithms.push_back(peeling::find_algorithm(name));
+        if (golden.algorithms.back() == nullptr)
+            result.fail("algorithm", "an algorithm (strata algorithms lists them)");
+    }
+    return golden;
+}
+
+}  // namespace strata::oracle

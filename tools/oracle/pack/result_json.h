@@ -1,0 +1,10 @@
+// tools/oracle/pack/result_json.h - an object of "results" in a pack: picture, layers and passes of one algorithm.
+#pragma once
+#include "tools/oracle/pack/golden.h"
+
+namespace strata::oracle {
+
+[[nodiscard]] nlohmann::ordered_json result_json(const Golden& golden, const peeling::Algorithm& algorithm,
+                                                 scenes::PackFiles& files);
+
+}  // namespace strata::oracle

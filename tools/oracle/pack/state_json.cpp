@@ -1,0 +1,100 @@
+#include "tools/oracle/pack/state_json.h"
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/packs/json_fields.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using peeling::RenderOptions;
+using scenes::JsonReader;
+using scenes::JsonWriter;
+
+constexpr int most_pixels_a_side = 16384, most_passes = 1000000;
+
+// An optional enum by its names.
+template <class Io, class Value>
+void optional_choice(Io& io, const std::string& key, Value& value,
+                     std::span<const std::string_view> names = enum_names<typename Value::value_type>) {
+    io.optional(key, value, [names](auto& inner, const std::string& k, auto& v) { inner.choice(k, v, names); });
+}
+
+template <class Io, class O>
+void fields(Io& io, O& o) {
+    io.whole("width", o.width, 1, most_pixels_a_side);
+    io.whole("height", o.height, 1, most_pixels_a_side);
+    optional_choice(io, "depth", o.depth);
+    optional_choice(io, "depth_path", o.depth_path);
+    optional_choice(io, "reference_path", o.reference_path);
+    io.nested("compare_epsilon", o.compare_epsilon, [](auto& inner, auto& epsilon) {
+        inner.real("absolute", epsilon.absolute);
+        inner.whole("ulps", epsilon.ulps, 0, 1 << 24);
+    });
+    io.flag("quantize_reference", o.quantize_reference);
+    io.nested("vertex_paths", o.vertex_paths, [](auto& inner, auto& paths) {
+        optional_choice(inner, "first", paths.first, pipeline::vertex_path_names);
+        optional_choice(inner, "second", paths.second, pipeline::vertex_path_names);
+    });
+    optional_choice(io, "color_format", o.color_format);
+    io.choice("average_count", o.average_count);
+    io.optional("alpha", o.alpha, [](auto& inner, const std::string& key, auto& v) { inner.real(key, v); });
+    io.reals("background", components(o.background));
+    io.nested("termination", o.termination, [](auto& inner, auto& termination) {
+        inner.choice("rule", termination.rule);
+        inner.real("ratio", termination.ratio);
+        inner.whole("passes", termination.passes, 0, most_passes);
+    });
+    io.whole("max_passes", o.max_passes, 0, most_passes);
+    io.choice("formulation", o.formulation);
+    io.nested("sort", o.sort, [](auto& inner, auto& sort) {
+        inner.choice("rule", sort.rule);
+        inner.whole("buckets", sort.buckets, 1, INT32_MAX);
+        inner.real("fraction", sort.fraction);
+        inner.text("seed", sort.seed);
+    });
+    io.texts("sorted", o.sorted);
+    auto& raster = o.raster;
+    io.choice("depth_order", raster.depth_order);
+    io.choice("clip_depth", raster.clip_depth);
+    io.nested("depth_range", raster, [](auto& inner, auto& range) {
+        inner.real("near", range.depth_near);
+        inner.real("far", range.depth_far);
+    });
+    io.flag("depth_clamp", raster.depth_clamp);
+    io.nested("polygon_offset", raster.polygon_offset, [](auto& inner, auto& offset) {
+        inner.flag("enabled", offset.enabled);
+        inner.real("factor", offset.factor);
+        inner.real("units", offset.units);
+    });
+    io.choice("y_direction", raster.y_direction);
+    io.choice("cull", raster.cull);
+    io.choice("front_face", raster.front_face);
+}
+
+void refuse(const char* field) { throw InputError("pack", field, "its default: a pack cannot hold it", "a choice"); }
+
+}  // namespace
+
+nlohmann::ordered_json state_json(const RenderOptions& options) {
+    if (options.second_list != nullptr) refuse("second_list");
+    if (options.second_depth_clamp) refuse("second_depth_clamp");
+    if (options.window_origin != std::array<int, 2>{}) refuse("window_origin");
+    if (options.raster.scissor) refuse("raster.scissor");
+    if (options.raster.clip_plane_count != 0) refuse("raster.clip_planes");
+    if (options.raster.window_positions) refuse("raster.window_positions");
+    JsonWriter io;
+    fields(io, options);
+    return std::move(io.object);
+}
+
+RenderOptions read_state(const nlohmann::json& manifest, const std::string& file) {
+    RenderOptions options;
+    JsonReader top{manifest, file, ""};
+    JsonReader io{top.at("state"), file, "/state"};
+    fields(io, options);
+    io.end();
+    return options;
+}
+
+}  // namespace strata::oracle

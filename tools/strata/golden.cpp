@@ -1,0 +1,91 @@
+// tools/strata/golden.cpp - strata golden: a pack of everything that a port needs and must produce, written or checked.
+#include "tools/oracle/pack/golden.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "peeling/render.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/options/pack_options.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+// The command line.
+struct GoldenOptions {
+    RunOptions run;
+    std::string check;
+};
+
+int check(const std::string& path) {
+    const std::vector<oracle::PackFault> faults = oracle::check_pack(path);
+    for (const oracle::PackFault& fault : faults) print(fault.file + ": " + fault.sentence + '\n');
+    if (faults.empty()) print(path + ": every file is what this program derives\n");
+    return faults.empty() ? 0 : 1;
+}
+
+// Algorithms that the profile refuses are left out with their reason.
+oracle::Golden golden_of(RunOptions& options) {
+    Session session = open_session(options);
+    oracle::Golden golden{.scene = std::move(session.scene),
+                          .color_space = options.scene_options.color_space,
+                          .profile = std::move(session.profile),
+                          .options = options.render,
+                          .command = canonical_command("golden", options, options.algorithms)};
+    golden.scene.own_view = session.view;
+    peeling::RenderOptions tried = golden.options;
+    tried.audit = false;
+    peeling::Renderer renderer{golden.scene.list, session.view, golden.profile, tried};
+    for (const peeling::Algorithm* algorithm : options.algorithms) {
+        const peeling::RenderResult result = renderer.render(*algorithm);
+        if (result.outcome == peeling::Outcome::done)
+            golden.algorithms.push_back(algorithm);
+        else
+            std::fprintf(stderr, "strata: %s: %s\n", algorithm->name.c_str(),
+                         result.refusal->sentence(golden.profile).c_str());
+    }
+    return golden;
+}
+
+int golden(GoldenOptions& options) {
+    if (!options.check.empty()) {
+        if (!options.run.scene.empty())
+            throw CLI::ValidationError("--check", "expected a pack alone, found a scene beside it");
+        return check(options.check);
+    }
+    if (options.run.scene.empty()) throw CLI::ValidationError("SCENE", "expected a scene, or --check PACK, found none");
+    if (options.run.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the pack, found none");
+    complete(options.run);
+    const oracle::Golden made = golden_of(options.run);
+    if (made.algorithms.empty()) return 2;
+    oracle::write_pack(made, options.run.output);
+    return 0;
+}
+
+}  // namespace
+
+Command add_golden(CLI::App& root) {
+    auto* app = root.add_subcommand(
+        "golden", "write everything that a port needs and must produce, or check such a pack byte by byte");
+    const auto options = std::make_shared<GoldenOptions>();
+    add_picture_options(*app, options->run);
+    app->get_option("SCENE")->required(false);
+    add_path(*app, options->run.output,
+             {"-o", "PACK", "the folder to write; it must not exist or be empty", "a folder's name"});
+    add_path(*app, options->check,
+             {"--check", "PACK", "derive a pack again, and name what differs in it", "a folder with a pack"});
+    app->footer(
+        "Examples:\n"
+        "  strata golden teapot --size 64x48 --algorithm front_to_back,dual -o pack && strata golden --check pack\n"
+        "  strata golden planes:count=3 --size 32x32 -o planes && strata render planes -o planes.png\n"
+        "Exit status: 0 done, 1 --check found differences, 2 bad input or usage, 3 the system failed, 130 "
+        "interrupted.");
+    return {app, [options] { return golden(*options); }};
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,19 @@
+#include "tools/strata/options/pack_options.h"
+
+#include "scenes/packs/pack_scene.h"
+#include "tools/oracle/pack/state_json.h"
+
+namespace strata::tools {
+
+void take_pack_state(RunOptions& options, const std::string& scene) {
+    if (scenes::is_procedural(scene) || !scenes::is_pack(scene)) return;
+    const std::string folder = scenes::pack_folder(scene);
+    const nlohmann::json manifest = scenes::read_manifest(folder);
+    options.render = oracle::read_state(manifest, folder + "/manifest.json");
+    options.profile = folder + "/profile.json";
+    options.scene_options.color_space = scenes::color_space_of(folder, manifest);
+    options.has_frame_background = true;
+    options.view_convention = {options.render.raster.clip_depth, options.render.raster.depth_order};
+}
+
+}  // namespace strata::tools
