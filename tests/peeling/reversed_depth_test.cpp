@@ -136,7 +136,7 @@ TEST_CASE("under GREATER every algorithm composites what it does under LESS, and
 TEST_CASE("clip space from 0 to 1 gives the bits of clip space from -1 to 1 where both projections are exact") {
     const FragmentScene scene = mixed_scene(3);
     const DrawList list = draw_list(scene);
-    for (const char* profile : {"ideal", "geforce8", "geforce3"})
+    for (const char* profile : {"ideal", "geforce8", "geforce8_dx101"})
         for (const char* algorithm : {"front_to_back", "dual", "depth_units", "weighted_average", "a_buffer"}) {
             RenderOptions symmetric = options_for(scene), half = options_for(scene);
             half.raster.clip_depth = ClipDepth::zero_to_one;

@@ -130,13 +130,13 @@ TEST_CASE("a view under another convention sees the same volume: near and far co
     using strata::rasterizer::ClipDepth;
     using strata::rasterizer::DepthOrder;
     const double n = 1.9, f = 4.2;
-    const pipeline::View view = look_at({.near = n, .far = f}, 1.5);
+    const View view = look_at({.near = n, .far = f}, 1.5);
     for (const ClipDepth from_clip : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one})
         for (const DepthOrder from_order : {DepthOrder::less, DepthOrder::greater})
             for (const ClipDepth clip : {ClipDepth::minus_one_to_one, ClipDepth::zero_to_one})
                 for (const DepthOrder order : {DepthOrder::less, DepthOrder::greater}) {
                     const ClipConvention between{from_clip, from_order}, to{clip, order};
-                    const pipeline::View seen = as_seen_under(as_seen_under(view, {}, between), between, to);
+                    const View seen = as_seen_under(as_seen_under(view, {}, between), between, to);
                     const double least = clip == ClipDepth::zero_to_one ? 0 : -1;
                     for (const double z : {n, f}) {
                         const bool is_near = z == n;

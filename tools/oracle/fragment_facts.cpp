@@ -68,8 +68,11 @@ std::optional<std::vector<std::uint32_t>> submission(const RunInput& input, cons
     if (algorithm.order == ListOrder::given && !sorts) return std::vector<std::uint32_t>{};
     if (!sorts && algorithm.order != ListOrder::back_to_front) return std::nullopt;
     const auto soup = pipeline::transform(input.list, first_view(input), {.selection = selection});
-    return peeling::submission_order(soup,
-                                     sorts ? input.options.sort : peeling::Sort{.rule = peeling::SortRule::reverse});
+    const rasterizer::RasterState& raster = input.options.raster;
+    const bool is_reversed = raster.depth_order == rasterizer::DepthOrder::greater;
+    return peeling::submission_order(
+        soup, sorts ? input.options.sort : peeling::Sort{.rule = peeling::SortRule::reverse},
+        is_reversed != (raster.depth_near > raster.depth_far) ? peeling::NearerZ::greater : peeling::NearerZ::less);
 }
 
 // A triangle's mesh by counting through the instances that are drawn.

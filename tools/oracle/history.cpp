@@ -310,7 +310,10 @@ std::vector<History> explain(const RunInput& input, const peeling::Algorithm& al
         .stage = [&](const Region& region, const StageEvent& event) { recorder.stage(region, event); },
         .traced = [&](const Region&, const pipeline::TraceEntry& entry) { recorder.traced(entry); }};
     observe(everything, algorithm, observer);
-    for (History& history : histories) history.depth_format = format;
+    for (History& history : histories) {
+        history.depth_format = format;
+        history.is_reversed = input.options.raster.depth_order == rasterizer::DepthOrder::greater;
+    }
     add_facts(input, algorithm, pixels, histories);
     return histories;
 }

@@ -89,6 +89,7 @@ struct History {
     int x = 0, y = 0;
     std::string algorithm{}, profile{};
     pipeline::DepthFormat depth_format{};
+    bool is_reversed = false;  // all depths are keys (rasterizer/rules/depth_key.h): less is nearer
     std::vector<FragmentFact> fragments{};
     std::vector<Line> lines{};
 };

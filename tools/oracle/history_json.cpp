@@ -154,6 +154,7 @@ ordered_json of_history(const History& history) {
                           {"algorithm", history.algorithm},
                           {"profile", history.profile},
                           {"depth_format", pipeline::info(pipeline::target_format(history.depth_format)).name},
+                          {"reversed_depth", history.is_reversed},
                           {"fragments", ordered_json::array()},
                           {"lines", ordered_json::array()},
                           {"composited", composited(history)}};

@@ -73,6 +73,7 @@ std::string of_line(const Line& line) {
 std::string to_text(const History& history) {
     std::string text = fmt::format("pixel {},{} by {} on {}: {} fragments in submission order\n", history.x, history.y,
                                    history.algorithm, history.profile, history.fragments.size());
+    if (history.is_reversed) text += "  depth is reversed: depths are told as keys, of which the less is nearer\n";
     for (std::size_t f = 0; f < history.fragments.size(); ++f) text += of_fragment(history.fragments[f], f);
     for (const Line& line : history.lines) text += fmt::format("  pass {}: {}\n", line.pass, of_line(line));
     return text;

@@ -56,7 +56,8 @@ int compare_folders(const CompareOptions& options) {
     const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
-    if (found.empty()) throw InputError(options.candidate, "algorithms", "one that the pack has, too", "none");
+    if (std::ranges::none_of(found, &oracle::PackComparison::is_there))
+        throw InputError(options.candidate, "algorithms", "one that the pack has, too", "none");
     print(options.json ? oracle::to_json(found) : oracle::to_text(found));
     return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
 }

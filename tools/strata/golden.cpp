@@ -7,6 +7,7 @@
 
 #include "peeling/render.h"
 #include "tools/strata/command.h"
+#include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/render/run.h"
@@ -22,8 +23,9 @@ struct GoldenOptions {
     std::string check;
 };
 
-int check(const std::string& path) {
-    const std::vector<oracle::PackFault> faults = oracle::check_pack(path);
+int check(const std::string& path, Simd simd) {
+    check_simd(simd);
+    const std::vector<oracle::PackFault> faults = oracle::check_pack(path, simd);
     for (const oracle::PackFault& fault : faults) print(fault.file + ": " + fault.sentence + '\n');
     if (faults.empty()) print(path + ": every file is what this program derives\n");
     return faults.empty() ? 0 : 1;
@@ -56,7 +58,7 @@ int golden(GoldenOptions& options) {
     if (!options.check.empty()) {
         if (!options.run.scene.empty())
             throw CLI::ValidationError("--check", "expected a pack alone, found a scene beside it");
-        return check(options.check);
+        return check(options.check, options.run.simd);
     }
     if (options.run.scene.empty()) throw CLI::ValidationError("SCENE", "expected a scene, or --check PACK, found none");
     if (options.run.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the pack, found none");
@@ -79,6 +81,8 @@ Command add_golden(CLI::App& root) {
              {"-o", "PACK", "the folder to write; it must not exist or be empty", "a folder's name"});
     add_path(*app, options->check,
              {"--check", "PACK", "derive a pack again, and name what differs in it", "a folder with a pack"});
+    add_choice(*app, options->run.simd, "--simd", simds,
+               "instruction set; same bits (default best: what the processor has)");
     app->footer(
         "Examples:\n"
         "  strata golden teapot --size 64x48 --algorithm front_to_back,dual -o pack && strata golden --check pack\n"

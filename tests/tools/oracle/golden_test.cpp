@@ -109,13 +109,13 @@ TEST_CASE("a check finds files that are missing or too many, a changed manifest,
     put_bytes(positions, corners);
     // A digest, a count and a word of the manifest.
     const std::string manifest = pack + "/manifest.json", text = bytes_of_file(manifest);
-    for (const char* what : {"\"geometry_passes\": 2", "\"passed\": ", "\"kind\": \"geometry\""}) {
+    for (const auto& [what, by] : {std::pair{"\"kind\": \"geometry\"", "\"kind\": \"geometries\""},
+                                   std::pair{"\"goes_on\": true", "\"goes_on\": false"},
+                                   std::pair{"\"passed\": ", "\"passed\": 1"}, std::pair{"{\n", "{\n\n"}}) {
         std::string wrong = text;
-        const std::size_t at = wrong.find(what);
         INFO(what);
-        REQUIRE(at != std::string::npos);
-        char& letter = wrong[at + std::string{what}.size() - 2];
-        letter = letter == ' ' ? '\t' : letter == 'y' ? 'x' : ' ';
+        REQUIRE(wrong.find(what) != std::string::npos);
+        wrong.replace(wrong.find(what), std::string{what}.size(), by);
         put_bytes(manifest, wrong);
         CHECK(check_pack(pack).at(0).file == "manifest.json");
     }

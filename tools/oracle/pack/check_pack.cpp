@@ -138,7 +138,7 @@ class Check {
 
 }  // namespace
 
-std::vector<PackFault> check_pack(const std::string& path) {
+std::vector<PackFault> check_pack(const std::string& path, Simd simd) {
     const std::string folder = scenes::pack_folder(path);
     Check check{folder};
     check.files(scenes::read_manifest(folder));
@@ -146,7 +146,10 @@ std::vector<PackFault> check_pack(const std::string& path) {
         return fault.file.starts_with("scene/") || fault.file == "profile.json";
     });
     // A changed input would change all that is derived from it: its own fault says enough.
-    if (has_inputs) check.derived(read_pack(path));
+    if (!has_inputs) return check.faults;
+    Golden golden = read_pack(path);
+    golden.options.simd = simd;
+    check.derived(golden);
     return check.faults;
 }
 

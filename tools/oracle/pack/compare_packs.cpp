@@ -35,7 +35,7 @@ void compare_passes(const PackPictures& reference, const PackPictures& candidate
     for (const PassPicture& pass : reference.passes) {
         const auto other = std::ranges::find(candidate.passes, pass.number, &PassPicture::number);
         if (other == candidate.passes.end()) {
-            to.missing.push_back(fmt::format("pass {}", pass.number));
+            if (pass.has_own) to.missing.push_back(fmt::format("pass {}", pass.number));
             continue;
         }
         Comparison found = compare(pass.targets, other->targets, tolerances);
@@ -75,8 +75,11 @@ std::vector<PackComparison> compare_packs(const std::vector<PackPictures>& refer
     std::vector<PackComparison> all;
     for (const PackPictures& expected : reference) {
         const auto found = std::ranges::find(candidate, expected.algorithm, &PackPictures::algorithm);
-        if (found == candidate.end()) continue;
-        PackComparison comparison{.algorithm = expected.algorithm};
+        PackComparison comparison{.algorithm = expected.algorithm, .is_there = found != candidate.end()};
+        if (!comparison.is_there) {
+            all.push_back(std::move(comparison));
+            continue;
+        }
         comparison.picture = compared(expected.picture, found->picture, tolerances, "picture", comparison);
         comparison.layers = compared(expected.layers, found->layers, tolerances, "layers", comparison);
         compare_passes(expected, *found, tolerances, comparison);
@@ -88,7 +91,10 @@ std::vector<PackComparison> compare_packs(const std::vector<PackPictures>& refer
 std::string to_text(const std::vector<PackComparison>& comparisons) {
     std::string text;
     for (const PackComparison& c : comparisons) {
-        const char* verdict = c.equal ? "equal" : c.accepted ? "within the tolerance" : "different";
+        const char* verdict = !c.is_there  ? "not compared: the candidate has nothing of it"
+                              : c.equal    ? "equal"
+                              : c.accepted ? "within the tolerance"
+                                           : "different";
         text += fmt::format("{}: {}\n", c.algorithm, verdict);
         for (const auto& [what, comparison] : {std::pair{"picture", &c.picture}, std::pair{"layers", &c.layers}})
             if (*comparison && !(*comparison)->equal)
@@ -114,6 +120,7 @@ std::string to_json(const std::vector<PackComparison>& comparisons) {
                      {"kind", c.first->kind},
                      {"comparison", parsed(c.first->comparison)}};
         document.push_back({{"algorithm", c.algorithm},
+                            {"is_there", c.is_there},
                             {"equal", c.equal},
                             {"accepted", c.accepted},
                             {"picture", parsed(c.picture)},

@@ -17,6 +17,7 @@ struct PassDifference {
 
 struct PackComparison {
     std::string algorithm{};
+    bool is_there = true;  // false: the candidate has nothing of it
     std::optional<Comparison> picture{}, layers{};
     int passes_compared = 0;
     std::optional<PassDifference> first{};  // the first pass that differs

@@ -39,6 +39,7 @@ struct PackFault {
 };
 
 // Empty for a pack as it was written. Files are compared with what the manifest says of them, then with what is derived again.
-[[nodiscard]] std::vector<PackFault> check_pack(const std::string& path);
+// Derived on the instruction set `simd`, which this processor has.
+[[nodiscard]] std::vector<PackFault> check_pack(const std::string& path, Simd simd = Simd::best);
 
 }  // namespace strata::oracle

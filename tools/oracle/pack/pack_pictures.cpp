@@ -94,6 +94,8 @@ class Reader {
                               .kind = pass.value("kind", "")};
             for (const json& target : list_at(pass, "targets")) {
                 const std::string name = target.value("name", "");
+                shown.has_own |=
+                    target.value("file", "").find(fmt::format("/pass.{:03}/", shown.number)) != std::string::npos;
                 add(target, fmt::format("{}pass.{:03}/{}.npy", folder, shown.number, name), "", name, shown.targets);
             }
             if (!shown.targets.targets.empty()) pictures.passes.push_back(std::move(shown));

@@ -16,6 +16,7 @@ struct PassPicture {
     int number = 0, iteration = 0;
     std::string kind{};  // "geometry", "full_screen"
     Picture targets{};
+    bool has_own = false;  // a file of its own: some target is not as earlier passes left it
 };
 
 // One algorithm's. A picture without targets is one that the candidate has not.

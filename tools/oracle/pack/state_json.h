@@ -2,7 +2,7 @@
 //
 // Rule     tools/oracle/PACK.md. Options that leave every bit alone (threads, tiles, execution) are not in it; those that a pack cannot
 //          hold (scissor, clip planes, a second list, a window's corner) throw InputError when it is written.
-// Tests    tests/tools/oracle/pack_state_test.cpp
+// Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,7 +1,7 @@
 // tools/oracle/pack/target_json.h - a target in a pack: its codes as an array, and digests of the whole, of channels and of tiles.
 //
 // Rule     tools/oracle/PACK.md. A target that has not changed since it was last written keeps its file.
-// Tests    tests/tools/oracle/pack_targets_test.cpp
+// Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
 #include <map>
 #include <nlohmann/json.hpp>
