@@ -6,8 +6,9 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/image_io.h"
-#include "scenes/files/system_error.h"
+#include "scenes/nearest_name.h"
 #include "tools/oracle/drawings.h"
+#include "tools/oracle/pack/pack_pictures.h"
 
 namespace strata {
 inline namespace v0_1 {
@@ -28,6 +29,27 @@ std::string file_name(const std::string& name) {
         if (!is_plain) c = '_';
     }
     return file.empty() ? "reference" : file;
+}
+
+// Of a pack, what it expects of one algorithm; of any other file, the file.
+Picture picture_at(const std::string& path, const std::string& algorithm) {
+    const std::filesystem::path place{path};
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(place, ignored) && place.filename() != "manifest.json") {
+        if (!algorithm.empty())
+            throw InputError(path, "algorithm", "none, for the file is no pack", "'" + algorithm + "'");
+        return read_picture(path);
+    }
+    std::vector<oracle::PackPictures> expected = oracle::expected_pictures(path);
+    std::vector<std::string_view> names;
+    std::string list;
+    for (oracle::PackPictures& pictures : expected) {
+        if (pictures.algorithm == algorithm || (algorithm.empty() && expected.size() == 1))
+            return std::move(pictures.picture);
+        names.push_back(pictures.algorithm);
+        list += (list.empty() ? "" : ", ") + pictures.algorithm;
+    }
+    throw InputError(path, "algorithm", list, scenes::quoted_with_suggestion(algorithm, names));
 }
 
 // "color at 118 pixels, first at (17, 20)" of each kind that is not forgiven.
@@ -60,7 +82,8 @@ std::string leave_pictures(const Picture& candidate, const Reference& reference,
 
 }  // namespace
 
-Reference::Reference(const std::string& path) : Reference{read_picture(path), path} {}
+Reference::Reference(const std::string& path, const std::string& algorithm)
+    : Reference{picture_at(path, algorithm), algorithm.empty() ? path : path + "." + algorithm} {}
 Reference::Reference(Picture picture, std::string name) : picture_{std::move(picture)}, name_{std::move(name)} {}
 
 std::string size_text(const Picture& picture) {

@@ -5,7 +5,9 @@
 #include <filesystem>
 
 #include "strata/catch2.h"
+#include "strata/strata.h"
 #include "tests/tools/oracle/own_file.h"
+#include "tools/oracle/pack/golden.h"
 
 using Catch::Matchers::Contains;
 
@@ -81,6 +83,35 @@ TEST_CASE("pictures that cannot be written leave the difference told") {
     unsetenv("STRATA_PICTURES");
     CHECK_FALSE(checked.is_accepted);
     CHECK_THAT(checked.message, Contains("color at 1 pixels, first at (0, 1)") && Contains("no picture could be left"));
+}
+
+TEST_CASE("a golden pack is a reference, algorithm by algorithm") {
+    const strata::test::OwnFile folder{""};
+    strata::oracle::Golden golden;
+    golden.scene = strata::scenes::load_scene("volume-beam:slices=4", {});
+    golden.scene.own_view = strata::scenes::orbit_view(golden.scene.bounds, 30, 20, 1.5);
+    golden.profile = strata::profile("geforce8");
+    golden.options.width = 12;
+    golden.options.height = 8;
+    golden.algorithms = {&strata::algorithm("unsorted"), &strata::algorithm("weighted_average")};
+    strata::oracle::write_pack(golden, folder.path());
+
+    const PictureFolder pictures;
+    strata::Scene scene{"volume-beam:slices=4"};
+    scene.look(*golden.scene.own_view);
+    for (const char* name : {"unsorted", "weighted_average"}) {
+        const auto mine =
+            strata::render(scene, strata::algorithm(name), golden.profile, {.width = 12, .height = 8}).picture();
+        CHECK_THAT(mine, strata::MatchesReference(strata::Reference(folder.path(), name)));
+        CHECK_THAT(mine, strata::MatchesReference(strata::Reference(folder.path() + "/manifest.json", name)));
+        const char* other = name == std::string{"unsorted"} ? "weighted_average" : "unsorted";
+        CHECK_THAT(mine, !strata::MatchesReference(strata::Reference(folder.path(), other)));
+    }
+    CHECK_THROWS_WITH(strata::Reference(folder.path()),
+                      Contains("algorithm: expected unsorted, weighted_average, found ''"));
+    CHECK_THROWS_WITH(strata::Reference(folder.path(), "unsortd"), Contains("did you mean 'unsorted'?"));
+    CHECK_THROWS_WITH(strata::Reference("some.exr", "dual"), Contains("some.exr: algorithm: expected none"));
+    std::filesystem::remove_all(folder.path());
 }
 
 TEST_CASE("a reference file is read by its name") {

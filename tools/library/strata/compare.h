@@ -21,11 +21,13 @@ using oracle::compare;
 using oracle::Comparison;
 using oracle::Tolerances;
 
-// What a picture under test is measured by: a file, or a picture made by render().
+// What a picture under test is measured by: a file, a golden pack, or a picture made by render().
 class Reference {
   public:
-    Reference(const std::string& path);                            // NOLINT: a path is a reference
-    Reference(const char* path) : Reference(std::string{path}) {}  // NOLINT
+    // A pack is named by its folder or its manifest.json. `algorithm` chooses among the pack's; InputError lists them if it is none of
+    // them, or is "" where there are several.
+    Reference(const std::string& path, const std::string& algorithm = "");  // NOLINT: a path is a reference
+    Reference(const char* path) : Reference(std::string{path}) {}           // NOLINT
     Reference(Picture picture, std::string name);
     [[nodiscard]] const Picture& picture() const noexcept { return picture_; }
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
