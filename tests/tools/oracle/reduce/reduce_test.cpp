@@ -7,6 +7,7 @@
 
 #include "peeling/registry.h"
 #include "scenes/camera.h"
+#include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/laboratory.h"
 #include "tools/oracle/mistakes/suite.h"
 #include "tools/oracle/reduce/cut_scene.h"
