@@ -21,6 +21,7 @@ struct Command {
 [[nodiscard]] Command add_report(CLI::App& root);
 [[nodiscard]] Command add_diagnose(CLI::App& root);
 [[nodiscard]] Command add_mistakes(CLI::App& root);
+[[nodiscard]] Command add_reduce(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
 [[nodiscard]] Command add_effects(CLI::App& root);
 [[nodiscard]] Command add_cost(CLI::App& root);

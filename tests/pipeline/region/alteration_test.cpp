@@ -51,13 +51,12 @@ std::vector<float> reds_after_pass(const Alteration& alteration, bool by_quad = 
     return reds;
 }
 
-const std::vector<float> ramp{0, 0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.75f, 0.875f};
-const std::vector<float> cleared(8, 0.25f);
+const std::vector<float> unaltered_reds{0, 0.125f, 0.25f, 0.375f, 0.5f, 0.625f, 0.75f, 0.875f};
 
 }  // namespace
 
 TEST_CASE("an alteration without functions leaves every step as it is") {
-    CHECK(reds_after_pass({}) == ramp);
+    CHECK(reds_after_pass({}) == unaltered_reds);
     CHECK(reds_after_pass({}, true) == std::vector<float>(8, 0.75f));
 }
 

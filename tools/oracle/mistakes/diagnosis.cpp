@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "rasterizer/base/parallel.h"
+#include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/pairs.h"
 
 namespace strata::oracle {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/report.h"
 
 namespace strata::oracle {

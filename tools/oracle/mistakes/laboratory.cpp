@@ -5,6 +5,7 @@
 
 #include "peeling/render.h"
 #include "pipeline/device/check.h"
+#include "tools/oracle/mistakes/catalogue.h"
 
 namespace strata::oracle {
 

@@ -8,10 +8,12 @@
 #include <optional>
 #include <span>
 
-#include "tools/oracle/mistakes/catalogue.h"
+#include "tools/oracle/mistakes/experiment.h"
 #include "tools/oracle/passes.h"
 
 namespace strata::oracle {
+
+struct Mistake;  // tools/oracle/mistakes/catalogue.h
 
 enum class Depths : std::uint8_t { left_out, made };
 

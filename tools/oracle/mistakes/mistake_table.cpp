@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tools/oracle/mistakes/catalogue.h"
+
 namespace strata::oracle {
 
 namespace {

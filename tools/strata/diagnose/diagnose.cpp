@@ -1,7 +1,11 @@
 // tools/strata/diagnose/diagnose.cpp - strata diagnose: which known mistake made a picture.
+#include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
-#include "pipeline/device/check.h"
+#include "peeling/algorithms/algorithm.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/packs/pack_scene.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
@@ -27,12 +31,32 @@ bool has_depth(const oracle::Picture& picture) {
            picture.targets.end();
 }
 
+// A pack's own algorithm, if the user names none.
+void choose_algorithm(RunOptions& run) {
+    if (!run.algorithms.empty() || scenes::is_procedural(run.scene) || !scenes::is_pack(run.scene)) return;
+    const nlohmann::json manifest = scenes::read_manifest(scenes::pack_folder(run.scene));
+    const nlohmann::json& results = manifest.at("results");
+    if (!results.empty()) run.default_algorithm = results[0].at("algorithm").get<std::string>();
+}
+
+// The picture in a candidate's folder, or in another pack's.
+oracle::Picture read_candidate(const DiagnoseOptions& options, const std::string& algorithm) {
+    namespace fs = std::filesystem;
+    if (!fs::is_directory(options.candidate)) return oracle::read_picture(options.candidate, options.layout);
+    for (const fs::path& folder : {fs::path(options.candidate), fs::path(options.candidate) / "expected"})
+        if (const fs::path picture = folder / algorithm / "picture.npy"; fs::exists(picture))
+            return oracle::read_picture(picture.string());
+    throw InputError(options.candidate, "files", "a picture of " + algorithm + ", " + algorithm + "/picture.npy",
+                     "none");
+}
+
 // Right: 0. Whatever else made the picture, known or not: 1.
 int diagnose(DiagnoseOptions& options) {
+    choose_algorithm(options.run);
     complete(options.run);
     if (options.run.algorithms.size() != 1)
         throw CLI::ValidationError("--algorithm", "expected one algorithm, found several");
-    const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
+    const oracle::Picture candidate = read_candidate(options, options.run.algorithms[0]->name);
     // The machines draw at the candidate's size.
     options.run.render.width = candidate.targets[0].width;
     options.run.render.height = candidate.targets[0].height;
@@ -56,7 +80,8 @@ Command add_diagnose(CLI::App& root) {
     auto* app = root.add_subcommand("diagnose", "tell which known mistake, or which two, made a picture of a scene");
     const auto options = std::make_shared<DiagnoseOptions>();
     add_picture_options(*app, options->run);
-    app->add_option("CANDIDATE", options->candidate, "an .exr, .png or .npy file, or bare numbers with --layout")
+    app->add_option("CANDIDATE", options->candidate,
+                    "an .exr, .png or .npy file, bare numbers with --layout, or a candidate's folder (PACK.md)")
         ->required()
         ->type_name("");
     add_layout_option(*app, options->layout);
@@ -65,9 +90,8 @@ Command add_diagnose(CLI::App& root) {
     app->footer(
         "The scene is drawn at the candidate's size, whatever --size says; strata mistakes lists what is tried.\n"
         "Examples:\n"
-        "  strata render showroom --size 64x64 --mistake one_pass_too_few -o mine.exr\n"
-        "  strata diagnose showroom mine.exr\n"
-        "  strata diagnose showroom mine.exr --json\n"
+        "  strata render showroom --size 64x64 -o mine.png && strata diagnose showroom mine.png\n"
+        "  strata golden showroom --size 64x64 -o room && strata diagnose room room --json\n"
         "Exit status: 0 right, 1 a mistake or none of mine, 2 bad input or usage, 3 the system failed, 130 "
         "interrupted.");
     return {app, [options] { return diagnose(*options); }};

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/files/atomic_file.h"
+#include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/mistake_table.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"

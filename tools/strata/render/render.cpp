@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "scenes/files/image_io.h"
+#include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/laboratory.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"

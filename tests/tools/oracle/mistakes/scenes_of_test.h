@@ -1,5 +1,6 @@
 // tests/tools/oracle/mistakes/scenes_of_test.h - a laboratory over a scene of the suite, and pictures changed by hand.
 #pragma once
+#include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/diagnosis.h"
 #include "tools/oracle/mistakes/suite.h"
 

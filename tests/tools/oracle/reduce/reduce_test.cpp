@@ -1,0 +1,155 @@
+// Model: a renderer with a mistake that is known; a scene is as small as it gets if it fails, and no longer fails without any one of
+// its triangles.
+#include "tools/oracle/reduce/reduce.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "peeling/registry.h"
+#include "scenes/camera.h"
+#include "tools/oracle/mistakes/catalogue.h"
+#include "tools/oracle/mistakes/laboratory.h"
+#include "tools/oracle/mistakes/suite.h"
+#include "tools/oracle/reduce/cut_scene.h"
+
+using namespace strata;
+using namespace strata::oracle;
+
+namespace {
+
+Golden golden_of(OpenScene&& opened) {
+    Golden golden{.scene = std::move(opened.scene), .profile = opened.profile, .options = opened.options};
+    golden.scene.own_view = opened.view;
+    golden.algorithms = {opened.algorithm};
+    return golden;
+}
+
+Golden golden_of(const char* suite_scene) { return golden_of(open(*find_suite_scene(suite_scene))); }
+
+// Draws like a machine with that mistake; where the scene has no room for it, right.
+std::optional<Picture> mistaken(const Golden& scene, const char* mistake) {
+    const Laboratory laboratory{{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options},
+                                *scene.algorithms[0]};
+    const auto picture = laboratory.with(*find_mistake(mistake));
+    return picture ? picture : laboratory.right();
+}
+
+bool differs(const Golden& scene, const Candidate& candidate) {
+    return candidate(scene)->targets[0].codes != right_picture(scene).targets[0].codes;
+}
+
+// How many of its triangles can be left out, and it fails all the same.
+int needless(const Golden& scene, const Candidate& candidate) {
+    const auto all = triangles_of(scene.scene.list);
+    int count = 0;
+    for (std::size_t i = 0; all.size() > 1 && i < all.size(); ++i) {
+        auto fewer = all;
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+        Golden tried = scene;
+        tried.scene.list = cut(scene.scene.list, fewer);
+        count += differs(tried, candidate) ? 1 : 0;
+    }
+    return count;
+}
+
+void check_reduction(const Golden& scene, const char* mistake) {
+    INFO(mistake);
+    const Candidate candidate = [&](const Golden& tried) { return mistaken(tried, mistake); };
+    const auto found = reduce(scene, candidate);
+    REQUIRE(found);
+    CHECK(found->triangles <= 3);
+    CHECK(found->scene.options.width * found->scene.options.height <= 4);
+    CHECK(found->triangles == triangles_of(found->scene.scene.list).size());
+    CHECK(differs(found->scene, candidate));
+    CHECK(needless(found->scene, candidate) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("a failing scene becomes at most three triangles and four pixels, and none of them can be spared") {
+    check_reduction(golden_of("random.front_to_back"), "last_of_equals");
+    check_reduction(golden_of("random.front_to_back"), "one_pass_too_few");
+    check_reduction(golden_of("showroom.dual"), "culls_front");
+    check_reduction(golden_of("showroom.dual"), "texture_upside_down");
+    check_reduction(golden_of("showroom.weighted_average"), "average_without_power");
+}
+
+TEST_CASE("what a failure does not need goes back to its default, and what it needs stays") {
+    const Candidate black = [](const Golden& scene) { return mistaken(scene, "background_lost"); };
+    const auto found = reduce(golden_of("showroom.dual"), black);
+    REQUIRE(found);
+    CHECK(found->scene.options.background == pipeline::Rgba{0.2f, 0.3f, 0.5f, 1});
+    CHECK(found->scene.scene.list.textures.empty());
+    const Candidate flat = [](const Golden& scene) { return mistaken(scene, "premultiplied_twice"); };
+    const auto other = reduce(golden_of("showroom.dual"), flat);
+    REQUIRE(other);
+    CHECK(other->scene.options.background == peeling::RenderOptions{}.background);
+    CHECK(std::ranges::find(other->defaults, "the background") != other->defaults.end());
+    CHECK_THAT(other->sentence(), Catch::Contains("1 triangle in a frame of 1x1"));
+}
+
+TEST_CASE("a candidate that is right, fails or draws another size leaves nothing to reduce") {
+    const Golden scene = golden_of("random.dual");
+    CHECK_FALSE(reduce(scene, [](const Golden& s) { return std::optional{right_picture(s)}; }));
+    CHECK_FALSE(reduce(scene, [](const Golden&) { return std::optional<Picture>{}; }));
+    CHECK_FALSE(reduce(scene, [](const Golden& s) {
+        Golden larger = s;
+        larger.options.width += 1;
+        return std::optional{right_picture(larger)};
+    }));
+}
+
+TEST_CASE("a window's view shows the pixels that the whole one has there") {
+    Golden scene = golden_of("showroom.front_to_back");
+    const Picture whole = right_picture(scene);
+    const rasterizer::Rect part{16, 32, 48, 64};
+    scene.scene.own_view = through(*scene.scene.own_view, 64, 64, part);
+    scene.options.width = part.width();
+    scene.options.height = part.height();
+    const Picture seen = right_picture(scene);
+    int wrong = 0;
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x)
+            for (int c = 0; c < 4; ++c)
+                wrong += whole.targets[0].codes[static_cast<std::size_t>((y * 64 + x) * 4 + c)] !=
+                         seen.targets[0].codes[static_cast<std::size_t>(((y - part.y0) * 32 + x - part.x0) * 4 + c)];
+    CHECK(wrong == 0);  // powers of two: no product rounds
+}
+
+TEST_CASE("a cut keeps the named triangles with their vertices, materials and textures, and nothing else") {
+    const pipeline::DrawList list = scenes::load_scene("showroom", {}).list;
+    const auto all = triangles_of(list);
+    const auto glass = std::ranges::find_if(all, [&](const TriangleName& t) {
+        return list.meshes[list.instances[t.instance].mesh].name == "stained glass";
+    });
+    const TriangleName kept[] = {all[0], *glass};
+    const pipeline::DrawList cut_list = cut(list, kept);
+    REQUIRE(cut_list.instances.size() == 2);
+    CHECK(cut_list.meshes[0].positions.size() == 3);
+    CHECK(cut_list.materials[1] == [&] {
+        pipeline::Material material = list.materials[list.instances[glass->instance].material];
+        material.texture = 0;
+        return material;
+    }());
+    CHECK(cut_list.textures == list.textures);
+    CHECK(cut(list, all).instances.size() == list.instances.size());
+}
+
+TEST_CASE("three failures of a model of 200,000 triangles become at most three triangles and four pixels", "[slow]") {
+    const std::string model = std::string(STRATA_MODELS_DIR) + "/dragon.glb";
+    if (!std::filesystem::exists(model)) {
+        WARN("SKIPPED: " << model << " is not there");
+        return;
+    }
+    OpenScene opened{.scene = scenes::load_scene(model, {}),
+                     .view = {},
+                     .profile = *pipeline::find_profile("geforce8"),
+                     .options = {}};
+    opened.options.width = opened.options.height = 256;
+    opened.options.alpha = 0.5f;
+    opened.view = scenes::orbit_view(opened.scene.bounds, 30, 20, 1);
+    opened.algorithm = peeling::find_algorithm("front_to_back");
+    const Golden dragon = golden_of(std::move(opened));
+    for (const char* mistake : {"one_pass_too_few", "depth_16", "under_without_transmittance"})
+        check_reduction(dragon, mistake);
+}

@@ -1,0 +1,66 @@
+#include "tools/oracle/reduce/defaults.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using peeling::RenderOptions;
+using pipeline::Material;
+using pipeline::Mesh;
+
+// Whether `value` was another one.
+template <class T>
+bool becomes(T& value, const T& wanted) {
+    if (value == wanted) return false;
+    value = wanted;
+    return true;
+}
+
+// change(x) for all; true if one of them said so.
+template <class T, class Change>
+bool any_of_all(std::vector<T>& values, Change change) {
+    bool has_changed = false;
+    for (T& value : values) has_changed |= change(value);
+    return has_changed;
+}
+
+constexpr Simplification all_simplifications[] = {
+    {"the light", [](Golden& g) { return becomes(g.scene.list.light, {}); }},
+    {"textures",
+     [](Golden& g) { return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.texture, -1); }); }},
+    {"lighting",
+     [](Golden& g) { return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.unlit, true); }); }},
+    {"colours of vertices",
+     [](Golden& g) { return any_of_all(g.scene.list.meshes, [](Mesh& m) { return becomes(m.colors, {}); }); }},
+    {"materials' colours",
+     [](Golden& g) {
+         return any_of_all(g.scene.list.materials, [](Material& m) {
+             const float front = m.front[3], back = m.back[3];
+             return becomes(m.front, {1, 1, 1, front}) | becomes(m.back, {1, 1, 1, back});
+         });
+     }},
+    {"one-sided surfaces",
+     [](Golden& g) {
+         return any_of_all(g.scene.list.materials, [](Material& m) { return becomes(m.double_sided, true); });
+     }},
+    {"opaque surfaces",
+     [](Golden& g) {
+         return any_of_all(g.scene.list.materials,
+                           [](Material& m) { return becomes(m.alpha_mode, pipeline::AlphaMode::blend); });
+     }},
+    {"the background", [](Golden& g) { return becomes(g.options.background, RenderOptions{}.background); }},
+    {"the order of triangles", [](Golden& g) { return becomes(g.options.sort, {}); }},
+    {"the polygon offset", [](Golden& g) { return becomes(g.options.raster.polygon_offset, {}); }},
+    {"depth clamp", [](Golden& g) { return becomes(g.options.raster.depth_clamp, false); }},
+    {"the depth format", [](Golden& g) { return becomes(g.options.depth, {}); }},
+    {"the depth path", [](Golden& g) { return becomes(g.options.depth_path, {}); }},
+    {"the colour format", [](Golden& g) { return becomes(g.options.color_format, {}); }},
+    {"the limit of passes", [](Golden& g) { return becomes(g.options.max_passes, 0); }},
+    {"the rule that ends the peel", [](Golden& g) { return becomes(g.options.termination, {}); }},
+};
+
+}  // namespace
+
+std::span<const Simplification> simplifications() { return all_simplifications; }
+
+}  // namespace strata::oracle

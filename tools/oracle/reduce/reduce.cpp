@@ -1,0 +1,231 @@
+#include "tools/oracle/reduce/reduce.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "peeling/render.h"
+#include "pipeline/device/check.h"
+#include "rasterizer/base/input_error.h"
+#include "tools/oracle/reduce/cut_scene.h"
+#include "tools/oracle/reduce/defaults.h"
+
+namespace strata::oracle {
+
+namespace {
+
+using rasterizer::Rect;
+
+constexpr std::size_t most_pixels = 8;  // that windows are laid around
+constexpr int largest_window = 64;      // pixels a side
+
+// A scene of the search: triangles by their names in the whole scene, and a window of the whole frame.
+struct Cut {
+    std::vector<TriangleName> triangles{};
+    Rect window{};
+};
+
+class Reducer {
+  public:
+    Reducer(const Golden& scene, const Candidate& candidate, const std::function<void(const Golden&)>& on_run)
+        : whole_{scene}, candidate_{candidate}, on_run_{on_run} {
+        whole_.options.audit = whole_.options.keep_layers = whole_.options.nearest_depth = false;
+        best_ = {triangles_of(whole_.scene.list), {0, 0, whole_.options.width, whole_.options.height}};
+    }
+
+    [[nodiscard]] std::optional<Reduction> run() {
+        Reduction result;
+        result.triangles_before = best_.triangles.size();
+        result.width_before = best_.window.x1;
+        result.height_before = best_.window.y1;
+        const auto found = difference(whole_);
+        if (!found) return std::nullopt;
+        find_window(*found);
+        for (bool is_smaller = true; is_smaller;) {
+            is_smaller = leave_out_triangles();
+            is_smaller |= cut_frame();
+            is_smaller |= take_defaults(result.defaults);
+        }
+        result.scene = scene_of(best_);
+        result.triangles = best_.triangles.size();
+        result.comparison = *difference(result.scene);
+        result.runs = runs_;
+        return result;
+    }
+
+  private:
+    [[nodiscard]] Golden scene_of(const Cut& cut) const {
+        Golden scene = whole_;
+        scene.scene.list = oracle::cut(whole_.scene.list, cut.triangles);
+        scene.scene.own_view = through(*whole_.scene.own_view, whole_.options.width, whole_.options.height, cut.window);
+        scene.options.width = cut.window.width();
+        scene.options.height = cut.window.height();
+        return scene;
+    }
+
+    // Nothing where the candidate draws it right, or not at all.
+    [[nodiscard]] std::optional<Comparison> difference(const Golden& scene) {
+        ++runs_;
+        if (on_run_) on_run_(scene);
+        try {
+            const Picture right = right_picture(scene);
+            const auto found = candidate_(scene);
+            if (!found || found->targets.empty()) return std::nullopt;
+            const Target& first = found->targets[0];
+            if (first.width != scene.options.width || first.height != scene.options.height) return std::nullopt;
+            Comparison comparison = compare(right, *found);
+            if (comparison.equal) return std::nullopt;
+            return comparison;
+        } catch (const pipeline::Refused&) {
+            return std::nullopt;
+        }
+    }
+
+    [[nodiscard]] bool fails(const Cut& cut) { return !cut.triangles.empty() && difference(scene_of(cut)).has_value(); }
+
+    // The triangles that have a fragment in the window, whatever hides it, in their order.
+    [[nodiscard]] std::vector<TriangleName> covering(const Rect& window) const {
+        Golden scene = scene_of({best_.triangles, window});
+        scene.options.alpha = 1.0f;  // so that opaque ones are seen, too
+        scene.options.sort = {};
+        scene.options.raster.cull = rasterizer::CullFace::none;
+        peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, scene.options};
+        std::set<std::uint32_t> numbers;
+        for (const pipeline::CapturedFragment& f : renderer.fragments(*scene.algorithms[0]).all)
+            numbers.insert(f.primitive);
+        std::vector<TriangleName> found;
+        for (const std::uint32_t number : numbers) found.push_back(best_.triangles[number]);
+        return found;
+    }
+
+    // Around some of the differing pixels, spread over the frame: the smallest window that fails with what covers it.
+    void find_window(const Comparison& comparison) {
+        std::vector<std::size_t> differing;
+        for (std::size_t i = 0; i < comparison.kind_of.size(); ++i)
+            if (comparison.kind_of[i] != Kind::none) differing.push_back(i);
+        const std::size_t step = std::max<std::size_t>(1, differing.size() / most_pixels);
+        for (int side = 1; side <= largest_window; side *= 2)
+            for (std::size_t i = step / 2; i < differing.size(); i += step) {
+                const int x = static_cast<int>(differing[i]) % comparison.width,
+                          y = static_cast<int>(differing[i]) / comparison.width;
+                const Rect around{x - (side - 1) / 2, y - (side - 1) / 2, x + side / 2 + 1, y + side / 2 + 1};
+                const Rect window = intersection(around, best_.window);
+                Cut tried{{}, window};
+                try {
+                    tried.triangles = covering(window);
+                } catch (const InputError&) {  // more fragments than memory: a smaller part of the frame must do
+                    continue;
+                }
+                if (!fails(tried)) continue;
+                best_ = std::move(tried);
+                return;
+            }
+    }
+
+    // ddmin: chunks of the list are left out, the smaller the fewer can be; true if some were.
+    [[nodiscard]] bool leave_out_triangles() {
+        const std::size_t before = best_.triangles.size();
+        for (std::size_t chunk = (before + 1) / 2; chunk >= 1; chunk = chunk == 1 ? 0 : (chunk + 1) / 2)
+            for (std::size_t from = 0; from < best_.triangles.size();) {
+                Cut tried = best_;
+                const auto begin = tried.triangles.begin() + static_cast<std::ptrdiff_t>(from);
+                tried.triangles.erase(
+                    begin, begin + static_cast<std::ptrdiff_t>(std::min(chunk, tried.triangles.size() - from)));
+                if (fails(tried))
+                    best_ = std::move(tried);
+                else
+                    from += chunk;
+            }
+        return best_.triangles.size() < before;
+    }
+
+    // Halves of the window, then single rows and columns.
+    [[nodiscard]] bool cut_frame() {
+        const std::size_t before = best_.window.area();
+        for (bool is_smaller = true; is_smaller;) {
+            is_smaller = false;
+            for (const Rect& part : parts_of(best_.window)) {
+                Cut tried{best_.triangles, part};
+                if (!fails(tried)) continue;
+                best_ = std::move(tried);
+                is_smaller = true;
+                break;
+            }
+        }
+        return best_.window.area() < before;
+    }
+
+    [[nodiscard]] static std::vector<Rect> parts_of(const Rect& w) {
+        std::vector<Rect> parts;
+        const auto add = [&](const Rect& part) {
+            if (part.area() > 0 && part.area() < w.area()) parts.push_back(part);
+        };
+        const int middle_x = (w.x0 + w.x1) / 2, middle_y = (w.y0 + w.y1) / 2;
+        add({w.x0, w.y0, middle_x, w.y1});
+        add({middle_x, w.y0, w.x1, w.y1});
+        add({w.x0, w.y0, w.x1, middle_y});
+        add({w.x0, middle_y, w.x1, w.y1});
+        add({w.x0 + 1, w.y0, w.x1, w.y1});
+        add({w.x0, w.y0, w.x1 - 1, w.y1});
+        add({w.x0, w.y0 + 1, w.x1, w.y1});
+        add({w.x0, w.y0, w.x1, w.y1 - 1});
+        return parts;
+    }
+
+    // Each change that the failure survives stays.
+    [[nodiscard]] bool take_defaults(std::vector<std::string>& taken) {
+        bool has_changed = false;
+        for (const Simplification& simpler : simplifications()) {
+            Golden before = whole_;
+            if (!simpler.make(whole_)) continue;
+            if (fails(best_)) {
+                has_changed = true;
+                if (std::ranges::find(taken, simpler.name) == taken.end()) taken.emplace_back(simpler.name);
+            } else {
+                whole_ = std::move(before);
+            }
+        }
+        return has_changed;
+    }
+
+    Golden whole_;
+    const Candidate& candidate_;
+    const std::function<void(const Golden&)>& on_run_;
+    Cut best_;
+    int runs_ = 0;
+};
+
+std::string number_of(std::size_t count, const char* thing) {
+    return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Picture right_picture(const Golden& scene) {
+    peeling::RenderOptions options = scene.options;
+    options.audit = options.keep_layers = options.nearest_depth = false;
+    peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, options};
+    peeling::RenderResult result = renderer.render(*scene.algorithms.at(0));
+    if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{scene.profile, *std::move(result.refusal)};
+    return {.file = "", .targets = {target_of(result.frame.color, "color")}};
+}
+
+std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
+                                const std::function<void(const Golden&)>& on_run) {
+    return Reducer{scene, candidate, on_run}.run();
+}
+
+std::string Reduction::sentence() const {
+    std::string text = fmt::format("{} in a frame of {}x{} still differ{} in {}: {} of {} in {}x{}, after {} runs",
+                                   number_of(triangles, "triangle"), scene.options.width, scene.options.height,
+                                   triangles == 1 ? "s" : "", number_of(comparison.differing, "pixel"), triangles,
+                                   triangles_before, width_before, height_before, runs);
+    if (!comparison.kinds.empty())
+        text += fmt::format("; the first at {},{} ({})", comparison.kinds[0].first_x, comparison.kinds[0].first_y,
+                            name(comparison.kinds[0].kind));
+    if (!defaults.empty()) text += "; not needed: " + fmt::format("{}", fmt::join(defaults, ", "));
+    return text;
+}
+
+}  // namespace strata::oracle

@@ -1,0 +1,41 @@
+// tools/oracle/reduce/reduce.h - a failing scene made small: the fewest triangles, the smallest frame, the simplest state that still differ.
+//
+// Rule     A scene fails if the candidate's picture of it has a pixel that the right picture has not. First the frame is cut to a window around
+//          one differing pixel, with the triangles that cover it: the smallest window that still fails counts. Then triangles are left out
+//          by halves, quarters, ... until no single one can be left out; then rows and columns of the frame; then
+//          the state goes back to its defaults, a field at a time; and all of it again until nothing is left to take away.
+// Source   Zeller and Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input", algorithm ddmin.
+// Tests    tests/tools/oracle/reduce/reduce_test.cpp
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "tools/oracle/compare.h"
+#include "tools/oracle/pack/golden.h"
+#include "tools/oracle/picture.h"
+
+namespace strata::oracle {
+
+// Draws a scene; nothing where that fails. Of `Golden` the scene, its own view, the profile, the options and the first algorithm count.
+using Candidate = std::function<std::optional<Picture>(const Golden& scene)>;
+
+struct Reduction {
+    Golden scene{};  // the smallest one that fails
+    std::size_t triangles_before = 0, triangles = 0;
+    int width_before = 0, height_before = 0;
+    int runs = 0;                         // of the candidate
+    std::vector<std::string> defaults{};  // fields that went back to their defaults
+    Comparison comparison{};              // of the right picture and the candidate's
+    // "2 triangles in a frame of 1x1 pixels still differ ..."
+    [[nodiscard]] std::string sentence() const;
+};
+
+// The picture that a candidate ought to draw. Throws Refused.
+[[nodiscard]] Picture right_picture(const Golden& scene);
+
+// Nothing if the candidate draws the scene right. `on_run` is called before each run of the candidate.
+[[nodiscard]] std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
+                                              const std::function<void(const Golden&)>& on_run = {});
+
+}  // namespace strata::oracle
