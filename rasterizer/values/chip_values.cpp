@@ -4,8 +4,8 @@
 
 #include "rasterizer/set_up/polygon_offset.h"
 #include "rasterizer/values/fragment_values.h"
-#include "rasterizer/values/move_lane.h"
 #include "rasterizer/values/w_buffer.h"
+#include "rasterizer/values/weight_lanes.h"
 #include "rasterizer/values/window_z.h"
 
 namespace strata::rasterizer {

@@ -9,7 +9,7 @@
 #include "rasterizer/values/color_weights.h"
 #include "rasterizer/values/cut_coordinates.h"
 #include "rasterizer/values/depth_paths.h"
-#include "rasterizer/values/move_lane.h"
+#include "rasterizer/values/weight_lanes.h"
 
 namespace strata::rasterizer {
 namespace {
