@@ -55,7 +55,8 @@ Element element_of(Format format) noexcept {
     switch (pipeline::depth_format(format)) {
         case pipeline::DepthFormat::d16:
         case pipeline::DepthFormat::d16f: return Element::u2;
-        case pipeline::DepthFormat::d24: return Element::u4;
+        case pipeline::DepthFormat::d24:
+        case pipeline::DepthFormat::d24f: return Element::u4;
         case pipeline::DepthFormat::d32f: break;
     }
     return Element::f4;

@@ -1,0 +1,89 @@
+// Model: the mistake that --mistake put into the picture.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+TEST_CASE("diagnose names the mistake that render was told to make, with status 1, and a right picture with status 0") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render showroom --size 64x64 -o right.png && "
+                  "strata render showroom --size 64x64 --mistake culls_front -o wrong.exr && "
+                  "strata render showroom --size 64x64 --mistake culls_front,red_for_blue -o worse.png")
+                .status == 0);
+    const Ended right = run_strata(folder, {"diagnose", "showroom", "right.png"});
+    CHECK(right.status == 0);
+    CHECK(right.out.starts_with("100 % of the pixels are those of: the right machine\n"));
+    const Ended wrong = run_strata(folder, {"diagnose", "showroom", "wrong.exr"});
+    CHECK(wrong.status == 1);
+    CHECK(wrong.out.starts_with(
+        "100 % of the pixels are those of: front faces culled instead of back faces (culls_front)\n"));
+    const Ended worse = run_strata(folder, {"diagnose", "showroom", "worse.png", "--json"});
+    CHECK(worse.status == 1);
+    const nlohmann::json document = nlohmann::json::parse(worse.out);
+    CHECK(document["verdict"] == "two_mistakes");
+    CHECK(document["findings"][0]["mistakes"] == nlohmann::json({"culls_front", "red_for_blue"}));
+}
+
+TEST_CASE("diagnose takes a pack for the scene with its state, and a folder for the candidate") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata golden showroom --size 32x32 --background 0.2,0.3,0.5 --algorithm weighted_sum -o pack && "
+                  "strata render pack --algorithm weighted_sum --mistake background_lost -o wrong.png")
+                .status == 0);
+    CHECK(run_strata(folder, {"diagnose", "pack", "pack"}).status == 0);
+    const Ended wrong = run_strata(folder, {"diagnose", "pack", "wrong.png"});
+    CHECK(wrong.status == 1);
+    CHECK(wrong.out.find("(background_lost)") != std::string::npos);
+    CHECK(run_strata(folder, {"diagnose", "pack", "pack/scene"}).err ==
+          "strata: pack/scene: files: expected a picture of weighted_sum, weighted_sum/picture.npy, found none\n");
+}
+
+TEST_CASE("reduce leaves a small pack on which the command still fails") {
+    const Folder folder;
+    REQUIRE(run_strata(folder, {"golden", "showroom", "--size", "32x32", "--algorithm", "front_to_back", "-o", "pack"})
+                .status == 0);
+    const std::string command = "strata render {pack} --algorithm front_to_back --mistake last_of_equals -o {picture}";
+    const Ended reduced = shell(folder, "strata reduce pack '" + command + "' -o small");
+    INFO(reduced.out << reduced.err);
+    REQUIRE(reduced.status == 0);
+    CHECK(reduced.out.starts_with("2 triangles in a frame of 1x1 still differ in 1 pixel: 2 of "));
+    CHECK(run_strata(folder, {"golden", "--check", "small"}).status == 0);
+    REQUIRE(
+        shell(folder, "strata render small --algorithm front_to_back --mistake last_of_equals -o wrong.png").status ==
+        0);
+    CHECK(run_strata(folder, {"diagnose", "small", "wrong.png"}).status == 1);
+    const Ended right =
+        shell(folder, "strata reduce pack 'strata render {pack} --algorithm front_to_back -o {picture}' -o none");
+    CHECK(right.status == 1);
+    CHECK(right.out == "right: the command draws pack as it should be; there is nothing to reduce\n");
+    CHECK_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+TEST_CASE(
+    "a mistake that is none, one that a scene has no room for, and a command without a place are told in a sentence") {
+    const Folder folder;
+    CHECK(
+        run_strata(folder, {"render", "planes", "--mistake", "culls_frnt", "-o", "a.png"}).err ==
+        "strata: --mistake: expected names of mistakes (strata mistakes lists them), found 'culls_frnt' (did you mean "
+        "'culls_front'?)\n");
+    CHECK(run_strata(folder, {"render", "planes", "--size", "8x8", "--mistake", "texture_lost", "-o", "a.png"}).err ==
+          "strata: --mistake: expected a mistake that this scene, algorithm and profile have room for, found "
+          "'texture_lost'\n");
+    CHECK(run_strata(folder, {"reduce", "pack", "true", "-o", "small"}).err ==
+          "strata: COMMAND: expected {pack} in it, found 'true'\n");
+    CHECK_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+TEST_CASE("mistakes lists the catalogue and the suite, whose commands run") {
+    const Folder folder;
+    const nlohmann::json list = nlohmann::json::parse(run_strata(folder, {"mistakes", "--json"}).out);
+    CHECK(list.size() >= 40);
+    const nlohmann::json suite = nlohmann::json::parse(run_strata(folder, {"mistakes", "--suite", "--json"}).out);
+    for (const nlohmann::json& scene : suite) {
+        INFO(scene["command"]);
+        CHECK(shell(folder, scene["command"].get<std::string>() + " --no-audit").status == 0);
+    }
+}
