@@ -87,8 +87,11 @@ TEST_CASE("14 leading bits of a vertex colour reach its code, as captures show")
     CHECK(wrong_with_all > 0);
 }
 
-TEST_CASE("where the area is 256 edge values are the weights, whichever vertex takes the remainder") {
-    const ColorWeights weights{{1, 1, 1}, 256};
+TEST_CASE(
+    "where the area is 256 edge values are the weights by the area's reciprocal, whichever vertex takes the "
+    "remainder") {
+    const DepthHypothesis by_area{.weights = WeightRule::area, .reciprocal_bits = 28};
+    const ColorWeights weights{{1, 1, 1}, {1, 1, 1}, 256, by_area, PerspectiveColor::edge_products};
     CHECK(weights.at({127, 129, 0}) == std::array{127, 129, 0});
     std::uint64_t wrong = 0;
     for (std::int32_t e0 = 0; e0 <= 256; ++e0)

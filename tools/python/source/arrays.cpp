@@ -39,7 +39,8 @@ const char* type_of(pipeline::Format format) {
     switch (pipeline::depth_format(format)) {
         case pipeline::DepthFormat::d16:
         case pipeline::DepthFormat::d16f: return "u2";
-        case pipeline::DepthFormat::d24: return "u4";
+        case pipeline::DepthFormat::d24:
+        case pipeline::DepthFormat::d24f: return "u4";
         case pipeline::DepthFormat::d32f: break;
     }
     return "f4";
