@@ -208,7 +208,7 @@ Picture right_picture(const Golden& scene) {
     peeling::Renderer renderer{scene.scene.list, *scene.scene.own_view, scene.profile, options};
     peeling::RenderResult result = renderer.render(*scene.algorithms.at(0));
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{scene.profile, *std::move(result.refusal)};
-    return {.file = "", .targets = {target_of(result.frame.color, "color")}};
+    return {.file = "", .targets = {as_target(result.frame.color, "color")}};
 }
 
 std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,

@@ -21,6 +21,7 @@ double depth_step(DepthFormat format) {
         case DepthFormat::d24: return 1.0 / 0xffffff;
         case DepthFormat::d32f: return 0x1p-24;
         case DepthFormat::d16f: return 0x1p-12;
+        case DepthFormat::d24f: return 0x1p-16;
     }
     return 0;  // unreachable: the enum is closed
 }
