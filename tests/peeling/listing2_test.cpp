@@ -74,6 +74,16 @@ FragmentPath stages(Target map) {
     return path;
 }
 
+// With the coordinates that the depth path takes: attributes.md 3.3 says how many codes differ by the chip's own.
+const DeviceProfile& device_of_paths() {
+    static const DeviceProfile device = [] {
+        DeviceProfile geforce3 = *find_profile("geforce3");
+        geforce3.raster.interpolation.perspective_coordinates = strata::rasterizer::PerspectiveCoordinates::exact_plane;
+        return geforce3;
+    }();
+    return device;
+}
+
 struct Scene {
     TriangleScene triangles;
     strata::rasterizer::RasterState raster;
@@ -85,7 +95,7 @@ struct Scene {
         raster.viewport = {0, 0, width, height};
         raster.depth_format = format;
         const CoordinateUnits units = listing_2(triangles.view.projection, strata::rasterizer::max_code(format));
-        const DeviceProfile& device = *find_profile("geforce3");
+        const DeviceProfile& device = device_of_paths();
         list = prepare(triangles.list, triangles.view, raster, device,
                        {.depth_quotient = true, .tile_size = 16, .threads = 1, .units = units});
         frame.profile = &device;

@@ -68,7 +68,7 @@ TEST_CASE("the showroom's own view keeps x and y, and puts depth 1 - 1 / w at w"
     for (const double w : {1.0, 2.0, 12.0}) {
         const double z = p[2][2] * -w + p[3][2], clip_w = p[2][3] * -w + p[3][3];
         CHECK(clip_w == w);
-        CHECK(0.5 + 0.5 * z / clip_w == 1 - 1 / w);
+        CHECK(0.5 + 0.5 * z / clip_w == Approx(1 - 1 / w).epsilon(1e-15));
         CHECK(p[0][0] == 1);
         CHECK(p[1][1] == 1);
     }

@@ -31,7 +31,8 @@ NEEDS = {
     "explain": SMALL + ["--pixel", "1,1"], "bench": SMALL + ["--repeat", "1", "--warm-up", "0", "--algorithm", "depth"],
     "effects": SMALL + ["--repeat", "1"], "cost": SMALL + ["--dry-run"], "invariance": SMALL + ["--dry-run"],
     "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "hardware-check": ["."], "scene": SMALL[:1],
-    "digest": ["none.png"], "compare": ["a.png", "b.png"], "profiles": ["ideal"], "algorithms": [], "scenes": [],
+    "digest": ["none.png"], "compare": ["a.png", "b.png"], "report": SMALL + OUT, "golden": SMALL + OUT,
+    "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"], "algorithms": [], "scenes": [],
 }
 
 # (command or *, option, value): why it is no nonsense. Options that take a file or folder of any name are left out of all
@@ -43,7 +44,10 @@ ACCEPTED = {
     ("*", "--compare-epsilon", "-0"): "zero",
     ("bench", "--warm-up", "-0"): "zero",
 }
-ANY_NAME = ("FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml")
+# Looked at once the files are read, of which there is none here.
+LATE = {("compare", "--algorithm"), ("diagnose", "--profile"), ("diagnose", "--sorted"), ("diagnose", "--camera"),
+        ("reduce", "--algorithm"), ("reduce", "--picture")}
+ANY_NAME = ("PACK", "FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "FILE.xml")
 
 
 def options_of(program, command):
@@ -83,6 +87,8 @@ def joined(option, value):
 def option_cases(program, commands):
     for command in commands:
         for option, kind in options_of(program, command):
+            if (command, option) in LATE:
+                continue
             values = [""] if kind in ANY_NAME else VALUES
             for value in values:
                 if kind == "" and value == "":

@@ -138,7 +138,7 @@ Command add_reduce(CLI::App& root) {
     app->footer(
         "A command that fails, or leaves no picture, counts as one that is right.\n"
         "Examples:\n"
-        "  strata golden planes:count=3 --size 32x32 --algorithm front_to_back -o room\n"
+        "  strata golden showroom --size 32x32 --algorithm front_to_back -o room\n"
         "  strata reduce room \"strata render {pack} --algorithm front_to_back --mistake one_pass_too_few -o "
         "{picture}\" "
         "-o small\n"
