@@ -41,7 +41,8 @@ TEST_CASE("a pack checks, is a scene of every command, and its state stands for 
         if (line.find("scene") == std::string::npos) CHECK(shell(folder, line).status == 0);
     }
     // The options that are given win.
-    CHECK(shell(folder, "strata render pack --size 8x8 --color-format rgba16f -o small.exr && strata digest --json small.exr")
+    CHECK(shell(folder,
+                "strata render pack --size 8x8 --color-format rgba16f -o small.exr && strata digest --json small.exr")
               .out.find("rgba16f") != std::string::npos);
     // A pack of a pack has the same pictures.
     const auto digest_in = [&](const std::string& pack) {
