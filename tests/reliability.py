@@ -34,7 +34,7 @@ ROWS = [
 
 NOT_PROMISED = [
     "Memory that runs out while a frame is drawn: where a region's scratch memory goes back to its pool the process may end.",
-    "Memory that runs out while JSON is read or written: the library's values ask for memory where they are destroyed.",
+    "Memory that runs out while JSON is read or written: at two points the process ended, one in profiles and one in cameras; why is not traced.",
     "A host's allocator that promises memory which the machine has not (Linux by default): the system ends the process.",
     "32-bit processors, and compilers without 128-bit integers.",
     "SIGKILL and a loss of power between two lines of a sweep: the line that was being written is measured again.",

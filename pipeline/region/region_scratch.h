@@ -49,9 +49,11 @@ class RegionScratchPool {
         scratch->arena.reset();
         return scratch;
     }
-    void give(std::unique_ptr<RegionScratch> scratch) {
+    // Called by destructors: where there is no memory for the list, the scratch goes.
+    void give(std::unique_ptr<RegionScratch> scratch) noexcept try {
         const std::scoped_lock lock{mutex_};
         free_.push_back(std::move(scratch));
+    } catch (...) {
     }
 
   private:

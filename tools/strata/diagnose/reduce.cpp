@@ -136,7 +136,7 @@ Command add_reduce(CLI::App& root) {
               "an ending"});
     add_layout_option(*app, options->layout);
     app->footer(
-        "A command that fails, or leaves no picture, counts as one that is right.\n"
+        "A command that leaves no picture counts as one that is right, whatever its exit status.\n"
         "Examples:\n"
         "  strata golden showroom --size 32x32 --algorithm front_to_back -o room\n"
         "  strata reduce room \"strata render {pack} --algorithm front_to_back --mistake one_pass_too_few -o "
