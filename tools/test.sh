@@ -42,7 +42,7 @@ sanitizers() {
     preset=$(sanitizer_preset)
     step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" rasterizer_test pipeline_test peeling_test scenes_test hardware_check_test core_digests
-    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|callgrind' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
 }
 
 # The fast tests of the core under the sanitizers, and a minute of fuzzing, which takes the loader through what its tests would.
@@ -54,7 +54,7 @@ sanitized() {
     fi
     step "the fast tests of the core under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
