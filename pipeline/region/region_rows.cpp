@@ -15,17 +15,24 @@ namespace {
 // A row reads and writes whole vectors: the words behind a target's last pixel are room for the last one.
 static_assert(rasterizer::row_padding <= spare_words);
 
+// Literal execution, --effects all and a timed effect go through batches.
+[[nodiscard]] bool may_leave_batches(Extent extent, Effects effects, Effect once_more) {
+    return extent == Extent::tile && effects == Effects::needed && once_more == Effect::none;
+}
+
 }  // namespace
 
-// Literal execution, --effects all and a timed effect go through batches.
 bool Region::may_walk_rows(const PreparedDraw& list) const {
-    return extent_ == Extent::tile && frame_.effects == Effects::needed && instruments_.once_more == Effect::none &&
+    return may_leave_batches(extent_, frame_.effects, instruments_.once_more) &&
            row_walk_suits(list.geometry, frame_.key_request(), rect_);
 }
 
-// Whether nothing stands between the rasterizer and the tests of this pass.
+// Whether nothing stands between the rasterizer and the tests of this pass. What rows of depth can do is more than what other rows
+// can: they ask may_walk_rows, too.
 bool Region::draws_rows(const PassState& state, const PreparedDraw& list) {
-    if (!may_walk_rows(list)) return false;
+    if (!may_leave_batches(extent_, frame_.effects, instruments_.once_more) ||
+        !depth_rows_suit(list.geometry, frame_.key_request(), rect_))
+        return false;
     const bool is_plain = !state.alpha.enabled && !state.stencil.enabled && state.depth_unit_count == 0 &&
                           (state.sample_mask & 1u) != 0 && state.primitives.empty() && !state.needs.reference &&
                           !state.replaces_depth && std::ranges::none_of(state.reads, &Target::exists) &&
@@ -69,8 +76,8 @@ bool Region::sums_suit_rows(const PassState& state) {
     const bool has_count_target = state.color[1].exists();
     return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
            (!has_count_target || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
-           profile().raster.color == rasterizer::ColorInterpolation::exact_plane && draws_rows(state, list) &&
-           list.needs.shadow == 0 && !needs_of_tile(list).texcoord;
+           profile().raster.color == rasterizer::ColorInterpolation::exact_plane && may_walk_rows(list) &&
+           draws_rows(state, list) && list.needs.shadow == 0 && !needs_of_tile(list).texcoord;
 }
 
 Drawn Region::draw_sum_rows(const PassState& state) {

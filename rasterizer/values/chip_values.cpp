@@ -31,15 +31,14 @@ void FragmentValues::fill_chip_values(DepthPath path, const SetupTriangle& t, co
     fill(WindowZ24{t.given_z, lanes.edges->area(), h, chip_offset(slope, offset_)});
 }
 
-// A convex combination leaves the range only if a corner does; the products are exact. A w buffer's w may, whatever z does.
+// A w buffer's w may leave the range, whatever z does.
 bool FragmentValues::may_leave_depth_range(const SetupTriangle& t) const noexcept {
     if (depth_.path == DepthPath::w_buffer) {
         const std::array<float, 3> w = scaled_w(t, w_scale_);
         const auto [low, high] = std::minmax({w[0], w[1], w[2]});
         return offset_.enabled || low < value_to_code_.least || high > value_to_code_.greatest;
     }
-    const auto [low, high] = std::minmax({t.z[0], t.z[1], t.z[2]});
-    return low < to_code_.least * z_units_ || high > to_code_.greatest * z_units_;
+    return chip_.may_leave_range(t.z);
 }
 
 // ZClip::per_fragment compares the chip's value with the range, where the chip makes one (depth.md 5.2): the w buffer's, else that of

@@ -48,8 +48,7 @@ struct CutSum {
 
 void cut_coordinates(const std::array<float, 3>& u, const std::array<float, 3>& w, const TriangleLanes& lanes,
                      const DepthHypothesis& hypothesis, float* out) noexcept {
-    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
-    if (bits[0] == bits[1] && bits[0] == bits[2]) {
+    if (is_constant(u)) {
         std::fill_n(out, lanes.count, u[0]);
         return;
     }

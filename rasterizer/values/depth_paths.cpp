@@ -5,11 +5,6 @@
 namespace strata::rasterizer {
 namespace {
 
-[[nodiscard]] bool is_constant(const std::array<float, 3>& u) noexcept {
-    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
-    return bits[0] == bits[1] && bits[0] == bits[2];
-}
-
 // Whether planes are divided at all; where every w is 1 the division would change no bit (attributes.md 1.3).
 [[nodiscard]] bool has_w(const std::array<float, 3>& inverse_w) noexcept {
     return !(inverse_w[0] == 1.0f && inverse_w[1] == 1.0f && inverse_w[2] == 1.0f);

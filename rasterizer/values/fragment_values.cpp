@@ -6,7 +6,6 @@
 #include "rasterizer/base/nv20_arithmetic.h"
 #include "rasterizer/rules/depth_key.h"
 #include "rasterizer/set_up/window.h"
-#include "rasterizer/values/color_weights.h"
 #include "rasterizer/values/cut_coordinates.h"
 #include "rasterizer/values/depth_paths.h"
 #include "rasterizer/values/weight_lanes.h"
@@ -44,21 +43,6 @@ void to_codes(const float* z, int count, const DepthConversion<float>& to, std::
            (path == DepthPath::window_z && hypothesis.window_z == WindowZRule::float32);
 }
 
-void fill_color_weights(const SetupTriangle& t, const TriangleLanes& lanes, const RasterRules& rules, int first,
-                        FragmentBatch& batch) noexcept {
-    const InterpolationHypothesis& hypothesis = rules.interpolation;
-    std::array<std::array<std::int32_t, 3>, color_channels> codes{};
-    for (std::size_t c = 0; c < color_channels; ++c)
-        for (std::size_t i = 0; i < 3; ++i)
-            codes[c][i] = to_color_code(t.attribute[i][c], hypothesis.vertex_color_bits);
-    const ColorWeights weights{t.w, t.inverse_w, lanes.edges->area(), rules.hypothesis, hypothesis.perspective_color};
-    for (int i = 0; i < lanes.count; ++i) {
-        const std::array<std::int32_t, 3> w = weights.at(lanes.edge_values(i));
-        for (std::size_t c = 0; c < color_channels; ++c)
-            batch.color[c][static_cast<std::size_t>(first + i)] = weighted_color(w, codes[c]);
-    }
-}
-
 // The conversions that the kernels know.
 [[nodiscard]] bool has_vector_codes(const DepthConversion<float>& to) noexcept {
     return to.kind == CodeKind::fixed || to.kind == CodeKind::binary32;
@@ -76,7 +60,8 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
       to_code_{depth_conversion(depth.format, rules_.depth_rounding, 1.0f, geometry.state.depth_near,
                                 geometry.state.depth_far)},
       value_to_code_{depth_conversion(depth.format, rules_.depth_rounding, code_units_, geometry.state.depth_near,
-                                      geometry.state.depth_far)} {
+                                      geometry.state.depth_far)},
+      chip_kernels_{chip_kernels()} {
     // A reference by the stored path itself is a copy of that code.
     needs_.code |= needs.reference;
     rejects_ = depth.path == DepthPath::depth_replace && !geometry.state.depth_clamp;
@@ -85,6 +70,10 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     if (geometry.state.scissor) clip_ = intersection(clip_, *geometry.state.scissor);
     w_scale_ = geometry.state.w_scale;
     clips_fragments_ = rules_.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
+    chip_ = {chip_conversion(),         offset_,
+             value_to_code_.least,      value_to_code_.greatest,
+             to_code_.least * z_units_, to_code_.greatest * z_units_,
+             clips_fragments_};
     const bool is_float = depth.format == DepthFormat::d32f;
     // The codes of float32, those of d32f by any path, and references are made from shader_z.
     needs_float_z_ = needs.shader_z || (needs_.code && (depth.path == DepthPath::float32 || is_float)) ||
@@ -95,6 +84,13 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     is_plain_ = kernels_.depth != nullptr && rules_.plane_rule == PlaneRule::exact && !clips_fragments_ &&
                 !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || (depth.path == DepthPath::float32 && has_vector_codes(to_code_)));
+    is_chip_path_ = chip_kernels_ != nullptr && depth.path == DepthPath::window_z && is_chip(depth.path);
+    is_chip_plain_ = is_chip_path_ && rules_.plane_rule == PlaneRule::exact && !needs.exact_code && !needs.reference;
+    const InterpolationHypothesis& interpolation = rules_.interpolation;
+    const bool cuts_all = interpolation.texture_coordinates == CoordinateRule::cut_weights &&
+                          interpolation.perspective_coordinates == PerspectiveCoordinates::cut_products;
+    needs_plane_weights_ = (needs.color && rules_.color != ColorInterpolation::weights_8bit) ||
+                           ((needs.texcoord || needs.units != 0) && !cuts_all);
     assert(((depth.path != DepthPath::window_z && depth.path != DepthPath::w_buffer) ||
             (z_units_ == code_units_ && !is_float)) &&
            "window_z and w_buffer work in the buffer units of the format that is stored, which is no d32f");
@@ -202,10 +198,9 @@ int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const Tri
         for (int i = 0; i < lanes.count; ++i) out[i] = code_of(value[static_cast<std::size_t>(i)]);
         return 0;
     }
-    // The chip cuts, whatever the rounding rule, and clamps to the codes of the depth range.
-    const double least = depth_code(to_code_.least, to_code_), greatest = depth_code(to_code_.greatest, to_code_);
+    const ChipConversion& to = chip_.to_code;
     for (int i = 0; i < lanes.count; ++i)
-        out[i] = static_cast<std::uint32_t>(std::clamp(value[static_cast<std::size_t>(i)], least, greatest));
+        out[i] = static_cast<std::uint32_t>(std::clamp(value[static_cast<std::size_t>(i)], to.least, to.greatest));
     return 0;
 }
 
@@ -302,10 +297,15 @@ int FragmentValues::fill_attributes(const DrawnTriangle& triangle, int first, Fr
     }
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
-    if (weighted) fill_color_weights(geometry.triangle(triangle.index), own, rules_, first, batch);
-    for (std::size_t a = 0; cut && a < texcoord_channels; ++a)
-        cut_coordinates({v[0]->texcoord[a], v[1]->texcoord[a], v[2]->texcoord[a]},
-                        cut_w(w, {v[0]->w, v[1]->w, v[2]->w}), own, rules_.hypothesis, &batch.texcoord[a][f]);
+    if (weighted) fill_chip_colors(triangle, own, first, batch);
+    if (cut) {
+        const auto corners = [&](std::size_t a) {
+            return std::array{v[0]->texcoord[a], v[1]->texcoord[a], v[2]->texcoord[a]};
+        };
+        fill_chip_coordinates(triangle, own,
+                              std::array{CutCoordinate{corners(0), &batch.texcoord[0][f]},
+                                         CutCoordinate{corners(1), &batch.texcoord[1][f]}});
+    }
     return fill_varying(varying, own);
 }
 
@@ -345,7 +345,7 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     if (is_value(depth_.path, rules_.hypothesis) && (needs_.code || rejects_)) {
         fallbacks += fill_value_codes(t, triangle, first, batch, weights);
         own.count = batch.count - first;
-    } else if (needs_.code) {
+    } else if (needs_.code && !fill_chip_codes(triangle, first, batch)) {
         fallbacks += fill_codes(depth_.path, t, own, &batch.shader_z[f], &batch.code[f]);
     }
     if (needs_.reference) fallbacks += fill_reference(t, triangle, first, batch, weights);
@@ -368,7 +368,7 @@ void FragmentValues::turn_into_keys(int first, FragmentBatch& batch) const noexc
 
 int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const {
     int fallbacks = 0;
-    if (!fill_depth(triangle, first, batch, weights))
+    if (!fill_depth(triangle, first, batch, weights) && !fill_chip_depth(triangle, first, batch, weights))
         fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
     if (is_reversed_) turn_into_keys(first, batch);
     if (needs_attributes_ && rules_.plane_rule != PlaneRule::exact)

@@ -15,9 +15,11 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "rasterizer/coverage/fragment_batch.h"
 #include "rasterizer/set_up/geometry.h"
+#include "rasterizer/values/chip_lanes.h"
 #include "rasterizer/values/lane_kernels.h"
 
 namespace strata::rasterizer {
@@ -34,7 +36,19 @@ struct DrawnTriangle {
     // Takes the edge planes from lane `k` of a group of small triangles, which has set them up already.
     DrawnTriangle(const Geometry& g, std::uint32_t i, const TriangleGroup& group, std::size_t k) noexcept
         : geometry{g}, index{i}, record{g.triangles[i]}, weights{g, record, group, k} {}
+    // The same with edge values in place of weights.
+    DrawnTriangle(PixelWeights::EdgesAlone edges, const Geometry& g, std::uint32_t i) noexcept
+        : geometry{g}, index{i}, record{g.triangles[i]}, weights{edges, g, record} {}
+    DrawnTriangle(PixelWeights::EdgesAlone edges, const Geometry& g, std::uint32_t i, const TriangleGroup& group,
+                  std::size_t k) noexcept
+        : geometry{g}, index{i}, record{g.triangles[i]}, weights{edges, group, k} {}
     [[nodiscard]] TriangleEdges edges() const noexcept { return {geometry.points(record), geometry.rules.tie_rule}; }
+};
+
+// A coordinate by cut weights: its corners, and where it goes.
+struct CutCoordinate {
+    std::array<float, 3> u;
+    float* out;
 };
 
 // The values of one pass: what state, rules and needs decide is decided when it is made. It may serve many triangles.
@@ -49,6 +63,8 @@ class FragmentValues {
 
     // How DepthPath::float32 makes a code of shader_z.
     [[nodiscard]] const DepthConversion<float>& to_code() const noexcept { return to_code_; }
+    // How the chip's window z makes its codes.
+    [[nodiscard]] const ChipDepth& chip_depth() const noexcept { return chip_; }
 
   private:
     [[nodiscard]] TriangleLanes lanes(const DrawnTriangle& triangle, const TriangleEdges& edges, int first,
@@ -56,6 +72,11 @@ class FragmentValues {
     // Weights, shader_z and code in one loop; false if the general way must do it.
     [[nodiscard]] bool fill_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                   WeightLanes& weights) const noexcept;
+    [[nodiscard]] ChipConversion chip_conversion() const noexcept;
+    // The same for window_z by the chip's kernel, and its codes alone.
+    [[nodiscard]] bool fill_chip_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                       WeightLanes& weights) const noexcept;
+    [[nodiscard]] bool fill_chip_codes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
     [[nodiscard]] int fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                   FragmentBatch& batch, WeightLanes& weights) const;
     void fill_weights(const DrawnTriangle& triangle, int first, const FragmentBatch& batch,
@@ -94,6 +115,11 @@ class FragmentValues {
     void fill_float_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;
+    // Colours by 8-bit weights, and coordinates by cut ones (`u`: their corners).
+    void fill_chip_colors(const DrawnTriangle& triangle, const TriangleLanes& lanes, int first,
+                          FragmentBatch& batch) const noexcept;
+    void fill_chip_coordinates(const DrawnTriangle& triangle, const TriangleLanes& lanes,
+                               std::span<const CutCoordinate> coordinates) const noexcept;
 
     // Turns the depths of fragments [first, batch.count) into keys (rules/depth_key.h).
     void turn_into_keys(int first, FragmentBatch& batch) const noexcept;
@@ -111,14 +137,19 @@ class FragmentValues {
     DepthConversion<float> to_code_;         // of shader_z
     DepthConversion<double> value_to_code_;  // of values in the buffer's own units
     PolygonOffset offset_;                   // that fragments add (OffsetRule::fragments)
-    Rect clip_;                              // viewport and scissor
-    float w_scale_;                          // the w buffer's units in one of clip w
+    const ChipKernels* chip_kernels_;
+    ChipDepth chip_;
+    Rect clip_;      // viewport and scissor
+    float w_scale_;  // the w buffer's units in one of clip w
     bool clips_fragments_;
     bool rejects_;      // depth_replace
     bool is_reversed_;  // DepthOrder::greater
     bool needs_float_z_, needs_attributes_;
     // The pass asks for no more than shader_z and its code by DepthPath::float32: one kernel does it all.
     bool is_plain_;
+    // The stored depth is the chip's window z and has a kernel; and no more is asked for than shader_z and its code.
+    // needs_plane_weights_: some attribute goes by planes.
+    bool is_chip_path_, is_chip_plain_, needs_plane_weights_;
 };
 
 }  // namespace strata::rasterizer

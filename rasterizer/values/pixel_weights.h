@@ -27,31 +27,46 @@ struct PixelWeights {
     };
 
     Kind kind = Kind::unsnapped;
-    double r;  // 1 / A, of the snapped or unsnapped corners
+    double r;     // 1 / A, of the snapped or unsnapped corners
+    double area;  // A of the snapped corners; unsnapped ones leave it as it is
     EdgePlane e1, e2;
     double x0, y0, x1, y1, x2, y2;  // unsnapped corner 0, and corners 1 and 2 seen from it
 
     // The wide kind is for edges whose values pass 2^53: then each is computed in 64-bit integers and rounded once.
     PixelWeights(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
-        const TriangleEdges edges{geometry.points(triangle), geometry.rules.tie_rule};
-        r = 1.0 / static_cast<double>(edges.area());
-        e1 = plane(edges.edge(1), geometry.rules.subpixel_bits);
-        e2 = plane(edges.edge(2), geometry.rules.subpixel_bits);
-        kind = std::max(size(e1), size(e2)) > 0x1p53 ? Kind::snapped_wide : Kind::snapped;
+        snap(geometry, triangle);
+        r = 1.0 / area;
     }
     // Of small triangle `k` of a group: never wide. The same integers.
     PixelWeights(const Geometry& geometry, const TriangleRecord& triangle, const TriangleGroup& group,
                  std::size_t k) noexcept {
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped && unsnap(geometry, triangle)) return;
-        r = 1.0 / group.area[k];
+        snap(group, k);
+        r = 1.0 / area;
+    }
+    // r is 1: the edge values of the snapped corners themselves, wherever planes start.
+    struct EdgesAlone {};
+    PixelWeights(EdgesAlone, const Geometry& geometry, const TriangleRecord& triangle) noexcept : r{1.0} {
+        snap(geometry, triangle);
+    }
+    PixelWeights(EdgesAlone, const TriangleGroup& group, std::size_t k) noexcept : r{1.0} { snap(group, k); }
+    [[nodiscard]] bool is_exact() const noexcept { return kind != Kind::unsnapped; }
+
+  private:
+    void snap(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
+        const TriangleEdges edges{geometry.points(triangle), geometry.rules.tie_rule};
+        area = static_cast<double>(edges.area());
+        e1 = plane(edges.edge(1), geometry.rules.subpixel_bits);
+        e2 = plane(edges.edge(2), geometry.rules.subpixel_bits);
+        kind = std::max(size(e1), size(e2)) > 0x1p53 ? Kind::snapped_wide : Kind::snapped;
+    }
+    void snap(const TriangleGroup& group, std::size_t k) noexcept {
+        area = group.area[k];
         e1 = plane(group, k, 1);
         e2 = plane(group, k, 2);
         kind = Kind::snapped;
     }
-    [[nodiscard]] bool is_exact() const noexcept { return kind != Kind::unsnapped; }
-
-  private:
     // False if the unsnapped corners lie on a line and have no plane.
     [[nodiscard]] bool unsnap(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
         const auto& corners = geometry.corners;

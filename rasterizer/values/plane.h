@@ -24,6 +24,12 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
+// Three corners' values of the same bits: 0 and -0 differ, and a NaN equals itself.
+[[nodiscard]] constexpr bool is_constant(const std::array<float, 3>& u) noexcept {
+    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
+    return bits[0] == bits[1] && bits[0] == bits[2];
+}
+
 struct RationalPlane {
     std::array<double, 3> v{};
     double numerator = 1.0, denominator = 1.0;  // N and D: integers up to 2^24 - 1

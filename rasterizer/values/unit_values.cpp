@@ -17,11 +17,6 @@ namespace {
 
 using Corners = std::array<float, 3>;
 
-[[nodiscard]] bool is_constant(const Corners& u) noexcept {
-    const auto bits = std::bit_cast<std::array<std::uint32_t, 3>>(u);
-    return bits[0] == bits[1] && bits[0] == bits[2];
-}
-
 }  // namespace
 
 int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
@@ -36,8 +31,6 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
     }
     const DepthHypothesis& h = rules_.hypothesis;
     const bool cut = cuts_coordinates(rules_, w);
-    const auto& vertex = triangle.record.vertex;
-    const Corners given{geometry.vertices[vertex[0]].w, geometry.vertices[vertex[1]].w, geometry.vertices[vertex[2]].w};
     // Under the default hypothesis coordinates go with the other attributes through the kernel.
     const bool is_plain = h.interpolant_bits >= 24 && h.divide == DivideRule::exact;
     const TriangleEdges edges = triangle.edges();
@@ -47,12 +40,14 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
         AttributeLanes varying;
         varying.has_w = !(w[0] == 1.0f && w[1] == 1.0f && w[2] == 1.0f);
         varying.inverse_w = {{w[0], w[1], w[2]}};
+        std::array<CutCoordinate, 4> cut_ones;
+        std::size_t cut_count = 0;
         for (std::size_t c = 0; c < 4; ++c) {
             if (!names(needs_.units, u, c)) continue;
             float* const out = &batch.unit[u][c][static_cast<std::size_t>(first)];
             const Corners value{v[0][4 * u + c], v[1][4 * u + c], v[2][4 * u + c]};
             if (cut)
-                cut_coordinates(value, cut_w(w, given), own, rules_.hypothesis, out);
+                cut_ones[cut_count++] = {value, out};
             else if (!is_plain)
                 fallbacks += interpolate(value, w, own, h, out);
             else if (is_constant(value))
@@ -60,6 +55,7 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
             else
                 varying.add({{value[0] * w[0], value[1] * w[1], value[2] * w[2]}}, out);  // products in binary32
         }
+        fill_chip_coordinates(triangle, own, std::span{cut_ones}.first(cut_count));
         if (varying.count + varying.constant_count > 0) fallbacks += fill_varying(varying, own);
     }
     return fallbacks;

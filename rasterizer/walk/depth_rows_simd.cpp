@@ -1,4 +1,4 @@
-// rasterizer/walk/depth_rows_simd.cpp - draw_depth_rows of rows.h for every instruction set.
+// rasterizer/walk/depth_rows_simd.cpp - draw_float_rows of rows.h for every instruction set.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/walk/rows_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/walk/depth_rows_simd.cpp"
@@ -87,7 +87,7 @@ HWY_AFTER_NAMESPACE();
 namespace strata::rasterizer {
 HWY_EXPORT(draw_depth);
 
-DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+DepthDrawn draw_float_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {
     const FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
     return kernel_of(HWY_DISPATCH_TABLE(draw_depth))(geometry, triangles, values.to_code(),

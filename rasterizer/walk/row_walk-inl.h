@@ -6,6 +6,7 @@
 //          `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row, weights) for
 //          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
 //          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
+//          One that `takes_edges` is given edge values of the snapped corners in the place of weights.
 // Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
 //          constants of an edge are below 2^50 there (row_walk_suits).
 // Tests    tests/rasterizer/walk/rows_test.cpp
@@ -121,6 +122,9 @@ concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b)
     shade(at, b);
 };
 
+template <class Shade>
+concept takes_edges = Shade::takes_edges;
+
 // Draws the triangles of a list in a region. `State` is what the pass keeps; a Shade is made for each triangle (or
 // each max_span_rows rows of a large one) and dies after its finish().
 template <template <bool> class Shade, class State>
@@ -152,11 +156,20 @@ class RowWalk {
                static_cast<std::size_t>(x - region_.x0);
     }
 
+    // `of_group`: nothing, or the group and the triangle's lane of it.
+    template <class... OfGroup>
+    [[nodiscard]] HWY_INLINE DrawnTriangle drawn(std::uint32_t index, const OfGroup&... of_group) const {
+        if constexpr (takes_edges<Shade<true>>)
+            return {PixelWeights::EdgesAlone{}, geometry_, index, of_group...};
+        else
+            return {geometry_, index, of_group...};
+    }
+
     template <int widest>
     HWY_INLINE void draw_small(std::uint32_t index, std::size_t k) {
         const SmallCoverage<widest == 8> coverage{group_, k};
         if (coverage.pixels() == 0) return;
-        const DrawnTriangle triangle{geometry_, index, group_, k};
+        const DrawnTriangle triangle = drawn(index, group_, k);
         const bool unsnapped = triangle.weights.kind == PixelWeights::Kind::unsnapped;
         if constexpr (takes_pixels<Shade<true>>) {
             if (unsnapped)
@@ -229,7 +242,7 @@ class RowWalk {
     }
 
     void draw_large(std::uint32_t index) {
-        const DrawnTriangle triangle{geometry_, index};
+        const DrawnTriangle triangle = drawn(index);
         const Rect box = intersection(centre_box(geometry_.points(triangle.record), rules_.subpixel_bits), rules_.clip);
         for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
             rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);

@@ -6,16 +6,38 @@
 
 namespace strata::rasterizer {
 
+namespace {
+
+// What any walk over rows needs. Of the sets, those with fewer than four lanes of binary64 are faster with batches; row tables
+// hold max_row_pixels columns.
+[[nodiscard]] bool can_walk(const Geometry& geometry, const Rect& region) noexcept {
+    return chosen_simd() >= Simd::avx2 && geometry.state.depth_order == DepthOrder::less &&
+           !geometry.state.window_positions && geometry.rules.plane_rule == PlaneRule::exact &&
+           geometry.rules.coverage == CoverageRule::snapped_edges && geometry.rules.subpixel_bits <= 8 &&
+           region.width() <= max_row_pixels;
+}
+
+}  // namespace
+
 bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
-    // Of the sets, those with fewer than four lanes of binary64 are faster with batches. D16F and D24F have no vector
-    // conversion, and row tables hold max_row_pixels columns.
+    // Of binary32, D16F and D24F have no vector conversion.
     const bool has_conversion = depth.format != DepthFormat::d16f && depth.format != DepthFormat::d24f;
-    return chosen_simd() >= Simd::avx2 && depth.path == DepthPath::float32 && has_conversion &&
-           (depth.format == DepthFormat::d32f || geometry.rules.depth_rounding != DepthRounding::product_even) &&
-           !clips_fragments && geometry.state.depth_order == DepthOrder::less && !geometry.state.window_positions &&
-           geometry.rules.plane_rule == PlaneRule::exact && geometry.rules.coverage == CoverageRule::snapped_edges &&
-           geometry.rules.subpixel_bits <= 8 && region.width() <= max_row_pixels;
+    return can_walk(geometry, region) && depth.path == DepthPath::float32 && has_conversion && !clips_fragments &&
+           (depth.format == DepthFormat::d32f || geometry.rules.depth_rounding != DepthRounding::product_even);
+}
+
+bool depth_rows_suit(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
+    const DepthHypothesis& h = geometry.rules.hypothesis;
+    const bool is_chip =
+        depth.path == DepthPath::window_z && h.window_z == WindowZRule::chip && h.weights == WeightRule::cut_edges;
+    return is_chip ? can_walk(geometry, region) : row_walk_suits(geometry, depth, region);
+}
+
+DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                           const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {
+    return depth.path == DepthPath::window_z ? draw_window_z_rows(geometry, triangles, depth, region, codes)
+                                             : draw_float_rows(geometry, triangles, depth, region, codes);
 }
 
 void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,

@@ -23,10 +23,19 @@ inline constexpr std::size_t row_padding = 8;
 // Whether rows can do what the batches of `geometry` would hold, in `region` and on the chosen instruction set.
 [[nodiscard]] bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;
 
+// The same for a pass of depth alone: draw_depth_rows knows the chip's window z, too.
+[[nodiscard]] bool depth_rows_suit(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;
+
 // Every fragment of `triangles` (as TileRasterizer::draw takes them) whose code is LESS than the stored one replaces it, in
-// submission order. `codes`: the region's pixels row by row, and row_padding words more. Only where row_walk_suits.
+// submission order. `codes`: the region's pixels row by row, and row_padding words more. Only where depth_rows_suit.
 DepthDrawn draw_depth_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
+
+// Its two ways: DepthPath::float32, and DepthPath::window_z by the chip's rule.
+DepthDrawn draw_float_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                           const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
+DepthDrawn draw_window_z_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
+                              const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept;
 
 // For the kernels. Replaces values[i] by the exact plane at (x[i], y[i]), for every bit i of `lanes`.
 void decide_lanes(const RationalPlane& plane, const Geometry& geometry, std::uint32_t index, const std::int32_t* x,

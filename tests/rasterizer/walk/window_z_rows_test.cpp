@@ -1,0 +1,128 @@
+// Rows of the chip's window z leave what fragments leave that are tested one after the other. The model is the batches of the scalar set,
+// which are WindowZ24's own text, and a plain loop over them; window_z_test proves that text by rationals.
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "rasterizer/base/simd.h"
+#include "rasterizer/walk/rows.h"
+#include "tests/rasterizer/chip_scene.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+
+struct ChipCodes {
+    std::vector<std::uint32_t> codes;
+    std::uint64_t fragments = 0, passed = 0;
+    friend bool operator==(const ChipCodes&, const ChipCodes&) = default;
+};
+
+// Codes all over the format's range; those behind the last pixel must stay.
+[[nodiscard]] std::vector<std::uint32_t> any_codes(const Rect& region, DepthFormat format) {
+    Random random{31};
+    std::vector<std::uint32_t> codes(region.area() + row_padding);
+    for (std::uint32_t& code : codes)
+        code = static_cast<std::uint32_t>(random_int(random, 0, static_cast<int>(max_code(format)) + 1));
+    return codes;
+}
+
+[[nodiscard]] ChipCodes tested_in_turn(const Geometry& g, const DepthRequest& depth, const Rect& region) {
+    const strata::SimdScope twins{strata::Simd::scalar};
+    ChipCodes found{any_codes(region, depth.format)};
+    constexpr FragmentNeeds code_alone{false, true, false, false, false, false};
+    for (const Fragment& f : draw(g, depth, code_alone, region, g.all_triangles).fragments) {
+        std::uint32_t& stored =
+            found.codes[static_cast<std::size_t>((f.y - region.y0) * region.width() + f.x - region.x0)];
+        ++found.fragments;
+        if (f.code >= stored) continue;
+        stored = f.code;
+        ++found.passed;
+    }
+    return found;
+}
+
+[[nodiscard]] ChipCodes drawn_as_rows(const Geometry& g, const DepthRequest& depth, const Rect& region) {
+    ChipCodes found{any_codes(region, depth.format)};
+    const DepthDrawn rows = draw_depth_rows(g, g.all_triangles, depth, region, found.codes.data());
+    found.fragments = rows.fragments;
+    found.passed = rows.passed;
+    return found;
+}
+
+// How often rows differ from fragments, over the sets that draw them; `passed` sums what was compared.
+[[nodiscard]] int differences(const Geometry& g, const DepthRequest& depth, const Rect& region, std::uint64_t& passed) {
+    const ChipCodes expected = tested_in_turn(g, depth, region);
+    int wrong = 0;
+    for (const strata::Simd simd : strata::available_simd()) {
+        const strata::SimdScope scope{simd};
+        if (!depth_rows_suit(g, depth, region)) continue;
+        wrong += drawn_as_rows(g, depth, region) == expected ? 0 : 1;
+        passed += expected.passed;
+    }
+    return wrong;
+}
+
+[[nodiscard]] bool has_rows_here() { return strata::available_simd().back() >= strata::Simd::avx2; }
+
+constexpr std::array<std::array<int, 2>, 6> sizes{{{2, 180}, {4, 180}, {8, 90}, {30, 36}, {300, 18}, {32767, 18}}};
+
+}  // namespace
+
+TEST_CASE(
+    "rows of the chip's window z leave the codes and counts of fragments, in every format, size, range and offset") {
+    std::uint64_t passed = 0;
+    int wrong = 0;
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d24f})
+        for (const int subpixel_bits : {4, 8})
+            for (int state = 0; state < 4; ++state) {
+                RasterRules rules = chip_rules();
+                rules.subpixel_bits = subpixel_bits;
+                rules.plane_origin = state == 1 ? PlaneOrigin::unsnapped : PlaneOrigin::snapped;
+                const Device device{rules, {DepthPath::window_z, format}};
+                for (const auto& [size, count] : sizes) {
+                    Geometry g = chip_triangles(11 + static_cast<std::uint64_t>(size), count, size, device);
+                    g.state.depth_clamp = state == 1;
+                    if (state == 2) g.state.depth_near = 0.8f, g.state.depth_far = 0.3f;
+                    if (state == 3) g.state.polygon_offset = {true, 1.5f, -3.0f};
+                    for (const Rect& region : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}})
+                        wrong += differences(g, device.depth, region, passed);
+                }
+            }
+    CHECK(wrong == 0);
+    CHECK((passed > 500'000 || !has_rows_here()));
+}
+
+TEST_CASE("rows of the chip's window z follow every width of its reciprocal and its sum") {
+    std::uint64_t passed = 0;
+    int wrong = 0;
+    for (int reciprocal_bits = 24; reciprocal_bits <= 30; reciprocal_bits += 2)
+        for (int sum_bits = 24; sum_bits <= 29; ++sum_bits)
+            for (const int deficit : {0, 3, 8}) {
+                RasterRules rules = chip_rules();
+                rules.hypothesis.reciprocal_bits = reciprocal_bits;
+                rules.hypothesis.sum_bits = sum_bits;
+                rules.hypothesis.reciprocal_deficit = deficit;
+                const Device device{rules, {DepthPath::window_z, DepthFormat::d24}};
+                for (const int size : {6, 400})
+                    wrong += differences(chip_triangles(5, 30, size, device), device.depth, {0, 0, 70, 40}, passed);
+            }
+    CHECK(wrong == 0);
+    CHECK((passed > 100'000 || !has_rows_here()));
+}
+
+TEST_CASE("rows know the chip's window z alone: no other rule of it, no weights by the area, no window positions") {
+    const Device device{chip_rules(), {DepthPath::window_z, DepthFormat::d24}};
+    const Geometry geometry = chip_triangles(3, 10, 8, device);
+    const auto suits = [&](const auto& change) {
+        Geometry changed = geometry;
+        change(changed);
+        return depth_rows_suit(changed, device.depth, {0, 0, 70, 40});
+    };
+    CHECK(suits([](Geometry&) {}) == (strata::chosen_simd() >= strata::Simd::avx2));
+    CHECK_FALSE(suits([](Geometry& g) { g.rules.hypothesis.window_z = WindowZRule::exact; }));
+    CHECK_FALSE(suits([](Geometry& g) { g.rules.hypothesis.weights = WeightRule::area; }));
+    CHECK_FALSE(suits([](Geometry& g) { g.state.window_positions = true; }));
+    CHECK_FALSE(suits([](Geometry& g) { g.rules.subpixel_bits = 12; }));
+    CHECK_FALSE(
+        row_walk_suits(geometry, device.depth, {0, 0, 70, 40}));  // sums and lists of arrivals stay with float32
+}
