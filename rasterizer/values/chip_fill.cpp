@@ -1,7 +1,10 @@
 // rasterizer/values/chip_fill.cpp - what of a batch the kernels of the chip's interpolators fill (chip_lanes.h), and where the definitions
 // do it instead (fragment_values.h).
+#include <utility>
+
 #include "rasterizer/values/color_weights.h"
 #include "rasterizer/values/cut_coordinates.h"
+#include "rasterizer/values/depth_paths.h"
 #include "rasterizer/values/fragment_values.h"
 #include "rasterizer/values/weight_lanes.h"
 
@@ -32,6 +35,18 @@ using Corners3 = std::array<float, 3>;
     return {triangle.weights, h, w_of(triangle)};
 }
 
+// Channels of one code: the weights add up to 256, so that (256 c + 128) >> 8 is c. True if no other is left.
+[[nodiscard]] bool fill_constant_channels(ColorLanes& colors, int count) noexcept {
+    bool is_done = true;
+    for (std::size_t c = 0; c < color_channels; ++c) {
+        const auto& [first, second, third] = colors.codes[c];
+        if (first == second && first == third)
+            std::fill_n(std::exchange(colors.out[c], nullptr), count, static_cast<float>(first) / 255.0f);
+        else
+            is_done = false;
+    }
+    return is_done;
+}
 [[nodiscard]] bool is_finite(double v) noexcept { return v - v == 0.0; }
 
 }  // namespace
@@ -54,23 +69,37 @@ bool FragmentValues::fill_chip_codes(const DrawnTriangle& triangle, int first, F
     return true;
 }
 
+int FragmentValues::fill_quotient_reference(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                            const WeightLanes& weights) const noexcept {
+    const TriangleEdges edges = triangle.edges();
+    const auto f = static_cast<std::size_t>(first);
+    const int fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record),
+                                         lanes(triangle, edges, first, batch, weights), rules_.hypothesis, kernels_,
+                                         &batch.reference_z[f]);
+    for (auto i = f; i < static_cast<std::size_t>(batch.count); ++i)
+        batch.reference_code[i] = code_of(batch.reference_z[i]);
+    return fallbacks;
+}
+
 bool FragmentValues::fill_chip_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
-                                     WeightLanes& weights) const noexcept {
+                                     WeightLanes& weights, int& fallbacks) const noexcept {
     if (!is_chip_plain_ || triangle.weights.kind == PixelWeights::Kind::snapped_wide) return false;
     const std::array<double, 3> z = triangle.geometry.depths(triangle.index);
     if (chip_.may_leave_range(z)) return false;
     const auto f = static_cast<std::size_t>(first);
-    if (needs_float_z_) {
+    if (needs_.shader_z) {
         const RationalPlane plane{z, 1.0, z_units_};
         if (plane.is_constant()) return false;
         const DepthLanes out{to_code_, &batch.shader_z[f], nullptr, &weights.b1[f], &weights.b2[f]};
         if (kernels_.depth(triangle.weights, FilterPlane{plane, triangle.weights.is_exact()}, &batch.x[f], &batch.y[f],
                            batch.count - first, out))
             return false;
-    } else if (needs_plane_weights_) {
+    } else if (needs_plane_weights_ || needs_.reference) {
         fill_weights(triangle, first, batch, weights);
     }
-    return !needs_.code || fill_chip_codes(triangle, first, batch);
+    if (needs_.code && !fill_chip_codes(triangle, first, batch)) return false;
+    if (needs_.reference) fallbacks += fill_quotient_reference(triangle, first, batch, weights);
+    return true;
 }
 
 void FragmentValues::fill_chip_colors(const DrawnTriangle& triangle, const TriangleLanes& lanes, int first,
@@ -88,9 +117,11 @@ void FragmentValues::fill_chip_colors(const DrawnTriangle& triangle, const Trian
     for (std::size_t c = 0; c < color_channels; ++c) colors.out[c] = &batch.color[c][f];
     const bool is_known = is_affine(inverse_w) || hypothesis.perspective_color == PerspectiveColor::cut_products;
     if (chip_kernels_ != nullptr && is_known &&
-        ChipTriangle::suits(triangle.weights, triangle.record, rules_.hypothesis))
+        ChipTriangle::suits(triangle.weights, triangle.record, rules_.hypothesis)) {
+        if (fill_constant_channels(colors, lanes.count)) return;
         return chip_kernels_->colors(attribute_triangle(triangle, inverse_w, rules_.hypothesis), colors, lanes.x,
                                      lanes.y, lanes.count);
+    }
     const ColorWeights weights{w_of(triangle), inverse_w, lanes.edges->area(), rules_.hypothesis,
                                hypothesis.perspective_color};
     for (int i = 0; i < lanes.count; ++i) {

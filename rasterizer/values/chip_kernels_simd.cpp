@@ -68,6 +68,7 @@ void colors(const ChipTriangle& t, const ColorLanes& colors, const std::uint16_t
         const auto w1 = hn::Sub(hn::Sub(hn::Set(d, 256), w.w0), w.w2);
         for (std::size_t c = 0; c < color_channels; ++c) {
             const std::array<std::int32_t, 3>& code = colors.codes[c];
+            if (colors.out[c] == nullptr) continue;
             const auto sum = hn::Add(hn::Add(hn::Mul(w.w0, hn::Set(d, code[0])), hn::Mul(w1, hn::Set(d, code[1]))),
                                      hn::Add(hn::Mul(w.w2, hn::Set(d, code[2])), hn::Set(d, 128)));
             const V32 channel = hn::ConvertTo(F32{}, hn::ShiftRight<8>(sum));

@@ -91,7 +91,7 @@ struct ChipDepth {
     }
 };
 
-// A vertex colour's codes at the corners, and where its channel goes.
+// A vertex colour's codes at the corners, and where its channel goes; null: it is written already.
 struct ColorLanes {
     std::array<std::array<std::int32_t, 3>, color_channels> codes{};
     std::array<float*, color_channels> out{};

@@ -42,6 +42,26 @@ void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3
     }
 }
 
+// r and q as attributes of one call; false if a lane is not certain.
+[[nodiscard]] bool divided_by_kernel(const QuotientCorners& corners, const TriangleLanes& lanes,
+                                     const LaneKernels& kernels, double* out) noexcept {
+    alignas(64) Lanes<float> r, q;
+    AttributeLanes planes;
+    planes.has_w = has_w(corners.inverse_w);
+    planes.inverse_w = {{corners.inverse_w[0], corners.inverse_w[1], corners.inverse_w[2]}};
+    const auto add = [&](const std::array<float, 3>& u, float* values) {
+        is_constant(u) ? planes.add(u[0], values) : planes.add(over_w(u, corners.inverse_w), values);
+    };
+    add(corners.r, r.data());
+    add(corners.q, q.data());
+    if (kernels.attributes(planes, lanes)) return false;
+    for (int i = 0; i < lanes.count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        out[i] = double{r[k] / q[k]};
+    }
+    return true;
+}
+
 }  // namespace
 
 QuotientCorners quotient_corners(const Geometry& geometry, const TriangleRecord& triangle) noexcept {
@@ -72,7 +92,9 @@ int interpolate(const std::array<float, 3>& u, const std::array<float, 3>& inver
 }
 
 int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
-                   double* out) noexcept {
+                   const LaneKernels& kernels, double* out) noexcept {
+    const bool is_plain = hypothesis.interpolant_bits == 24 && hypothesis.divide == DivideRule::exact;
+    if (is_plain && divided_by_kernel(corners, lanes, kernels, out)) return 0;
     // The hypothesis of binary64 interpolants: planes are the filter's own value, so there are no exact fallbacks.
     if (hypothesis.interpolant_bits == full_double) {
         Lanes<double> q;

@@ -13,6 +13,7 @@
 
 #include "rasterizer/set_up/geometry.h"
 #include "rasterizer/values/depth_quotient.h"
+#include "rasterizer/values/lane_kernels.h"
 #include "rasterizer/values/plane.h"
 
 namespace strata::rasterizer {
@@ -27,9 +28,10 @@ struct QuotientCorners {
 int interpolate(const std::array<float, 3>& u, const std::array<float, 3>& inverse_w, const TriangleLanes& lanes,
                 const DepthHypothesis& hypothesis, float* out) noexcept;
 
-// R at every lane, in the units of r. Returns exact fallbacks.
+// R at every lane, in the units of r. Returns exact fallbacks. Under the default hypothesis the kernel of attributes does it, where it
+// is certain.
 int quotient_depth(const QuotientCorners& corners, const TriangleLanes& lanes, const DepthHypothesis& hypothesis,
-                   double* out) noexcept;
+                   const LaneKernels& kernels, double* out) noexcept;
 
 // In the units of vertex z.
 // DepthPath::float32_plane as the head has it. Its bits depend on the order of the corners (depth.md 4.7).

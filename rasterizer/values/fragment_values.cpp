@@ -85,7 +85,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
                 !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || (depth.path == DepthPath::float32 && has_vector_codes(to_code_)));
     is_chip_path_ = chip_kernels_ != nullptr && depth.path == DepthPath::window_z && is_chip(depth.path);
-    is_chip_plain_ = is_chip_path_ && rules_.plane_rule == PlaneRule::exact && !needs.exact_code && !needs.reference;
+    is_chip_plain_ =
+        is_chip_path_ && rules_.plane_rule == PlaneRule::exact && !needs.exact_code &&
+        (!needs.reference || (z_units_ == code_units_ && is_quotient(depth.reference.value_or(depth.path))));
     const InterpolationHypothesis& interpolation = rules_.interpolation;
     const bool cuts_all = interpolation.texture_coordinates == CoordinateRule::cut_weights &&
                           interpolation.perspective_coordinates == PerspectiveCoordinates::cut_products;
@@ -213,7 +215,7 @@ int FragmentValues::fill_depth_values(DepthPath path, const SetupTriangle& t, co
     switch (path) {
         case DepthPath::perspective_rq:
         case DepthPath::depth_replace:
-            fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record), lanes, h, out);
+            fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record), lanes, h, kernels_, out);
             break;
         case DepthPath::float32_plane: float32_plane_depth(t, rules_, lanes, out); break;
         case DepthPath::float32:
@@ -368,7 +370,7 @@ void FragmentValues::turn_into_keys(int first, FragmentBatch& batch) const noexc
 
 int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const {
     int fallbacks = 0;
-    if (!fill_depth(triangle, first, batch, weights) && !fill_chip_depth(triangle, first, batch, weights))
+    if (!fill_depth(triangle, first, batch, weights) && !fill_chip_depth(triangle, first, batch, weights, fallbacks))
         fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
     if (is_reversed_) turn_into_keys(first, batch);
     if (needs_attributes_ && rules_.plane_rule != PlaneRule::exact)

@@ -75,7 +75,10 @@ class FragmentValues {
     [[nodiscard]] ChipConversion chip_conversion() const noexcept;
     // The same for window_z by the chip's kernel, and its codes alone.
     [[nodiscard]] bool fill_chip_depth(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
-                                       WeightLanes& weights) const noexcept;
+                                       WeightLanes& weights, int& fallbacks) const noexcept;
+    // The compared depth of DepthPath::perspective_rq or depth_replace, in the buffer's own units. Returns exact fallbacks.
+    [[nodiscard]] int fill_quotient_reference(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                              const WeightLanes& weights) const noexcept;
     [[nodiscard]] bool fill_chip_codes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
     [[nodiscard]] int fill_values(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                   FragmentBatch& batch, WeightLanes& weights) const;
