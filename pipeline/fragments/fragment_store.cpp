@@ -8,6 +8,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 namespace strata::pipeline {
 
@@ -148,9 +149,10 @@ void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentN
     std::uint32_t before = 0;
     for_each_array(needs_, batch, [&](auto& array) {
         constexpr auto size = static_cast<std::uint32_t>(sizeof(array[0]));
-        for (std::size_t i = 0; i < places.size() && !is_skipped(&array); ++i)
-            std::memcpy(&array[i], begin[i] + (count[i] * before + number[i] * size), size);
-        before += size;
+        const std::uint32_t start = std::exchange(before, before + size);
+        if (is_skipped(&array)) return;
+        for (std::size_t i = 0; i < places.size(); ++i)
+            std::memcpy(&array[i], begin[i] + (count[i] * start + number[i] * size), size);
     });
 }
 

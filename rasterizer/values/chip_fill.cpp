@@ -76,8 +76,7 @@ int FragmentValues::fill_quotient_reference(const DrawnTriangle& triangle, int f
     const int fallbacks = quotient_depth(quotient_corners(triangle.geometry, triangle.record),
                                          lanes(triangle, edges, first, batch, weights), rules_.hypothesis, kernels_,
                                          &batch.reference_z[f]);
-    for (auto i = f; i < static_cast<std::size_t>(batch.count); ++i)
-        batch.reference_code[i] = code_of(batch.reference_z[i]);
+    fill_value_codes(&batch.reference_z[f], batch.count - first, &batch.reference_code[f]);
     return fallbacks;
 }
 

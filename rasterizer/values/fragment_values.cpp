@@ -17,13 +17,14 @@ namespace {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
-template <CodeKind kind>
-void to_codes_of(const float* __restrict z, int count, const DepthConversion<float> to,
+template <CodeKind kind, class Value>
+void to_codes_of(const Value* __restrict z, int count, const DepthConversion<Value> to,
                  std::uint32_t* __restrict out) noexcept {
-    for (int i = 0; i < padded(count); ++i) out[i] = depth_code<kind>(OneLane<float>{}, z[i], to);
+    for (int i = 0; i < count; ++i) out[i] = depth_code<kind>(OneLane<Value>{}, z[i], to);
 }
 
-void to_codes(const float* z, int count, const DepthConversion<float>& to, std::uint32_t* out) noexcept {
+template <class Value>
+void to_codes(const Value* z, int count, const DepthConversion<Value>& to, std::uint32_t* out) noexcept {
     switch (to.kind) {
         case CodeKind::fixed: return to_codes_of<CodeKind::fixed>(z, count, to, out);
         case CodeKind::fixed_product: return to_codes_of<CodeKind::fixed_product>(z, count, to, out);
@@ -154,6 +155,10 @@ void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes&
     batch.count = static_cast<int>(kept);
 }
 
+void FragmentValues::fill_value_codes(const double* values, int count, std::uint32_t* out) const noexcept {
+    to_codes(values, count, value_to_code_, out);
+}
+
 // The exact plane in the buffer's own units, rounded once to binary32, and that cut: the chip's float formats.
 int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLanes& lanes,
                                        std::uint32_t* out) const noexcept {
@@ -169,7 +174,7 @@ int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLan
 int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes& lanes, const float* shader_z,
                                      std::uint32_t* out) const noexcept {
     switch (to_code_.kind) {
-        case CodeKind::binary32: to_codes(shader_z, lanes.count, to_code_, out); return 0;
+        case CodeKind::binary32: to_codes(shader_z, padded(lanes.count), to_code_, out); return 0;
         case CodeKind::d16f:
         case CodeKind::d24f: return fill_rounded_codes(t, lanes, out);
         case CodeKind::fixed:
@@ -190,14 +195,14 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
 int FragmentValues::fill_codes(DepthPath path, const SetupTriangle& t, const TriangleLanes& lanes,
                                const float* shader_z, std::uint32_t* out) const {
     if (path == DepthPath::float32) {
-        to_codes(shader_z, lanes.count, to_code_, out);
+        to_codes(shader_z, padded(lanes.count), to_code_, out);
         return 0;
     }
     if (!is_chip(path)) return fill_exact_codes(t, lanes, shader_z, out);
     Lanes<double> value;
     fill_chip_values(path, t, lanes, value.data());
     if (!to_code_.is_fixed()) {
-        for (int i = 0; i < lanes.count; ++i) out[i] = code_of(value[static_cast<std::size_t>(i)]);
+        fill_value_codes(value.data(), lanes.count, out);
         return 0;
     }
     const ChipConversion& to = chip_.to_code;
@@ -242,8 +247,7 @@ int FragmentValues::fill_value_codes(const SetupTriangle& t, const DrawnTriangle
     const int fallbacks = fill_depth_values(depth_.path, t, triangle, lanes(triangle, edges, first, batch, weights),
                                             &batch.shader_z[f], depth.data());
     if (rejects_) drop_rejected(first, batch, weights, depth.data());
-    for (auto i = f; needs_.code && i < static_cast<std::size_t>(batch.count); ++i)
-        batch.code[i] = code_of(depth[i - f]);
+    if (needs_.code) fill_value_codes(depth.data(), batch.count - first, &batch.code[f]);
     return fallbacks;
 }
 
@@ -258,8 +262,7 @@ int FragmentValues::fill_reference(const SetupTriangle& t, const DrawnTriangle& 
     if (path == depth_.path) {
         std::copy_n(&batch.code[f], own.count, &batch.reference_code[f]);
     } else if (is_value(path, rules_.hypothesis)) {
-        for (auto i = f; i < static_cast<std::size_t>(batch.count); ++i)
-            batch.reference_code[i] = code_of(batch.reference_z[i]);
+        fill_value_codes(&batch.reference_z[f], own.count, &batch.reference_code[f]);
     } else {
         fallbacks += fill_codes(path, t, own, &batch.shader_z[f], &batch.reference_code[f]);
     }

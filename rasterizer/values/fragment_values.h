@@ -105,6 +105,7 @@ class FragmentValues {
                           double* out) const noexcept;
     // The code of a depth in the buffer's own units.
     [[nodiscard]] std::uint32_t code_of(double value) const noexcept { return depth_code(value, value_to_code_); }
+    void fill_value_codes(const double* values, int count, std::uint32_t* out) const noexcept;
     // The stored path, if it is one of depth_paths.h; drops what depth_replace rejects.
     [[nodiscard]] int fill_value_codes(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                        FragmentBatch& batch, WeightLanes& weights) const;
