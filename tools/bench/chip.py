@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The chip's own interpolators beside float32: geforce3's time over geforce8's, and shadow_map's pass over depth_units'.
 
-    tools/bench/chip.py [--size 1024x1024] [--models ../shared/models] [--repeat 8] [--count]
+    tools/bench/chip.py [--size 1024x1024] [--models ../shared/models] [--scenes bunny,dragon] [--repeat 8] [--count]
 
 Standard library alone. Times are the processor's, of a frame on one thread, in turns: each ratio is the median of the turns' ratios.
 --count adds instructions (valgrind, on AVX2), which no other work on the machine changes. The exit status is 1 if a bound is missed.
@@ -28,6 +28,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--strata", default=str(peels.ROOT / "build/release/strata"), help="the built command")
     parser.add_argument("--models", default=str(peels.ROOT / "../shared/models"), help="folder with bunny.glb and dragon.glb")
+    parser.add_argument("--scenes", default="bunny,dragon", help="which of the two")
     parser.add_argument("--size", default="1024x1024")
     parser.add_argument("--repeat", type=int, default=8, help="frames of a job that are timed together")
     parser.add_argument("--count", action="store_true", help="count instructions, too: a minute a row")
@@ -67,7 +68,7 @@ def main():
           f"shadow_map has {PASSES} passes, and its ratio is a pass over a pass.\n")
     print("| scene | job | ms | beside it | ms | ratio | most | kept |" + (" instructions | beside it | ratio |" if options.count else ""))
     print("|" + "---|" * (11 if options.count else 8))
-    for scene in ("bunny", "dragon"):
+    for scene in options.scenes.split(","):
         model = pathlib.Path(options.models) / f"{scene}.glb"
         if not model.exists():
             print(f"chip.py: no {model}: its rows are missing", file=sys.stderr)
