@@ -4,7 +4,7 @@
 // Rule     As depth_hypothesis.h: a default is what captures of silicon prove where they do ([M]), else our assumption
 //          ([A]). interpolation_hypotheses (hypotheses.h) names the others.
 // Source   attributes.md 2.2 to 2.5, 3.2 and 3.3; chip-depth.md 8; chip-geometry.md 5.1.
-// Tests    tests/rasterizer/values/color_weights_test.cpp, cut_coordinates_test.cpp
+// Tests    tests/rasterizer/chip/color_weights_test.cpp, cut_coordinates_test.cpp
 #pragma once
 #include <cstdint>
 

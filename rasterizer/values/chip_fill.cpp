@@ -2,7 +2,7 @@
 // do it instead (fragment_values.h).
 #include <utility>
 
-#include "rasterizer/values/color_weights.h"
+#include "rasterizer/chip/color_weights.h"
 #include "rasterizer/values/cut_coordinates.h"
 #include "rasterizer/values/depth_paths.h"
 #include "rasterizer/values/fragment_values.h"

@@ -1,7 +1,7 @@
 #include "rasterizer/values/chip_lanes.h"
 
+#include "rasterizer/chip/window_z.h"
 #include "rasterizer/set_up/polygon_offset.h"
-#include "rasterizer/values/window_z.h"
 
 namespace strata::rasterizer {
 inline namespace strict {

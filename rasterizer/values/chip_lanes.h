@@ -12,9 +12,9 @@
 #include <cstdint>
 
 #include "rasterizer/base/two_terms.h"
+#include "rasterizer/chip/cut_weight.h"
 #include "rasterizer/rules/depth_code.h"
 #include "rasterizer/set_up/geometry.h"
-#include "rasterizer/values/cut_weight.h"
 #include "rasterizer/values/pixel_weights.h"
 
 namespace strata::rasterizer {

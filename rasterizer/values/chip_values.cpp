@@ -2,11 +2,11 @@
 // them (fragment_values.h).
 #include <algorithm>
 
+#include "rasterizer/chip/w_buffer.h"
+#include "rasterizer/chip/window_z.h"
 #include "rasterizer/set_up/polygon_offset.h"
 #include "rasterizer/values/fragment_values.h"
-#include "rasterizer/values/w_buffer.h"
 #include "rasterizer/values/weight_lanes.h"
-#include "rasterizer/values/window_z.h"
 
 namespace strata::rasterizer {
 

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "rasterizer/base/nv20_arithmetic.h"
-#include "rasterizer/values/perspective_weights.h"
+#include "rasterizer/chip/perspective_weights.h"
 
 namespace strata::rasterizer {
 inline namespace strict {

@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 FLOORS = {
-    "rasterizer": ["base", "rules", "coverage", "set_up", "values", "walk"],
+    "rasterizer": ["base", "rules", "coverage", "set_up", "chip", "values", "walk"],
     "pipeline": ["formats", "device", "vertices", "stages", "textures", "geforce3", "frame", "fragments", "region"],
     "peeling": ["programs", "closed", "algorithms", "audit", "", "truth"],
     "scenes": ["numbers", "", "gltf/document", "images", "files", "packs", "procedural", "gltf"],

@@ -6,7 +6,7 @@ target_compile_options(strata_numerics INTERFACE -ffp-contract=off -fno-fast-mat
 target_compile_definitions(strata_numerics INTERFACE GLM_FORCE_CTOR_INIT)  # rasterizer/base/vector.h
 target_include_directories(strata_numerics INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
-# GeForce3's depth interpolator is exact in 128 bits (rasterizer/values/window_z.h).
+# GeForce3's depth interpolator is exact in 128 bits (rasterizer/chip/window_z.h).
 include(CheckCXXSourceCompiles)
 check_cxx_source_compiles("__extension__ typedef unsigned __int128 Wide; int main() { return static_cast<int>(Wide{0}); }"
   STRATA_HAS_INT128)

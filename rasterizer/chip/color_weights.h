@@ -1,4 +1,4 @@
-// rasterizer/values/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
+// rasterizer/chip/color_weights.h - vertex colours interpolated with 8-bit weights, as NV2A (GeForce3 class) does.
 //
 // Rule     Vertex colours to 8 bits first: their leading bits (InterpolationHypothesis), times 255, nearest, a half up.
 //          Weights b as in cut_weight.h; the vertex that takes the remainder has 1 - (the two others), exactly. w0 =
@@ -7,16 +7,16 @@
 //          p_i (1 / ((p0 + p1) + p2)) in binary64, cut to 24 bits; or weight_products [A]: p_i = b_i (1/w_i) cut to 24
 //          bits, normalised with a reciprocal cut to 28.
 // Source   attributes.md 2.2 to 2.5; chip-depth.md 8; chip-float-depth.md 7.
-// Tests    tests/rasterizer/values/color_weights_test.cpp
+// Tests    tests/rasterizer/chip/color_weights_test.cpp
 #pragma once
 #include <array>
 #include <bit>
 #include <cstdint>
 
 #include "rasterizer/base/exact_sum.h"
+#include "rasterizer/chip/perspective_weights.h"
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/rules/interpolation_hypothesis.h"
-#include "rasterizer/values/perspective_weights.h"
 
 namespace strata::rasterizer {
 inline namespace strict {

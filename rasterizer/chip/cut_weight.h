@@ -1,4 +1,4 @@
-// rasterizer/values/cut_weight.h - the weights of NV2A's interpolator: edge values times a reciprocal, both cut.
+// rasterizer/chip/cut_weight.h - the weights of NV2A's interpolator: edge values times a reciprocal, both cut.
 //
 // Rule     WeightRule::cut_edges: e' = e cut to 24 significant bits; S = (e'0 + e'1) + e'2; r = 1 / S where S is a power of
 //          two, else (1 / S)(1 - d 2^-32) cut to m bits; b = e' r cut to 24 bits. WeightRule::area: r = 1 / A cut to m
@@ -8,7 +8,7 @@
 //          product with 1 - d 2^-32 are rounded there (S is exact while its addends' exponents are within 29). area:
 //          e <= A < 2^58, r = R 2^-(n + L), L = floor(log2 A), R <= 2^n, n <= 30; e R fits 64 bits below 2^34, above
 //          it 24 bits of e R, which the cut drops anyway, are shifted out first: at least 24 + 9 stay.
-// Tests    tests/rasterizer/values/window_z_test.cpp
+// Tests    tests/rasterizer/chip/window_z_test.cpp
 #pragma once
 #include <array>
 #include <bit>

@@ -1,5 +1,5 @@
 // The model: attributes.md 2.2, 2.4 and the remainder rule of attributes.md 2.3 over rationals.
-#include "rasterizer/values/color_weights.h"
+#include "rasterizer/chip/color_weights.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 // The model: the rule for unequal w of color_weights.h over rationals, every rounding to 53 bits and every cut written out.
 #include <catch2/catch.hpp>
 
-#include "rasterizer/values/color_weights.h"
+#include "rasterizer/chip/color_weights.h"
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/support.h"
 

@@ -1,4 +1,4 @@
-// rasterizer/values/w_buffer.h - the depth of NV2A's w buffer: w itself, interpolated by perspective weights.
+// rasterizer/chip/w_buffer.h - the depth of NV2A's w buffer: w itself, interpolated by perspective weights.
 //
 // Rule     w = w1 + b0 (w0 - w1) + b2 (w2 - w1) with the weights of perspective_weights.h; each product cut toward zero to
 //          2^(ex - 28), ex the largest exponent of w1 and the products; the sum cut to 24 bits, offset added
@@ -6,13 +6,13 @@
 //          of two neighbouring pixels along the steeper axis, one number a triangle (WSlope).
 // Source   depth.md 4.8, chip-float-depth.md 4; the weights' last bits and the place of P and Q are open there.
 // Numbers  Differences and products in binary64: exact but for the remainder's product, which is rounded there.
-// Tests    tests/rasterizer/values/w_buffer_test.cpp
+// Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once
 #include <algorithm>
 
+#include "rasterizer/chip/offset_value.h"
+#include "rasterizer/chip/perspective_weights.h"
 #include "rasterizer/set_up/geometry.h"
-#include "rasterizer/values/offset_value.h"
-#include "rasterizer/values/perspective_weights.h"
 
 namespace strata::rasterizer {
 inline namespace strict {

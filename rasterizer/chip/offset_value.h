@@ -1,14 +1,14 @@
-// rasterizer/values/offset_value.h - polygon offset as NV2A (GeForce3 class) adds it to a fragment's value.
+// rasterizer/chip/offset_value.h - polygon offset as NV2A (GeForce3 class) adds it to a fragment's value.
 //
 // Rule     v = cut(value, 24); with offset v = cut(v + o, 24), o = cut(cut(slope * factor, 24) + bias, 24), slope cut to 24
 //          bits, everything toward zero and in the buffer's own units. The slope of a z buffer is the larger of |dz/dx|
 //          and |dz/dy| of the triangle, per pixel.
 // Source   coverage.md 9.3, chip-float-depth.md 2.
-// Tests    tests/rasterizer/values/w_buffer_test.cpp
+// Tests    tests/rasterizer/chip/w_buffer_test.cpp
 #pragma once
 #include "rasterizer/base/two_terms.h"
+#include "rasterizer/chip/cut_weight.h"
 #include "rasterizer/rules/raster_state.h"
-#include "rasterizer/values/cut_weight.h"
 
 namespace strata::rasterizer {
 inline namespace strict {

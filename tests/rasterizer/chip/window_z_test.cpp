@@ -1,6 +1,6 @@
 // The model is a second implementation of depth.md 4.4 over rationals.
 // The scene of the silicon captures (chip-depth.md 2) gives counts of its own.
-#include "rasterizer/values/window_z.h"
+#include "rasterizer/chip/window_z.h"
 
 #include <bit>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "rasterizer/values/w_buffer.h"
+#include "rasterizer/chip/w_buffer.h"
 
 #include "rasterizer/set_up/polygon_offset.h"
 

@@ -1,4 +1,4 @@
-// rasterizer/values/perspective_weights.h - the weights of NV2A's interpolator where w differs: colours, coordinates, w buffer.
+// rasterizer/chip/perspective_weights.h - the weights of NV2A's interpolator where w differs: colours, coordinates, w buffer.
 //
 // Rule     q_i = |1 / w_i| cut to 24 bits; p_i = |e'_i| q_i cut to 24 bits, e' cut like a weight's; S = (p0 + p1) + p2; r of S
 //          as in cut_weight.h; b_i = p_i r cut to 24 bits; the remainder vertex (that of colours) takes 1 - (b' + b'').
@@ -6,9 +6,9 @@
 // Numbers  Products of 24 bits are exact in binary64, S and 1 - (b' + b'') are rounded there. A corner's edge value and its
 //          w have one sign wherever the triangle is drawn (coverage.md 5.8), so magnitudes do. |1 / w| is at least 2^-126
 //          and at most 2^126 (signs of w) and |e'| below 2^58: nothing overflows.
-// Tests    tests/rasterizer/values/w_buffer_test.cpp, perspective_colors_test.cpp
+// Tests    tests/rasterizer/chip/w_buffer_test.cpp, perspective_colors_test.cpp
 #pragma once
-#include "rasterizer/values/cut_weight.h"
+#include "rasterizer/chip/cut_weight.h"
 
 namespace strata::rasterizer {
 inline namespace strict {

@@ -1,6 +1,6 @@
 // The model: depth.md 4.8 over rationals, with the roundings to 53 bits where the rule has them; coverage by a
 // comparison of signs at every centre.
-#include "rasterizer/values/w_buffer.h"
+#include "rasterizer/chip/w_buffer.h"
 
 #include <catch2/catch.hpp>
 

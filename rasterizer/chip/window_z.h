@@ -1,4 +1,4 @@
-// rasterizer/values/window_z.h - window depth as NV2A (GeForce3 class) computes it, for every depth format.
+// rasterizer/chip/window_z.h - window depth as NV2A (GeForce3 class) computes it, for every depth format.
 //
 // Rule     depth.md 4.4: the corner R whose edge value has the largest exponent (ties: v1, v0, v2) is the
 //          reference; the others add b_j (z_j - z_R), each cut toward zero to 2^(ex - 28), ex the largest exponent of
@@ -8,7 +8,7 @@
 // Numbers  z_j - z_R is exact: 24 + 61 bits, because a z below 2^-36 of the other acts as any z below 2^-24 of it does;
 //          times 24 bits of weight 109 bits. Nearly all differences have 29 bits or fewer, and their products are exact in
 //          binary64.
-// Tests    tests/rasterizer/values/window_z_test.cpp
+// Tests    tests/rasterizer/chip/window_z_test.cpp
 #pragma once
 #include <algorithm>
 #include <array>
@@ -16,10 +16,10 @@
 #include <cstdint>
 
 #include "rasterizer/base/two_terms.h"
+#include "rasterizer/chip/cut_weight.h"
+#include "rasterizer/chip/offset_value.h"
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/rules/depth_hypothesis.h"
-#include "rasterizer/values/cut_weight.h"
-#include "rasterizer/values/offset_value.h"
 
 namespace strata::rasterizer {
 inline namespace strict {
