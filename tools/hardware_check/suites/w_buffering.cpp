@@ -1,8 +1,10 @@
 // Suite W_buffering: <Z|W>Buf<16|24><D|F>_<shape>[-left-top]_V<program>_ZB<bias>_ZS<slope>[_ZB]: depth formats, polygon
 // offset and the w buffer over wide shapes whose corners lie far outside of the window. chip-float-depth.md 9.1.
+#include <cmath>
 #include <vector>
 
 #include "rasterizer/rules/depth_code.h"
+#include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -142,8 +144,44 @@ std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
     return soup;
 }
 
+// The greatest window z of the fixed pipeline, in the buffer's own values.
+double fixed_units(const BufferSetting& s) {
+    if (s.is_16) return s.is_float ? 511.9375 : 65535.0;
+    return 16777215.0;
+}
+
+// Window z of the floor's points by the vertex engine's arithmetic (fixed_pipeline.h): the matrix has the way along the view in
+// rows of z and w, each entry rounded to binary32.
+float floor_z(float z, double units) {
+    namespace nv20 = rasterizer::nv20;
+    // The way along the view in units of z, and where it begins: the test normalises by a reciprocal in binary32.
+    const float ahead = 7.0f * (1.0f / std::sqrt(58.0f)), start = static_cast<float>(199.0 / std::sqrt(58.0));
+    const float scale = static_cast<float>(units * 200.0 / 199.0);
+    const float clip_z =
+        nv20::sum<2>({nv20::multiply(z, static_cast<float>(ahead * scale)), static_cast<float>(start * scale - scale)});
+    const float w = nv20::sum<2>({nv20::multiply(z, ahead), start});
+    return nv20::multiply(clip_z, nv20::reciprocal(w));
+}
+
+// A floor of 30000 units through the fixed pipeline: the default camera stands 50 above it and looks down by three in seven.
+TriangleSoup fixed_floor(const BufferSetting& s) {
+    const double length = std::sqrt(58.0), down = 3.0 / length, ahead = 7.0 / length;
+    const auto window_point = [&](double x, double z) {
+        const double y_to_eye = -50.0, z_to_eye = z + 7.0;
+        const double w = ahead * z_to_eye - down * y_to_eye, up = ahead * y_to_eye + down * z_to_eye;
+        const double scale = 240.0 * cotangent / w;
+        return WindowPoint{static_cast<float>(320.0 + x * scale + viewport_offset),
+                           static_cast<float>(240.0 - up * scale + viewport_offset),
+                           floor_z(static_cast<float>(z), fixed_units(s)), static_cast<float>(w)};
+    };
+    TriangleSoup soup;
+    add(soup, std::array{window_point(-15000, 30000), window_point(15000, 30000), window_point(15000, -10),
+                         window_point(-15000, -10)});
+    return soup;
+}
+
 const Drawing colors_of_slopes{std::nullopt, "colour pictures of this suite are not described"};
-const Drawing fixed_pipeline{std::nullopt, "positions of the fixed pipeline are not described"};
+const Drawing beyond_binary32{std::nullopt, "the fixed pipeline's scale of 24-bit float depth is beyond binary32"};
 const Drawing no_lines{std::nullopt, "lines are not modelled"};
 
 const Drawing unknown_quad{std::nullopt,
@@ -155,6 +193,8 @@ Bound bound_of(const BufferSetting& s) {
     const bool is_24_float = s.format() == DepthFormat::d24f;
     if (s.is_w && s.has_slope) return {std::uint64_t{picture_width} * picture_height, 2};
     if (s.is_w) return {is_24_float ? 1500u : 220u, 1};
+    // Corners by the fixed pipeline at 24 bits: the last bits of z and of its slope.
+    if (!s.by_program && !s.is_16) return {1000, 1};
     if (s.shape == "TriH" && s.has_slope) return {is_24_float ? 1100u : 168u, 1};
     return s.shape == "TruncNeg" ? Bound{4, 1} : Bound{};
 }
@@ -168,7 +208,8 @@ Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& p
     auto soup = shape_of(*s);
     if (!soup) return unknown_name;
     if (!s->shows_depth) return colors_of_slopes;
-    if (!s->by_program) return fixed_pipeline;
+    if (!s->by_program && s->format() == DepthFormat::d24f) return beyond_binary32;
+    if (!s->by_program) soup = fixed_floor(*s);
     const bool is_sliver = s->shape == "TriH" || s->shape == "TriV" || s->shape == "ClipF";
     if (s->is_w && s->has_slope && is_sliver) return unknown_quad;
 
