@@ -163,7 +163,10 @@ TEST_CASE("every name of the suites of offset, w and depth range is drawn, or sa
     const Names shapes{"FloorQuad", "RoofQuad", "WallQuad", "LargeZ", "TriH", "TriV"};
     const Names z = with(with(with({"ZBuf"}, formats), shapes), offsets), flat{"_V1_ZB0_ZS0_ZB", "_V1_ZB1_ZS0_ZB"};
     CHECK(all_are(Says::drawn, "W_buffering", with(z, {"_ZB"})) == 96);
-    CHECK(all_are(Says::not_modelled, "W_buffering", z) == 96);  // colours
+    CHECK(all_are(Says::drawn, "W_buffering", z) == 96);  // colours
+    CHECK(all_are(Says::drawn, "W_buffering",
+                  {"WBuf24D_TriV_V1_ZB0_ZS1", "WBuf24D_ClipF-150-032_V1_ZB0_ZS1", "WBuf24F_FloorQuad_V0_ZB1_ZS0"}) ==
+          3);
     CHECK(all_are(Says::drawn, "W_buffering", with(with(with({"WBuf"}, formats), shapes), flat)) == 48);
     const Names wide{"FloorQuad", "RoofQuad", "WallQuad", "LargeZ"}, sloped{"_V1_ZB0_ZS1_ZB", "_V1_ZB1_ZS1_ZB"};
     CHECK(all_are(Says::drawn, "W_buffering", with(with(with({"WBuf"}, formats), wide), sloped)) == 32);
