@@ -68,6 +68,12 @@ Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest
     return check(profile, depth.path);
 }
 
+// A w buffer holds w, every other path a depth of another scale.
+bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept {
+    constexpr auto w = rasterizer::DepthPath::w_buffer;
+    return depth.reference && (depth.path == w) != (*depth.reference == w);
+}
+
 // A light's map in the depth that the device writes by itself; none if it cannot be had, for then nothing runs.
 std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfile& profile,
                                          const rasterizer::RasterState& eye, int threads) {
@@ -229,6 +235,9 @@ struct Renderer::State {
         if (has_w(request.path) || (request.reference && has_w(*request.reference)))
             return Refusal{"w buffer for a parallel projection, whose w is 1 everywhere", "",
                            "use depth path window_z, or a camera with perspective"};
+        if (compares_w_with_depth(request))
+            return Refusal{"comparison of w with a depth, of which one is stored and the other compared", "",
+                           "use w_buffer for both: --depth-path w_buffer --reference-path w_buffer"};
         if (auto lacking = check(profile, color_format)) return lacking;
         if (auto lacking = check_order()) return lacking;
         if (options.raster.depth_clamp)

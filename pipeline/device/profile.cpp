@@ -18,6 +18,7 @@ DeviceProfile geforce3() {
     p.description = "NV20 (2001): 8-bit targets, integer depth, one blend function; numbers from captures of an NV2A";
     p.raster = {.subpixel_bits = 4,
                 .snap = Snap::toward_zero,
+                .guard_band_px = 524288,
                 .z_clip = ZClip::per_fragment,
                 .w_signs = WSigns::by_corner,
                 .w_divide = WDivide::reciprocal,

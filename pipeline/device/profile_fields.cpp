@@ -110,8 +110,8 @@ constexpr std::array fields{
     choice<&Rules::tie_rule>("raster.tie_rule", {"[M] chip-geometry.md 1.5: 298,500 of 298,500 pixels",
                                                  "[S] coverage.md 5.3: D3D 11.3 3.4.2.1", ours, drawn}),
     integer<&Rules::guard_band_px>(
-        "raster.guard_band_px", {1, 32768},
-        {"[A] coverage.md 1.3: the fixed-point range", "[S] coverage.md 1.3: D3D 11.3 15.6.1", ours,
+        "raster.guard_band_px", {1, 524288},
+        {"[M] chip-geometry.md 5.3: 513,000 pixels keep their place", "[S] coverage.md 1.3: D3D 11.3 15.6.1", ours,
          "[A] Mesa cuts at the viewport: compare scenes that lie inside it"}),
     choice<&Rules::clip>("raster.clip", {"[A] coverage.md 2.3: the guard band", "[S] coverage.md 1.3: D3D 11.3 15.6.1",
                                          ours, "[M] mesa-rasterizers.md 1.2"}),

@@ -66,7 +66,7 @@ struct RasterRules {
     Snap snap = Snap::nearest_even;
     CoverageRule coverage = CoverageRule::snapped_edges;
     TieRule tie_rule = TieRule::top_left;  // of snapped edges
-    // x and y beyond +- this many pixels are clipped; 1 to 32768, the range for which edge functions are exact.
+    // x and y beyond +- this many pixels are clipped; 1 to 524288, with 12 subpixel bits 32768 (guard_band.h).
     int guard_band_px = 32768;
     ClipVolume clip = ClipVolume::guard_band;
     ZClip z_clip = ZClip::per_primitive;

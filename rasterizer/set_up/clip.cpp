@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "rasterizer/base/numerics.h"
+#include "rasterizer/set_up/guard_band.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 
 // Whether the guard band holds the viewport, or there is none.
 [[nodiscard]] bool guard_holds(const Rect& viewport, const RasterRules& rules) noexcept {
-    const int guard = rules.guard_band_px;
+    const int guard = guard_band(rules);
     return rules.clip == ClipVolume::view_volume ||
            (viewport.x0 >= -guard && viewport.y0 >= -guard && viewport.x1 <= guard && viewport.y1 <= guard);
 }
@@ -45,7 +46,7 @@ void Clipper::add_near_and_far() noexcept {
 
 void Clipper::add_guard_band(const RasterState& state, const RasterRules& rules) noexcept {
     // |centre + half x / w| <= guard, times w: products are exact in binary64, so the sign of the distance is.
-    const double guard = rules.guard_band_px;
+    const double guard = guard_band(rules);
     const auto add_guard = [&](double half, double centre, bool is_x) {
         for (const double side : {-half, half})
             add({is_x ? side : 0, is_x ? 0 : side, 0, guard + (side > 0 ? centre : -centre), 0, Kind::other});

@@ -16,6 +16,7 @@
 #include "rasterizer/base/fused.h"
 #include "rasterizer/base/nv20_arithmetic.h"
 #include "rasterizer/set_up/geometry.h"
+#include "rasterizer/set_up/guard_band.h"
 #include "rasterizer/set_up/plain_vertices.h"
 
 namespace strata::rasterizer {
@@ -56,7 +57,7 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
 class WindowTransform {
   public:
     constexpr WindowTransform(const RasterState& state, const RasterRules& rules) noexcept
-        : rules_{rules}, guard_{static_cast<float>(rules.guard_band_px)}, is_done_{state.window_positions} {
+        : rules_{rules}, guard_{static_cast<float>(guard_band(rules))}, is_done_{state.window_positions} {
         const Rect& v = state.viewport;
         x_ = {0.5f * static_cast<float>(v.width()), static_cast<float>(v.x0) + 0.5f * static_cast<float>(v.width())};
         y_ = {0.5f * static_cast<float>(v.height()), static_cast<float>(v.y0) + 0.5f * static_cast<float>(v.height())};

@@ -256,3 +256,28 @@ TEST_CASE("a w buffer is the chip's own, and needs a view with perspective") {
     CHECK(sentence({"geforce8", "dual"}, options) ==
           "profile geforce8 has no w buffer; use --profile geforce3 with --depth d16, d24, d16f or d24f");
 }
+
+TEST_CASE("a stored w is compared with w alone, and a stored depth with no w") {
+    using strata::rasterizer::DepthPath;
+    View view;
+    view.projection = Matrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1.02f, -1, 0, 0, -0.202f, 0};  // near 0.1, far 10
+    RenderOptions options = options_for(one_fragment());
+    options.depth = DepthFormat::d24;
+    const auto told = [&](DepthPath stored, DepthPath compared) {
+        options.depth_path = stored;
+        options.reference_path = compared;
+        const RenderResult result = render(draw_list(one_fragment()), view, {"geforce3", "shadow_map"}, options);
+        return result.refusal ? result.refusal->sentence(*find_profile("geforce3")) : std::string{};
+    };
+    constexpr std::pair<DepthPath, DepthPath> unlike[] = {{DepthPath::w_buffer, DepthPath::perspective_rq},
+                                                          {DepthPath::w_buffer, DepthPath::window_z},
+                                                          {DepthPath::window_z, DepthPath::w_buffer},
+                                                          {DepthPath::depth_replace, DepthPath::w_buffer}};
+    for (const auto& [stored, compared] : unlike)
+        CHECK(
+            told(stored, compared) ==
+            "profile geforce3 has no comparison of w with a depth, of which one is stored and the other compared; use "
+            "w_buffer for both: --depth-path w_buffer --reference-path w_buffer");
+    CHECK(told(DepthPath::w_buffer, DepthPath::w_buffer).empty());
+    CHECK(told(DepthPath::window_z, DepthPath::perspective_rq).empty());
+}

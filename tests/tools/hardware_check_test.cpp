@@ -46,7 +46,7 @@ TEST_CASE("unknown suites and names, and what is not modelled, are listed and do
     const Folder folder;
     write_capture(folder, "captures/Fog", "FogExp");
     write_capture(folder, "captures/Clear", "Nonsense");
-    write_capture(folder, "captures/Shade_model", "W_Fixed_Quad_Smooth_First");
+    write_capture(folder, "captures/Shade_model", "ProgLM_Quad_Smooth_First");
     const Ended ended = run_strata(folder, {"hardware-check", "captures", "--json"});
     CHECK(ended.status == 0);
     std::vector<std::string> outcomes;

@@ -84,12 +84,12 @@ TEST_CASE("numbers of a plan count up to their limits, the limits among them") {
 
 TEST_CASE("parts of a remedy count up to their limits, the limits among them") {
     CHECK(otherwise("remedy", true,
-                    {"bias:16777216", "bias:-16777216", "slope:1024", "slope:-1024", "epsilon:0", "epsilon:1",
-                     "epsilon:0ulp", "epsilon:16777216ulp"}) == "");
+                    {"bias:1e30", "bias:-1e30", "slope:1024", "slope:-1024", "epsilon:0", "epsilon:1", "epsilon:0ulp",
+                     "epsilon:16777216ulp"}) == "");
     CHECK(otherwise("remedy", false,
-                    {"bias:16777218", "bias:-16777218", "slope:1024.1", "slope:-1024.1", "epsilon:1.001",
-                     "epsilon:-0.1", "epsilon:16777217ulp", "epsilon:-1ulp", "epsilon:ulp", "epsilon:1.5ulp",
-                     "unquantized:1", "depth_replace:", "None", "+", "none+", "+none", "bias:1,slope:1"}) == "");
+                    {"bias:1.3e30", "bias:-1.3e30", "slope:1024.1", "slope:-1024.1", "epsilon:1.001", "epsilon:-0.1",
+                     "epsilon:16777217ulp", "epsilon:-1ulp", "epsilon:ulp", "epsilon:1.5ulp", "unquantized:1",
+                     "depth_replace:", "None", "+", "none+", "+none", "bias:1,slope:1"}) == "");
 }
 
 TEST_CASE("the value of a key is found in the cell, and in no other member of it") {

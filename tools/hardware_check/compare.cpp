@@ -65,7 +65,9 @@ bool is_hidden(const Picture& drawn, int x, int y) {
 }
 
 bool is_label(const Picture& drawn, const Image& capture, int x, int y) {
-    return reads_color(drawn.reading) && packed(pixel_of(capture, x, y)) == label;
+    if (!reads_color(drawn.reading)) return false;
+    const std::uint32_t theirs = packed(pixel_of(capture, x, y));
+    return theirs == label || (drawn.overdrawn && theirs == packed(*drawn.overdrawn));
 }
 
 // False for labels, which hold text, and for rectangles that the suite hides.

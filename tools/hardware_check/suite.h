@@ -26,9 +26,11 @@ Drawing draw_pixel_shader_with(std::string_view name, const pipeline::DeviceProf
 Drawing draw_shade_model(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_stencil_func(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_surface_clip(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_perspective(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_texture_shadow_comparator(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_vertex_shader_rounding(std::string_view name, const pipeline::DeviceProfile& profile);
+Drawing draw_viewport(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profile);
 Drawing draw_window_clip(std::string_view name, const pipeline::DeviceProfile& profile);

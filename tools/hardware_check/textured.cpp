@@ -32,6 +32,16 @@ pipeline::Combiners show(pipeline::CombinerRegister color, pipeline::CombinerReg
     return combiners;
 }
 
+pipeline::Texture checker(int texels, int cell, Argb first, Argb second) {
+    pipeline::Image image{pipeline::Format::rgba8, texels, texels};
+    for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < texels; ++x) {
+            const pipeline::PixelCode code = unpack((x / cell + y / cell) % 2 == 0 ? first : second);
+            for (int c = 0; c < 4; ++c) image.codes[image.index(x, y, c)] = code[static_cast<std::size_t>(c)];
+        }
+    return as_texture(image);
+}
+
 pipeline::ShaderStage rectangle_lookup(const pipeline::BoundTexture& texture) {
     pipeline::ShaderStage stage;
     stage.op = pipeline::ShaderOp::texture_rectangle;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes RESULTS.md and its plots anew: the sweep of results.json, and the dragon of MODELS where it is there.
+# Makes RESULTS.md and its plots anew: the sweeps of results.json and formats.json, and the dragon of MODELS where it is there.
 #   tools/invariance/make_page.sh [MODELS]     (default ../shared/models) Needs a release build and gnuplot-nox.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -16,7 +16,9 @@ if [ -r "$models/dragon.glb" ]; then
     (cd "$models" && "$strata" invariance --plan "$plan" -o "$to")
     folders+=("$out/dragon")
 fi
+"$strata" invariance --plan tools/invariance/formats.json --no-images -o "$out/formats"
 rm -f tools/invariance/RESULTS.*.svg
-tools/invariance/report.py "${folders[@]}" --title "Invariance: what two depths do to a peel" --markdown tools/invariance/RESULTS.md
-tools/invariance/report.py "${folders[@]}" --title "Invariance: what two depths do to a peel"
+report=(tools/invariance/report.py "${folders[@]}" --formats "$out/formats" --title "Invariance: what two depths do to a peel")
+"${report[@]}" --markdown tools/invariance/RESULTS.md
+"${report[@]}"
 echo "tools/invariance/RESULTS.md, and with pictures ${folders[0]}/index.html"

@@ -3,6 +3,7 @@
 
     tools/invariance/report.py FOLDER...                     # index.html in the first, everything inside it
     tools/invariance/report.py FOLDER... --markdown PAGE.md  # PAGE.md, and its plots as PAGE.NAME.svg beside it
+    tools/invariance/report.py FOLDER... --formats FOLDER    # with the section on depth formats
 
 Standard library and gnuplot alone. The page depends on results.jsonl, and on timings.jsonl for ratios of times.
 """
@@ -14,12 +15,14 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True
+import formats  # noqa: E402
 import sections  # noqa: E402
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", type=pathlib.Path, nargs="+", help="what `strata invariance -o` wrote; a page goes to the first")
+    parser.add_argument("--formats", type=pathlib.Path, help="the folder of a sweep of formats.json, which becomes a section")
     parser.add_argument("--markdown", type=pathlib.Path, help="a page to keep instead of FOLDER/index.html")
     parser.add_argument("--title", default="Invariance")
     return parser.parse_args()
@@ -107,7 +110,8 @@ def html_of(blocks):
 def main():
     arguments = parse_arguments()
     rows = [row for folder in arguments.folders for row in results(folder)]
-    blocks = sections.page(arguments.title, rows)
+    study = formats.section(results(arguments.formats)) if arguments.formats else []
+    blocks = sections.page(arguments.title, rows, study)
     if arguments.markdown:
         arguments.markdown.write_text(markdown_of(blocks, arguments.markdown))
     else:

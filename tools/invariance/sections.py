@@ -256,10 +256,11 @@ def pictures(rows):
     return [("heading", "Where")] + blocks if blocks else []
 
 
-def page(title, rows):
+def page(title, rows, study=()):
+    """`study`: blocks of a further section, before the hypotheses."""
     intro = (f"{len(rows)} cells of `strata invariance`. A peel in several passes compares a fragment's depth with one that an earlier pass stored. If the two are "
              "computed in different ways, they differ in the last places: a fragment that seems to lie behind itself is peeled again, "
              "one that seems to lie before what is behind it is lost. Unless a line names another, everything rests on the profiles' own "
              "constants, which `strata profiles` lists with their sources.")
     return [("title", title), ("text", intro), *answers(rows), *differences(rows), *histogram(rows), *remedies(rows), *vertex_paths(rows), *splits(rows),
-            *hypotheses(rows), *refusals(rows), *pictures(rows)]
+            *study, *hypotheses(rows), *refusals(rows), *pictures(rows)]

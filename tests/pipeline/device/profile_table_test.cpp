@@ -25,7 +25,7 @@ constexpr FieldOfDevices device_table[] = {
      {"snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges", "snapped_edges",
       "float_spans"}},
     {"raster.tie_rule", {"top_left", "top_left", "top_left", "top_left", "bottom_left", "bottom_left", "top_left"}},
-    {"raster.guard_band_px", {"32768", "32768", "32768", "32768", "32768", "32768", "32768"}},
+    {"raster.guard_band_px", {"524288", "32768", "32768", "32768", "32768", "32768", "32768"}},
     {"raster.clip",
      {"guard_band", "guard_band", "guard_band", "guard_band", "view_volume", "view_volume", "view_volume"}},
     {"raster.z_clip",

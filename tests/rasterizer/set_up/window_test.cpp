@@ -120,6 +120,17 @@ TEST_CASE("window positions beyond the guard band are put on its border, on each
     CHECK(std::isnan(transform.project({.x = std::nanf(""), .y = 0, .z = 0, .w = 1}).x));
 }
 
+TEST_CASE("a guard band of more pixels than edge functions hold is as wide as they do: 2^27 subpixels") {
+    RasterState state = state_of({0, 0, 64, 64});
+    state.window_positions = true;
+    constexpr std::pair<int, float> widest[] = {{4, 524288.0f}, {8, 524288.0f}, {12, 32768.0f}};
+    for (const auto& [bits, pixels] : widest) {
+        const WindowTransform transform{state, {.subpixel_bits = bits, .guard_band_px = 524288}};
+        CHECK(transform.project({.x = 1e9f, .y = -1e9f, .z = 0, .w = 1}).x == pixels);
+        CHECK(transform.project({.x = 1e9f, .y = -1e9f, .z = 0, .w = 1}).y == -pixels);
+    }
+}
+
 TEST_CASE("y up puts clip-space +1 on the first row, y down on the last") {
     RasterState state = state_of({0, 0, 64, 32});
     const ClipVertex top{0, 1, 0, 1, {}, {}, {}};

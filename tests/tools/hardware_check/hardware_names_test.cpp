@@ -90,15 +90,12 @@ TEST_CASE("every name of the depth suites is drawn, or said to be not modelled")
     for (const std::string& end : {std::string{}, zb}) {
         CHECK(all_are(Says::drawn, "Depth_buffer", cleared(wide + "z16_C{}_FZn_M{:06x}" + end, 0xffff, 48)) == 98);
         CHECK(all_are(Says::drawn, "Depth_buffer", cleared(wide + "z24_C{}_FZn_M{:06x}" + end, 0xffffff, 48)) == 98);
-        CHECK(all_are(end == zb ? Says::drawn : Says::not_modelled, "Depth_buffer",
-                      cleared(wide + "z16_C{}_FZy_M{:06x}" + end, 0xffff, 48)) == 98);
-        CHECK(all_are(end == zb ? Says::drawn : Says::not_modelled, "Depth_buffer",
-                      cleared(wide + "z24_C{}_FZy_M{:06x}" + end, 0xfeffff, 48)) == 98);
-        const Says fixed = end == zb ? Says::drawn : Says::not_modelled;
-        CHECK(all_are(fixed, "Depth_buffer_fixed_function", cleared("z16_C{}_FZn_M{:06x}" + end, 0xffff, 4)) == 10);
-        CHECK(all_are(fixed, "Depth_buffer_fixed_function", cleared("z24_C{}_FZn_M{:06x}" + end, 0xffffff, 4)) == 10);
-        CHECK(all_are(Says::not_modelled, "Depth_buffer_fixed_function",
-                      cleared("z16_C{}_FZy_M{:06x}" + end, 0xffff, 4)) == 10);
+        CHECK(all_are(Says::drawn, "Depth_buffer", cleared(wide + "z16_C{}_FZy_M{:06x}" + end, 0xffff, 48)) == 98);
+        CHECK(all_are(Says::drawn, "Depth_buffer", cleared(wide + "z24_C{}_FZy_M{:06x}" + end, 0xfeffff, 48)) == 98);
+        const std::string_view fixed = "Depth_buffer_fixed_function";
+        CHECK(all_are(Says::drawn, fixed, cleared("z16_C{}_FZn_M{:06x}" + end, 0xffff, 4)) == 10);
+        CHECK(all_are(Says::drawn, fixed, cleared("z24_C{}_FZn_M{:06x}" + end, 0xffffff, 4)) == 10);
+        CHECK(all_are(Says::drawn, fixed, cleared("z16_C{}_FZy_M{:06x}" + end, 0xffff, 4)) == 10);
         CHECK(all_are(Says::not_modelled, "Depth_buffer_fixed_function",
                       cleared("z24_C{}_FZy_M{:06x}" + end, 0xfeffff, 4)) == 10);
     }
@@ -109,7 +106,7 @@ TEST_CASE("every name of the depth suites is drawn, or said to be not modelled")
                        "depth_clamp_W1_C1_ZB0", "depth_clamp_W1_C0_ZB1", "depth_clamp_W1_C1_ZB1"};
     CHECK(all_are(Says::drawn, "Depth_Clamp", with(others, flags)) == 24);
     const Names offsets{"_Ofs0.685", "_Ofs0.822", "_Ofs3.015", "_Ofs3.216"};
-    CHECK(all_are(Says::not_modelled, "Depth_Clamp", with({"depth_equal", "depth_equal_WBuf"}, offsets)) == 8);
+    CHECK(all_are(Says::drawn, "Depth_Clamp", with({"depth_equal", "depth_equal_WBuf"}, offsets)) == 8);
     Names zpass{"ZPass"};
     for (const int n : {0, 1, 4, 7, 8, 9, 15, 16, 64, 255, 256, 504, 511})
         zpass.push_back(fmt::format("ZPassPointSize-0x{:04X}", n));
@@ -131,8 +128,21 @@ TEST_CASE("every name of the geometry suites is drawn, or said to be not modelle
     const Names primitives{"_Tri", "_TriStrip", "_TriFan", "_Quad", "_QuadStrip", "_Poly"};
     const Names kinds = with(primitives, {"_Flat_First", "_Flat_Last", "_Smooth_First", "_Smooth_Last"});
     CHECK(all_are(Says::drawn, "Shade_model", with({"Prog"}, kinds)) == 24);
-    CHECK(all_are(Says::not_modelled, "Shade_model",
-                  with({"Fixed", "FixedTex", "W_Fixed", "W_FixedTex", "ProgTex", "ProgLM"}, kinds)) == 144);
+    CHECK(all_are(Says::drawn, "Shade_model", with({"Fixed", "FixedTex", "W_Fixed", "W_FixedTex", "ProgTex"}, kinds)) ==
+          120);
+    CHECK(all_are(Says::not_modelled, "Shade_model", with({"ProgLM"}, kinds)) == 24);
+    const Names offsets{"0.000_0.000",   "0.531_0.531", "0.562_0.562",  "-0.531_-0.531",
+                        "-0.438_-0.438", "1.000_1.000", "-1.000_-1.000"};
+    CHECK(all_are(Says::drawn, "Viewport", with(offsets, {"-0.000_0.000", "-2.000_0.000"})) == 14);
+    CHECK(all_are(Says::unknown, "Viewport", {"0.000_0.531-0.000_0.000", "0.000_0.000-3.000_0.000", "0.000"}) == 3);
+    const Names clips{"x0y0_w512h384",  "x16y8_w512h384",  "x0y0_w640h480",
+                      "x8y16_w632h464", "x0y240_w640h240", "x320y240_w320h240"};
+    const Names layouts{"", "_A8R8G8B8", "_B8", "_G8B8"};
+    CHECK(all_are(Says::drawn, "Surface_clip", with(clips, layouts)) == 24);
+    CHECK(all_are(Says::not_modelled, "Surface_clip", with({"x0y0_w0h0"}, layouts)) == 4);
+    CHECK(all_are(Says::not_modelled, "Surface_clip", with({"rt_"}, clips)) == 6);
+    CHECK(all_are(Says::not_modelled, "Surface_clip", {"XemuBug420", "DebugTextShouldClip"}) == 2);
+    CHECK(all_are(Says::unknown, "Surface_clip", {"x16y8_w640h384", "x16y8_w512h384_R5G6B5", "x-1y8_w512h384"}) == 3);
     const Names faces = with({"CW", "CCW", "0x00", "0x63"}, {"_CF_F", "_CF_B", "_CF_FaB"});
     CHECK(all_are(Says::drawn, "Front_face", with({"FrontFace_", "FrontFace_FM_"}, faces)) == 24);
     CHECK(all_are(Says::not_modelled, "Front_face", with({"FrontFace_LM_"}, faces)) == 12);
@@ -153,7 +163,10 @@ TEST_CASE("every name of the suites of offset, w and depth range is drawn, or sa
     const Names shapes{"FloorQuad", "RoofQuad", "WallQuad", "LargeZ", "TriH", "TriV"};
     const Names z = with(with(with({"ZBuf"}, formats), shapes), offsets), flat{"_V1_ZB0_ZS0_ZB", "_V1_ZB1_ZS0_ZB"};
     CHECK(all_are(Says::drawn, "W_buffering", with(z, {"_ZB"})) == 96);
-    CHECK(all_are(Says::not_modelled, "W_buffering", z) == 96);  // colours
+    CHECK(all_are(Says::drawn, "W_buffering", z) == 96);  // colours
+    CHECK(all_are(Says::drawn, "W_buffering",
+                  {"WBuf24D_TriV_V1_ZB0_ZS1", "WBuf24D_ClipF-150-032_V1_ZB0_ZS1", "WBuf24F_FloorQuad_V0_ZB1_ZS0"}) ==
+          3);
     CHECK(all_are(Says::drawn, "W_buffering", with(with(with({"WBuf"}, formats), shapes), flat)) == 48);
     const Names wide{"FloorQuad", "RoofQuad", "WallQuad", "LargeZ"}, sloped{"_V1_ZB0_ZS1_ZB", "_V1_ZB1_ZS1_ZB"};
     CHECK(all_are(Says::drawn, "W_buffering", with(with(with({"WBuf"}, formats), wide), sloped)) == 32);
@@ -163,8 +176,10 @@ TEST_CASE("every name of the suites of offset, w and depth range is drawn, or sa
                   {"WBuf24D_Riddick_V1_ZB0_ZS0_ZB", "ZBuf24D_Trunc0_V1_ZB0_ZS0_ZB", "ZBuf24D_TruncNeg_V1_ZB0_ZS0_ZB",
                    "WBuf24D_ClipW-159-000_V1_ZB0_ZS1_ZB"}) == 4);
     CHECK(all_are(Says::not_modelled, "W_buffering",
-                  {"WBuf24D_ClipF-150-032_V1_ZB0_ZS1_ZB", "ZBuf16D_FloorQuad_V0_ZB0_ZS1_ZB",
+                  {"WBuf24D_ClipF-150-032_V1_ZB0_ZS1_ZB", "ZBuf24F_FloorQuad_V0_ZB0_ZS1_ZB",
                    "WBuf24D_LineStrip_V1_ZB0_ZS0_ZB"}) == 3);
+    CHECK(all_are(Says::drawn, "W_buffering",
+                  with(with({"ZBuf", "WBuf"}, {"16D_", "16F_", "24D_"}), {"FloorQuad_V0_ZB1_ZS1_ZB"})) == 6);
     CHECK(all_are(Says::unknown, "W_buffering",
                   {"ZBuf24D_Riddick_V1_ZB0_ZS0_ZB", "WBuf24D_Trunc0_V1_ZB0_ZS0_ZB", "XBuf24D_TriH_V1_ZB0_ZS0_ZB",
                    "ZBuf32D_TriH_V1_ZB0_ZS0_ZB", "ZBuf24G_TriH_V1_ZB0_ZS0_ZB", "ZBuf24D_TriH-15-000_V1_ZB0_ZS0_ZB",

@@ -56,6 +56,7 @@ struct Slope {
     // Window z in the buffer's own values; for world_slopes() world z.
     std::array<float, 4> z;
     std::array<Color, 4> color{};
+    std::array<float, 4> w{1, 1, 1, 1};
 };
 
 [[nodiscard]] Color rgb(float r, float g, float b) { return {r, g, b, 1}; }
@@ -129,13 +130,21 @@ std::vector<Slope> world_slopes() {
         for (int column = 0; column < columns; ++column) {
             const float x = 136.0f + 20.0f * static_cast<float>(column), y = 56.0f + 20.0f * static_cast<float>(row);
             const float right = z_left + offset;
-            slopes.push_back({{x, y, x + 16, y + 16}, {z_left, right, right, z_left}});
+            const Color on_left = grey(z_left / far), on_right = grey(right / far);
+            slopes.push_back(
+                {{x, y, x + 16, y + 16}, {z_left, right, right, z_left}, {on_left, on_right, on_right, on_left}});
             z_left += step;
             offset = -offset;
         }
-    slopes.push_back({{132, 422, 492, 427}, {far * 0.75f, near, near, far * 0.75f}});
-    slopes.push_back({{502, 53, 510, 427}, {near, near, far * 0.5f, far * 0.5f}});
-    slopes.push_back({{128, 48, 512, 432}, {far * 2.0f / 3.0f, far * 2.0f / 3.0f, far, far}});
+    // Shares below 0, of depths before the eye's plane, are no colour: a vertex colour is clamped.
+    const Color deep_left = rgb(0.75f, 0.75f, 0.75f), near_right = rgb(0.75f, 0, 0), near_top = rgb(0, 0.5f, 0);
+    slopes.push_back(
+        {{132, 422, 492, 427}, {far * 0.75f, near, near, far * 0.75f}, {deep_left, near_right, near_right, deep_left}});
+    const Color half = rgb(0.5f, 0.5f, 0.5f);
+    slopes.push_back({{502, 53, 510, 427}, {near, near, far * 0.5f, far * 0.5f}, {near_top, near_top, half, half}});
+    slopes.push_back({{128, 48, 512, 432},
+                      {far * 2.0f / 3.0f, far * 2.0f / 3.0f, far, far},
+                      {rgb(0, 1, 0), rgb(1, 0, 0), rgb(0.4f, 0.3f, 0), rgb(0, 0, 1)}});
     return slopes;
 }
 
@@ -144,8 +153,9 @@ std::vector<Slope> world_slopes() {
 // which corner of a triangle comes first.
 void add_slope(TriangleSoup& soup, const Slope& s, float shift, bool turned) {
     const Box b{s.where.left + shift, s.where.top + shift, s.where.right + shift, s.where.bottom + shift};
-    const ClipVertex ul = at(b.left, b.top, s.z[0], s.color[0]), ur = at(b.right, b.top, s.z[1], s.color[1]);
-    const ClipVertex lr = at(b.right, b.bottom, s.z[2], s.color[2]), ll = at(b.left, b.bottom, s.z[3], s.color[3]);
+    const auto corner = [&](float x, float y, std::size_t k) { return at(x, y, s.z[k], s.color[k], s.w[k]); };
+    const ClipVertex ul = corner(b.left, b.top, 0), ur = corner(b.right, b.top, 1);
+    const ClipVertex lr = corner(b.right, b.bottom, 2), ll = corner(b.left, b.bottom, 3);
     if (turned) {
         add_triangle(soup, ul, lr, ll);
         add_triangle(soup, ul, ur, lr);
@@ -167,18 +177,16 @@ Picture depth_picture(const pipeline::DeviceProfile& profile, const Setting& s, 
         .image = surface.depth()};
 }
 
-// Why some pictures of these two suites are not modelled.
-const Drawing colors_unknown{std::nullopt, "the colours of this suite are not described"};
-
-const Drawing float_colors{std::nullopt,
-                           "its colours were computed from float depths; no capture was at hand to confirm how"};
+// The greatest window z of the fixed pipeline, in the buffer's own values: what the test puts into its matrix.
+float fixed_scale(DepthFormat format) {
+    return format == DepthFormat::d16f ? 511.9375f : static_cast<float>(rasterizer::max_code(format));
+}
 
 }  // namespace
 
 Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& profile) {
     const auto setting = take(name, "DepthFmt_") ? parse(name) : std::nullopt;
     if (!setting) return unknown_name;
-    if (setting->is_float && !setting->shows_depth) return float_colors;
     TriangleSoup soup;
     for (const Slope& slope : window_slopes(setting->format)) add_slope(soup, slope, 0, false);
     return {depth_picture(profile, *setting, std::move(soup)), {}};
@@ -187,16 +195,21 @@ Drawing draw_depth_buffer(std::string_view name, const pipeline::DeviceProfile& 
 Drawing draw_depth_buffer_fixed_function(std::string_view name, const pipeline::DeviceProfile& profile) {
     const auto setting = parse(name);
     if (!setting) return unknown_name;
-    if (!setting->shows_depth) return colors_unknown;
-    if (setting->is_float) return {std::nullopt, "float depth behind the fixed pipeline is not described"};
+    if (setting->format == DepthFormat::d24f)
+        return {std::nullopt, "the fixed pipeline's scale of 24-bit float depth is beyond binary32"};
     TriangleSoup soup;
     for (Slope slope : world_slopes()) {
-        for (float& z : slope.z) z = chip_window_z(z, static_cast<float>(rasterizer::max_code(setting->format)));
+        for (std::size_t k = 0; k < 4; ++k) {
+            slope.w[k] = slope.z[k] + 7.0f;
+            slope.z[k] = chip_window_z(slope.z[k], fixed_scale(setting->format));
+        }
         add_slope(soup, slope, viewport_offset, true);
     }
     Picture picture = depth_picture(profile, *setting, std::move(soup));
     // 24 words of the right strip: the last bits of the reciprocal of its area are not known (chip-depth.md 4).
-    if (setting->format == DepthFormat::d24) picture.bound = {24, 1};
+    if (setting->format == DepthFormat::d24 && setting->shows_depth) picture.bound = {24, 1};
+    // Colours where w differs, next to a step of a weight (chip-float-depth.md 7).
+    if (!setting->shows_depth) picture.bound = {5, 1};
     return {std::move(picture), {}};
 }
 

@@ -1,27 +1,32 @@
-// Suite Depth_Clamp: depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>. Which pixels a
-// depth range removes, one by one; the program adds the viewport's offset like the fixed pipeline.
-// chip-geometry.md 5.3.
+// Suite Depth_Clamp. depth_clamp_W<w buffer>_C<clamp>_ZB<bias>_FR<full range>_VSH<vertex program>: which pixels a depth range
+// removes, one by one; the program adds the viewport's offset like the fixed pipeline. depth_equal[_WBuf]_Ofs<offset>: whether
+// a floor that is drawn twice, removing and clamping, has the same depths. chip-geometry.md 5.3.
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
-#include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
+#include "tools/hardware_check/textured.h"
 
 namespace strata::hardware_check {
 namespace {
 
 // 2^24 - 1, the greatest code of the 24-bit buffer. Window z counts in codes.
 constexpr double units = 16777215.0;
-constexpr std::array<float, 4> white{1, 1, 1, 1};
+constexpr Argb clear_code = 0xfe251135;
+constexpr int checker_side = 256;
 // World x, y, z.
 using Point = std::array<double, 3>;
 
-// A white quad of world points in the window, with the viewport's offset.
-TriangleSoup world_quad(const std::array<Point, 4>& corner) {
+// A quad of world points in the window, with the viewport's offset and a whole texture over it.
+TriangleSoup world_quad(const std::array<Point, 4>& corner, Argb color = 0xffffffff) {
+    constexpr std::array<std::array<float, 2>, 4> texel{
+        {{0, 0}, {checker_side, 0}, {checker_side, checker_side}, {0, checker_side}}};
     std::array<ClipVertex, 4> v;
     for (std::size_t i = 0; i < 4; ++i) {
-        v[i] = project(corner[i][0], corner[i][1], corner[i][2], units, white);
+        v[i] = project(corner[i][0], corner[i][1], corner[i][2], units, to_float(color));
+        v[i].z = chip_window_z(static_cast<float>(corner[i][2]), units);
         v[i].x += viewport_offset;
         v[i].y += viewport_offset;
+        v[i].texcoord = {texel[i][0], texel[i][1]};
     }
     TriangleSoup soup;
     add_quad(soup, v);
@@ -47,30 +52,75 @@ void limit(pipeline::DrawState& state, bool w_buffer) {
         limit_depth(state, 14988020, 15869663, units);
 }
 
-}  // namespace
-
-Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile) {
-    bool w_buffer = false, clamp = false, bias = false, full = false, by_program = false;
-    const bool known = take_flag(name, "depth_clamp_W", w_buffer) && take_flag(name, "_C", clamp) &&
-                       take_flag(name, "_ZB", bias) && take_flag(name, "_FR", full) &&
-                       take_flag(name, "_VSH", by_program);
-    if (name.starts_with("depth_equal_")) return {std::nullopt, "the place of its floor is not described"};
-    if (!known || !name.empty()) return unknown_name;
+pipeline::Surface cleared_surface(const pipeline::DeviceProfile& profile) {
     pipeline::Surface surface{profile, {}};
-    surface.clear_color(unpack(0xfe251135));
+    surface.clear_color(unpack(clear_code));
     surface.clear_depth(0xffffff);
+    return surface;
+}
+
+pipeline::DrawState first_state(bool w_buffer) {
     pipeline::DrawState state{.depth = {.enabled = true, .func = pipeline::CompareFunc::less, .write = true}};
     if (w_buffer) state.depth_path = rasterizer::DepthPath::w_buffer;
+    return state;
+}
+
+// Texels from the other side of a cell's edge, where a coordinate under perspective lies next to it: none at hand.
+constexpr Bound edge_texels{32, 255};
+
+struct Clamping {
+    bool w_buffer = false, clamp = false, bias = false, full = false;
+};
+
+Picture clamped_picture(const pipeline::DeviceProfile& profile, const Clamping& c) {
+    pipeline::Surface surface = cleared_surface(profile);
+    const pipeline::Texture texture = checker(checker_side, 8, 0xff00ffff, 0xff000000);
+    pipeline::DrawState state = first_state(c.w_buffer);
+    state.texture = &texture;
     // Two posts, one near and one far, drawn with the full range.
     surface.draw(state, world_quad({{{-2, 2, 2}, {-1, 2, 2}, {-1, -6.5, 2}, {-2, -6.5, 2}}}));
     surface.draw(state, world_quad({{{1, 2, 10}, {2, 2, 10}, {2, -6.5, 10}, {1, -6.5, 10}}}));
-    state.depth_clamp = clamp;
-    if (!full) limit(state, w_buffer);
-    if (bias) state.polygon_offset = {.enabled = true, .units = w_buffer ? -5.0f : -500000.0f};
+    state.depth_clamp = c.clamp;
+    if (!c.full) limit(state, c.w_buffer);
+    if (c.bias) state.polygon_offset = {.enabled = true, .units = c.w_buffer ? -5.0f : -500000.0f};
     // The floor goes from z = 20 to 0 and leaves the range at both ends: fragments are removed
     // there, not the triangle.
     surface.draw(state, floor());
-    return {Picture{.reading = Reading::drawn, .image = surface.color(), .background = unpack(0xfe251135)}, {}};
+    return {.image = surface.color(), .bound = edge_texels};
+}
+
+// A floor that passes under the eye, drawn removing what lies before the range, then clamping, in red, with EQUAL. Through a w
+// buffer it is a hundred times larger, and begins before the window's lower border.
+Picture equal_picture(const pipeline::DeviceProfile& profile, bool w_buffer, float offset) {
+    const float scale = w_buffer ? 100.0f : 1.0f, far = 200.0f * scale - offset, near = -20.0f + offset;
+    const double x = 10 * scale, y = -2.5 * scale;
+    const std::array<Point, 4> corner{{{-x, y, far}, {x, y, far}, {x, y, near}, {-x, y, near}}};
+    pipeline::Surface surface = cleared_surface(profile);
+    pipeline::DrawState state = first_state(w_buffer);
+    limit_depth(state, w_buffer ? 255.99f : 14988020.0f, units, units);
+    surface.draw(state, world_quad(corner));
+    state.depth_clamp = true;
+    state.depth.func = pipeline::CompareFunc::equal;
+    surface.draw(state, world_quad(corner, 0xffff0000));
+    return {.image = surface.color()};
+}
+
+}  // namespace
+
+Drawing draw_depth_clamp(std::string_view name, const pipeline::DeviceProfile& profile) {
+    if (take(name, "depth_equal")) {
+        const bool w_buffer = take(name, "_WBuf");
+        const auto offset = take(name, "_Ofs") ? to_number(name) : std::nullopt;
+        const bool known = offset && *offset > 0.0f && *offset < 6.0f;  // the floor still reaches behind the eye
+        return known ? Drawing{equal_picture(profile, w_buffer, *offset), {}} : unknown_name;
+    }
+    Clamping c;
+    bool by_program = false;  // draws the same
+    const bool known = take_flag(name, "depth_clamp_W", c.w_buffer) && take_flag(name, "_C", c.clamp) &&
+                       take_flag(name, "_ZB", c.bias) && take_flag(name, "_FR", c.full) &&
+                       take_flag(name, "_VSH", by_program);
+    if (!known || !name.empty()) return unknown_name;
+    return {clamped_picture(profile, c), {}};
 }
 
 }  // namespace strata::hardware_check

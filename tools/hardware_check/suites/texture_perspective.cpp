@@ -4,24 +4,14 @@
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
+#include "tools/hardware_check/textured.h"
 
 namespace strata::hardware_check {
 namespace {
 
-// Texels a side, and of a cell of the checker.
-constexpr int texels = 256, cell = 8;
+// Texels a side.
+constexpr int texels = 256;
 constexpr float side = texels;
-
-// Cyan in the cell at texel (0, 0), then black.
-pipeline::Texture checker() {
-    pipeline::Image image{pipeline::Format::rgba8, texels, texels};
-    for (int y = 0; y < texels; ++y)
-        for (int x = 0; x < texels; ++x) {
-            const pipeline::PixelCode code = unpack((x / cell + y / cell) % 2 == 0 ? 0xff00ffff : 0xff000000);
-            for (int c = 0; c < 4; ++c) image.codes[image.index(x, y, c)] = code[static_cast<std::size_t>(c)];
-        }
-    return as_texture(image);
-}
 
 // A corner of the square of 3.5 world units, its input w other than 1.
 struct Corner {
@@ -75,7 +65,7 @@ Drawing draw_texture_perspective(std::string_view name, const pipeline::DevicePr
     }
     pipeline::Surface surface{profile, {}};
     surface.clear_color(unpack(0xfe251135));
-    const pipeline::Texture texture = checker();
+    const pipeline::Texture texture = checker(texels, 8, 0xff00ffff, 0xff000000);
     surface.draw({.texture = is_textured ? &texture : nullptr}, std::move(soup));
     return {Picture{.image = surface.color(),
                     .bound = !corrected    ? Bound{}

@@ -4,6 +4,7 @@
 #include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
+#include "tools/hardware_check/squares.h"
 #include "tools/hardware_check/suite.h"
 
 namespace strata::hardware_check {
@@ -26,23 +27,12 @@ Picture geometry(const DeviceProfile& profile, float shift) {
     return {.image = surface.color()};
 }
 
-// Two rows of four squares of 100 pixels that share their sides.
-TriangleSoup eight_squares(float shift) {
-    TriangleSoup soup;
-    for (int row = 0; row < 2; ++row)
-        for (int column = 0; column < 4; ++column) {
-            const float x = 120.0f + 100.0f * static_cast<float>(column), y = 140.0f + 100.0f * static_cast<float>(row);
-            add_box(soup, {x + shift, y + shift, x + shift + 100, y + shift + 100}, green);
-        }
-    return soup;
-}
-
 // No gap and no pixel drawn twice may show along the shared sides.
 Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
     surface.draw({}, box({120, 140, 520, 340}, 0xffe0e0e0));
-    surface.draw({}, eight_squares(shift));
+    surface.draw({}, eight_squares(shift, green));
     return {.image = surface.color()};
 }
 
@@ -50,25 +40,9 @@ Picture adjacent_geometry(const DeviceProfile& profile, float shift) {
 // were, but for the binary32 chain, which is not modelled: it shows at .5625, on two edge lines of the chip's
 // picture.
 Picture projected_adjacent_geometry(const DeviceProfile& profile, float shift) {
-    constexpr Argb by_program = green, by_fixed = 0xff00bb00;
-    constexpr bool is_fixed[8] = {false, true, false, true, true, false, true, false};
     Surface surface{profile, screen};
     surface.clear_color(unpack(0xfe404040));
-    surface.draw({}, box({120, 140, 520, 340}, 0xffe0e0e0));
-    const TriangleSoup squares = eight_squares(shift);
-    for (const bool fixed : {false, true}) {
-        TriangleSoup half;
-        const float offset = fixed ? viewport_offset : 0;
-        // Six vertices a square, three a triangle.
-        for (std::size_t i = 0; i < squares.vertices.size(); i += 3) {
-            const auto moved = [&](std::size_t k) {
-                const ClipVertex& v = squares.vertices[i + k];
-                return at(v.x + offset, v.y + offset, fixed ? by_fixed : by_program);
-            };
-            if (is_fixed[i / 6] == fixed) add_triangle(half, moved(0), moved(1), moved(2));
-        }
-        surface.draw({}, std::move(half));
-    }
+    draw_mixed_squares(surface, {shift, viewport_offset, green, 0xff00bb00});
     return {.image = surface.color(), .bound = shift == 0.5625f ? Bound{896, 255} : Bound{}};
 }
 

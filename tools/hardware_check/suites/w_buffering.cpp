@@ -1,11 +1,13 @@
 // Suite W_buffering: <Z|W>Buf<16|24><D|F>_<shape>[-left-top]_V<program>_ZB<bias>_ZS<slope>[_ZB]: depth formats, polygon
 // offset and the w buffer over wide shapes whose corners lie far outside of the window. chip-float-depth.md 9.1.
-#include <vector>
+#include <cmath>
 
 #include "rasterizer/rules/depth_code.h"
+#include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
+#include "tools/hardware_check/textured.h"
 
 namespace strata::hardware_check {
 namespace {
@@ -13,12 +15,15 @@ namespace {
 using pipeline::DepthFormat;
 using rasterizer::DepthPath;
 
+// Where the window clip begins if the name does not say.
+constexpr int default_left = 150, default_top = 0;
+
 // The settings that a capture's name spells.
 struct BufferSetting {
     bool is_w = false, is_float = false, is_16 = false, by_program = false, has_bias = false, has_slope = false,
          shows_depth = false;
     std::string_view shape;
-    int left = 150, top = 0;  // of the window clip
+    int left = default_left, top = default_top;
 
     [[nodiscard]] DepthFormat format() const {
         if (is_16) return is_float ? DepthFormat::d16f : DepthFormat::d16;
@@ -74,17 +79,27 @@ std::optional<BufferSetting> parse_buffer_setting(std::string_view name) {
 // Window x, y, z and w, as the pass-through program leaves them.
 struct WindowPoint {
     float x, y, z, w;
+    std::optional<std::array<float, 2>> texture{};  // coordinates in sides of the texture
 };
 
 // The two depths of the wide shapes.
 constexpr WindowPoint far_at(float x, float y) { return {x, y, 16809768.0f, 325.8057861328125f}; }
 constexpr WindowPoint near_at(float x, float y) { return {x, y, 16572698.0f, 58.379993438720703f}; }
 
-void add(TriangleSoup& soup, const std::array<WindowPoint, 3>& p) {
-    const auto vertex = [](const WindowPoint& q) { return at(q.x, q.y, q.z, {1, 1, 1, 1}, q.w); };
-    add_triangle(soup, vertex(p[0]), vertex(p[1]), vertex(p[2]));
+// Adds a triangle whose corners have the first three corners of the texture.
+void add(TriangleSoup& soup, std::array<WindowPoint, 3> p) {
+    constexpr std::array<std::array<float, 2>, 3> texture{{{0, 0}, {1, 0}, {1, 1}}};
+    const auto vertex = [](const WindowPoint& q, const std::array<float, 2>& own) {
+        ClipVertex v = at(q.x, q.y, q.z, {1, 1, 1, 1}, q.w);
+        v.texcoord = q.texture.value_or(own);
+        return v;
+    };
+    add_triangle(soup, vertex(p[0], texture[0]), vertex(p[1], texture[1]), vertex(p[2], texture[2]));
 }
-void add(TriangleSoup& soup, const std::array<WindowPoint, 4>& p) {
+// Adds a quad over `repeats` textures each way; `upright` false: its first corner has their lower left one.
+void add(TriangleSoup& soup, std::array<WindowPoint, 4> p, bool upright = true, float repeats = 1) {
+    const std::array<std::array<float, 2>, 4> texture{{{0, 0}, {repeats, 0}, {repeats, repeats}, {0, repeats}}};
+    for (std::size_t i = 0; i < 4; ++i) p[i].texture = texture[upright ? i : 3 - i];
     add(soup, std::array{p[0], p[1], p[2]});
     add(soup, std::array{p[0], p[2], p[3]});
 }
@@ -113,8 +128,10 @@ std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
         add(soup, std::array{far_at(53.1875f, -34.3125f), far_at(586.75f, -34.3125f), near_at(1808.6875f, 453),
                              near_at(-1168.6875f, 453)});
     } else if (s.shape == "RoofQuad") {
-        add(soup, std::array{near_at(-1168.6875f, 0), near_at(1808.6875f, 0), far_at(586.75f, 487.3125f),
-                             far_at(53.1875f, 487.3125f)});
+        add(soup,
+            std::array{near_at(-1168.6875f, 0), near_at(1808.6875f, 0), far_at(586.75f, 487.3125f),
+                       far_at(53.1875f, 487.3125f)},
+            false);
     } else if (s.shape == "WallQuad" || clipped_wall) {
         add(soup, std::array{far_at(637.3125f, -26.8125f), far_at(637.3125f, 506.75f), near_at(150, 1728.6875f),
                              near_at(150, -1248.6875f)});
@@ -132,18 +149,58 @@ std::optional<TriangleSoup> shape_of(const BufferSetting& s) {
     } else if ((s.shape == "Trunc0" || s.shape == "TruncNeg") && !s.is_w) {
         // Just inside of the step of 1/16 pixel above the window, and on it.
         const float y = s.shape == "Trunc0" ? -0.0625f + 0.001f : -0.0625f;
-        add(soup, std::array<WindowPoint, 4>{{{-1168.6875f, y, 0, 1},
-                                              {1808.6875f, y, 0, 1},
-                                              {586.75f, 487.3125f, 500000, 1},
-                                              {53.1875f, 487.3125f, 500000, 1}}});
+        constexpr float near_w = 58.379993438720703f, far_w = 325.8057861328125f;
+        add(soup,
+            std::array<WindowPoint, 4>{{{-1168.6875f, y, 0, near_w},
+                                        {1808.6875f, y, 0, near_w},
+                                        {586.75f, 487.3125f, 500000, far_w},
+                                        {53.1875f, 487.3125f, 500000, far_w}}},
+            false);
     } else {
         return std::nullopt;
     }
     return soup;
 }
 
-const Drawing colors_of_slopes{std::nullopt, "colour pictures of this suite are not described"};
-const Drawing fixed_pipeline{std::nullopt, "positions of the fixed pipeline are not described"};
+// The greatest window z of the fixed pipeline, in the buffer's own values.
+double fixed_units(const BufferSetting& s) {
+    if (s.is_16) return s.is_float ? 511.9375 : 65535.0;
+    return 16777215.0;
+}
+
+// Window z of the floor's points by the vertex engine's arithmetic (fixed_pipeline.h): the matrix has the way along the view in
+// rows of z and w, each entry rounded to binary32.
+float floor_z(float z, double units) {
+    namespace nv20 = rasterizer::nv20;
+    // The way along the view in units of z, and where it begins: the test normalises by a reciprocal in binary32.
+    const float ahead = 7.0f * (1.0f / std::sqrt(58.0f)), start = static_cast<float>(199.0 / std::sqrt(58.0));
+    const float scale = static_cast<float>(units * 200.0 / 199.0);
+    const float clip_z =
+        nv20::sum<2>({nv20::multiply(z, static_cast<float>(ahead * scale)), static_cast<float>(start * scale - scale)});
+    const float w = nv20::sum<2>({nv20::multiply(z, ahead), start});
+    return nv20::multiply(clip_z, nv20::reciprocal(w));
+}
+
+// A floor of 30000 units through the fixed pipeline: the default camera stands 50 above it and looks down by three in seven.
+TriangleSoup fixed_floor(const BufferSetting& s) {
+    const double length = std::sqrt(58.0), down = 3.0 / length, ahead = 7.0 / length;
+    const auto window_point = [&](double x, double z) {
+        const double y_to_eye = -50.0, z_to_eye = z + 7.0;
+        const double w = ahead * z_to_eye - down * y_to_eye, up = ahead * y_to_eye + down * z_to_eye;
+        const double scale = 240.0 * cotangent / w;
+        return WindowPoint{static_cast<float>(320.0 + x * scale + viewport_offset),
+                           static_cast<float>(240.0 - up * scale + viewport_offset),
+                           floor_z(static_cast<float>(z), fixed_units(s)), static_cast<float>(w)};
+    };
+    TriangleSoup soup;
+    add(soup,
+        std::array{window_point(-15000, 30000), window_point(15000, 30000), window_point(15000, -10),
+                   window_point(-15000, -10)},
+        true, 100);
+    return soup;
+}
+
+const Drawing beyond_binary32{std::nullopt, "the fixed pipeline's scale of 24-bit float depth is beyond binary32"};
 const Drawing no_lines{std::nullopt, "lines are not modelled"};
 
 const Drawing unknown_quad{std::nullopt,
@@ -155,8 +212,28 @@ Bound bound_of(const BufferSetting& s) {
     const bool is_24_float = s.format() == DepthFormat::d24f;
     if (s.is_w && s.has_slope) return {std::uint64_t{picture_width} * picture_height, 2};
     if (s.is_w) return {is_24_float ? 1500u : 220u, 1};
+    // Corners by the fixed pipeline at 24 bits: the last bits of z and of its slope.
+    if (!s.by_program && !s.is_16) return {1000, 1};
     if (s.shape == "TriH" && s.has_slope) return {is_24_float ? 1100u : 168u, 1};
     return s.shape == "TruncNeg" ? Bound{4, 1} : Bound{};
+}
+
+// Every fragment passes, so the picture shows the texture alone, and a red line where a clip of its own begins. The test drew
+// yellow lines over it, from its text to the pixels whose depths the text tells.
+Picture color_picture(const pipeline::DeviceProfile& profile, const BufferSetting& s, TriangleSoup soup) {
+    pipeline::Texture texture = checker(256, 8, 0xff00ffff, 0xff000000);
+    texture.target = pipeline::TextureTarget::two_d;
+    texture.wrap_s = texture.wrap_t = pipeline::TextureWrap::repeat;
+    pipeline::Surface surface{profile, {}};
+    surface.clear_color(unpack(0xff251135));
+    const rasterizer::Rect clip{s.left, s.top, picture_width, picture_height};
+    surface.draw({.window_clip = clip, .depth_clamp = true, .texture = &texture}, std::move(soup));
+    const auto left = static_cast<float>(s.left), top = static_cast<float>(s.top);
+    constexpr Argb red = 0xffff0000;
+    if (s.top != default_top) surface.draw({}, box({left, top, picture_width, top + 1}, red));
+    if (s.left != default_left) surface.draw({}, box({left, top, left + 1, picture_height}, red));
+    // Texels from the other side of a cell's edge (chip-float-depth.md 4.4 and 7).
+    return {.image = surface.color(), .overdrawn = std::array<std::uint8_t, 4>{255, 255, 0, 255}, .bound = {200, 255}};
 }
 
 }  // namespace
@@ -167,8 +244,9 @@ Drawing draw_w_buffering(std::string_view name, const pipeline::DeviceProfile& p
     if (s->shape == "LineStrip") return no_lines;
     auto soup = shape_of(*s);
     if (!soup) return unknown_name;
-    if (!s->shows_depth) return colors_of_slopes;
-    if (!s->by_program) return fixed_pipeline;
+    if (!s->by_program) soup = fixed_floor(*s);
+    if (!s->shows_depth) return {color_picture(profile, *s, std::move(*soup)), {}};
+    if (!s->by_program && s->format() == DepthFormat::d24f) return beyond_binary32;
     const bool is_sliver = s->shape == "TriH" || s->shape == "TriV" || s->shape == "ClipF";
     if (s->is_w && s->has_slope && is_sliver) return unknown_quad;
 

@@ -11,32 +11,62 @@ constexpr int columns = 5, rows = 8;
 constexpr float size = 16, pitch = 20;
 constexpr double units = 16777215.0;  // of the 24-bit buffer
 
-// What a group's quads have at their left and right side: a constant pair, or a number that grows from quad to quad.
+using Color = std::array<float, 4>;
+
+// What a group's quads have at their left and right side.
+template <class T>
 struct Sides {
-    float left, right;
-    [[nodiscard]] static Sides growing(int n) {
-        constexpr float step = 150.0f / (columns * rows + 1);
-        const float first = static_cast<float>(n) * step;
-        return {first, first + 0.75f * step};
-    }
+    T left, right;
 };
+
+// A number that grows from quad to quad, added up in binary32 as the test does.
+Sides<float> growing(int n) {
+    constexpr float step = 150.0f / (columns * rows + 1);
+    float first = 0;
+    for (int i = 0; i < n; ++i) first += step;
+    return {first, first + 0.75f * step};
+}
+// A grey from 0.25 to 1 for such a number.
+Sides<float> grey(int n) {
+    const Sides<float> v = growing(n);
+    return {0.25f + v.left / 150.0f * 0.75f, 0.25f + v.right / 150.0f * 0.75f};
+}
+
 struct Group {
     float x, y;
-    Sides (*z)(int n);
-    Sides (*w)(int n);
+    Sides<float> (*z)(int n);
+    Sides<float> (*w)(int n);
+    Sides<Color> (*color)(float left, float right);  // from the two greys
 };
 
 constexpr float group_pitch = 126.72f + 90.0f, upper = 60, lower = 252;
-constexpr auto one = [](int) { return Sides{1, 1}; };
-constexpr auto ten = [](int) { return Sides{10, 10}; };
-constexpr auto through_range = [](int) { return Sides{8, 120}; };
-constexpr auto small = [](int) { return Sides{0.01f, 0.0001f}; };
-constexpr Group groups[] = {{90, upper, Sides::growing, one},
-                            {90, lower, through_range, Sides::growing},
-                            {90 + group_pitch, upper, Sides::growing, small},
-                            {90 + group_pitch, lower, through_range, through_range},
-                            {90 + 2 * group_pitch, upper, Sides::growing, Sides::growing},
-                            {90 + 2 * group_pitch, lower, Sides::growing, ten}};
+constexpr auto one = [](int) { return Sides<float>{1, 1}; };
+constexpr auto ten = [](int) { return Sides<float>{10, 10}; };
+constexpr auto through_range = [](int) { return Sides<float>{8, 120}; };
+constexpr auto small = [](int) { return Sides<float>{0.01f, 0.0001f}; };
+constexpr Group groups[] = {{90, upper, growing, one,
+                             [](float l, float r) {
+                                 return Sides<Color>{{l, l, l, 1}, {r, r, r, 1}};
+                             }},
+                            {90, lower, through_range, growing,
+                             [](float l, float r) {
+                                 return Sides<Color>{{.33f, .25f, l, 1}, {.33f, .25f, r, 1}};
+                             }},
+                            {90 + group_pitch, upper, growing, small,
+                             [](float l, float r) {
+                                 return Sides<Color>{{.75f, l, l, 1}, {r, r, .8f, 1}};
+                             }},
+                            {90 + group_pitch, lower, through_range, through_range,
+                             [](float, float) {
+                                 return Sides<Color>{{.33f, .75f, .25f, 1}, {.33f, .75f, .8f, 1}};
+                             }},
+                            {90 + 2 * group_pitch, upper, growing, growing,
+                             [](float l, float r) {
+                                 return Sides<Color>{{l, .25f, l, 1}, {r, .25f, r, 1}};
+                             }},
+                            {90 + 2 * group_pitch, lower, growing, ten, [](float l, float r) {
+                                 return Sides<Color>{{l, l, .25f, 1}, {r, r, .8f, 1}};
+                             }}};
 
 }  // namespace
 
@@ -63,14 +93,16 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
         for (int n = 0; n < columns * rows; ++n) {
             const float x = group.x + pitch * static_cast<float>(n % columns);
             const float y = group.y + pitch * static_cast<float>(n / columns);
-            const Sides z = group.z(n), w = group.w(n);
-            constexpr std::array<float, 4> white{1, 1, 1, 1};
+            const Sides<float> z = group.z(n), w = group.w(n), greys = grey(n);
+            const Sides<Color> color = group.color(greys.left, greys.right);
             TriangleSoup soup;
-            add_quad(soup, {at(x, y, z.left, white, w.left), at(x + size, y, z.right, white, w.right),
-                            at(x + size, y + size, z.right, white, w.right), at(x, y + size, z.left, white, w.left)});
+            add_quad(soup, {at(x, y, z.left, color.left, w.left), at(x + size, y, z.right, color.right, w.right),
+                            at(x + size, y + size, z.right, color.right, w.right),
+                            at(x, y + size, z.left, color.left, w.left)});
             surface.draw(state, std::move(soup));
         }
-    return {Picture{.reading = Reading::drawn, .image = surface.color(), .background = unpack(background)}, {}};
+    // Colours where 256 times a weight lies next to an integer: none at hand (chip-float-depth.md 7).
+    return {Picture{.image = surface.color(), .bound = {16, 1}}, {}};
 }
 
 }  // namespace strata::hardware_check

@@ -81,7 +81,7 @@ bool add_remedy(Remedy& remedy, const std::string& part) {
     if (part == "none") return true;
     if (part == "unquantized") return remedy.quantize_reference = false, true;
     if (part == "depth_replace") return remedy.depth_replace = true;
-    if (part.starts_with("bias:")) return set_number(remedy.bias_constant, value, -0x1p24, 0x1p24);
+    if (part.starts_with("bias:")) return set_number(remedy.bias_constant, value, -0x1p100, 0x1p100);
     if (part.starts_with("slope:")) return set_number(remedy.bias_slope, value, -1024, 1024);
     if (part.starts_with("epsilon:")) {
         remedy.epsilon_text = value;

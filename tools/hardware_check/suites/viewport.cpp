@@ -1,0 +1,39 @@
+// Suite Viewport: <x>_<y>-<scale x>_<scale y>: what the viewport's offset and scale do to squares of a vertex program and of the
+// fixed pipeline. chip-geometry.md 5.6.
+#include "tools/hardware_check/names.h"
+#include "tools/hardware_check/squares.h"
+#include "tools/hardware_check/suite.h"
+
+namespace strata::hardware_check {
+namespace {
+
+// The offsets of the test, as its names write them: three decimals, x and y alike.
+struct NamedOffset {
+    std::string_view name;
+    float offset;
+};
+constexpr NamedOffset offsets[] = {{"0.000", 0},          {"0.531", 0.53125f},  {"0.562", 0.5625f},
+                                   {"-0.531", -0.53125f}, {"-0.438", -0.4375f}, {"-0.437", -0.4375f},
+                                   {"1.000", 1},          {"-1.000", -1}};
+
+// Two of the offsets move the fixed pipeline's sides onto steps of 1/16 pixel, where the last bit of its chain decides, as in
+// suite Vertex_shader_rounding_tests: two sides a square.
+Bound bound_of(float offset) { return offset == 0.5625f || offset == -0.4375f ? Bound{896, 255} : Bound{}; }
+
+}  // namespace
+
+Drawing draw_viewport(std::string_view name, const pipeline::DeviceProfile& profile) {
+    for (const NamedOffset& named : offsets) {
+        std::string_view rest = name;
+        // The scale is the vertex program's own to use, and the test's does not; the fixed pipeline has it in its matrix.
+        if (!take(rest, named.name) || !take(rest, "_") || !take(rest, named.name)) continue;
+        if (rest != "-0.000_0.000" && rest != "-2.000_0.000") continue;
+        pipeline::Surface surface{profile, {}};
+        surface.clear_color(unpack(0xfe404040));
+        draw_mixed_squares(surface, {0, named.offset, 0xff991100, 0xffbb3300});
+        return {Picture{.image = surface.color(), .bound = bound_of(named.offset)}, {}};
+    }
+    return unknown_name;
+}
+
+}  // namespace strata::hardware_check
