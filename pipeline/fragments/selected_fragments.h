@@ -14,6 +14,7 @@ struct SelectedFragments {
     };
     std::vector<std::vector<One>> of_rank;      // pixels rise
     std::size_t ranks = 0, rank = 0, next = 0;  // in use; of the next batch, and its first fragment there
+    bool is_routed = false;                     // of Keeps::arrivals: sample s takes what has rank s
     bool is_ready = false;                      // chosen for the present pass
     std::uint64_t inside = 0;                   // fragments in their pixel's window
     std::uint64_t passed = 0;                   // of these, the ones that pass the depth test, of Keeps::nearest
@@ -23,6 +24,12 @@ struct SelectedFragments {
         for (auto& fragments : of_rank) fragments.clear();
         ranks = rank = next = 0;
         inside = passed = killed = 0;
+        is_routed = false;
+    }
+    [[nodiscard]] std::uint64_t visited() const noexcept {
+        std::uint64_t fragments = 0;
+        for (const auto& of : of_rank) fragments += of.size();
+        return fragments;
     }
     // A word of SortedFragments.
     void add(std::size_t pixel, std::uint64_t word, std::size_t at_rank) {
