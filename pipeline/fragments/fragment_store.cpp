@@ -131,39 +131,16 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     for_each_array(needs_, batch, unpack);
 }
 
-namespace {
-
-// Fragments that follow each other in one batch, on their way to neighbouring lanes.
-struct Run {
-    const std::byte* begin;       // of the batch's arrays
-    std::uint32_t batch, number;  // fragments of the batch, and the first of them that is meant
-    std::uint32_t lane, length;
-};
-
-template <std::size_t size>
-void copy_run(const std::byte* from, std::byte* to, std::size_t length) noexcept {
-    if (length >= 8) {
-        std::memcpy(to, from, length * size);
-        return;
-    }
-    for (std::size_t i = 0; i < length; ++i) std::memcpy(to + i * size, from + i * size, size);
-}
-
-}  // namespace
-
 // Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.
-// Neighbouring pixels of one triangle are neighbours in the store.
 void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs, Numbers numbers,
                           FragmentBatch& batch) const noexcept {
-    std::array<Run, rasterizer::batch_capacity> runs;
-    std::size_t run_count = 0;
-    for (std::size_t i = 0, last = 0; i < places.size(); i = last) {
-        for (last = i + 1; last < places.size() && places[last] == places[last - 1] + 1 && (places[last] & 0xff) != 0;)
-            ++last;
+    std::array<const std::byte*, rasterizer::batch_capacity> begin;
+    std::array<std::uint32_t, rasterizer::batch_capacity> count, number;
+    for (std::size_t i = 0; i < places.size(); ++i) {
         const Packed& packed = batches_[places[i] >> 8];
-        const std::uint32_t count = packed.count;
-        runs[run_count++] = {packed.begin + (packed.has_dead ? count * sizeof(std::uint32_t) : 0), count,
-                             places[i] & 0xff, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(last - i)};
+        count[i] = packed.count;
+        number[i] = places[i] & 0xff;
+        begin[i] = packed.begin + (packed.has_dead ? count[i] * sizeof(std::uint32_t) : 0);
     }
     const auto is_skipped = [&](const void* array) {
         return array == &batch.pixel || array == &batch.x || array == &batch.y ||
@@ -172,11 +149,8 @@ void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentN
     std::uint32_t before = 0;
     for_each_array(needs_, batch, [&](auto& array) {
         constexpr auto size = static_cast<std::uint32_t>(sizeof(array[0]));
-        for (std::size_t r = 0; r < run_count && !is_skipped(&array); ++r) {
-            const Run& run = runs[r];
-            copy_run<size>(run.begin + (run.batch * before + run.number * size),
-                           reinterpret_cast<std::byte*>(&array[run.lane]), run.length);
-        }
+        for (std::size_t i = 0; i < places.size() && !is_skipped(&array); ++i)
+            std::memcpy(&array[i], begin[i] + (count[i] * before + number[i] * size), size);
         before += size;
     });
 }

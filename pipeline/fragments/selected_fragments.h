@@ -6,6 +6,11 @@
 
 namespace strata::pipeline {
 
+// The windows of columns: keys in [low, high).
+struct WindowEnds {
+    std::vector<std::uint64_t> low, high;  // no `high`: up to the end
+};
+
 // Several fragments of a pixel follow each other in the order of arrival, and a batch holds no pixel twice: so the
 // first ones of all pixels go ahead, then all second ones.
 struct SelectedFragments {
@@ -14,6 +19,7 @@ struct SelectedFragments {
     };
     std::vector<std::vector<One>> of_rank;      // pixels rise
     std::size_t ranks = 0, rank = 0, next = 0;  // in use; of the next batch, and its first fragment there
+    WindowEnds windows;                         // of the occupied pixels
     bool is_routed = false;                     // of Keeps::arrivals: sample s takes what has rank s
     bool is_ready = false;                      // chosen for the present pass
     std::uint64_t inside = 0;                   // fragments in their pixel's window

@@ -66,7 +66,8 @@ class SortedFragments {
     // The number of the pixel's fragments with keys below `bound`, which may be 2^32. `finger` tells bounds apart that
     // are looked for in every pass.
     enum class Finger : std::uint8_t { low, high, surface, update, update_from };
-    [[nodiscard]] std::uint32_t below(std::size_t pixel, std::uint64_t bound, Finger finger) noexcept {
+    [[nodiscard, gnu::always_inline]] inline std::uint32_t below(std::size_t pixel, std::uint64_t bound,
+                                                                 Finger finger) noexcept {
         const std::uint32_t size = start_[pixel + 1] - start_[pixel];
         if (bound > 0xffffffff) return size;
         Found& last = finger_[static_cast<std::size_t>(finger)][pixel];

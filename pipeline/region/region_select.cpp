@@ -58,8 +58,8 @@ void Region::select_nearest(const PassState& state) {
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     const StoredDepth stored{at(state.depth_target)};
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        const std::uint32_t end = window.last(sorted, p, first);
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, low] = column;
         const std::uint32_t last = std::min(end, sorted.below(p, stored.of(p), Finger::surface));
         selected.inside += end - first;
         const std::uint32_t updates = sorted.passing(p, first, last);
@@ -107,8 +107,9 @@ void Region::select_nearest_stored(const PassState& state) {
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     const StoredDepth stored{at(state.depth_target)};
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        selected.inside += words.size() - first;
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, low] = column;
+        selected.inside += end - first;
         const SortedFragments::Passing found = sorted.passing_stored(p, first, stored.of(p));
         if (found.passed == 0) return;
         selected.passed += found.passed;
@@ -116,7 +117,6 @@ void Region::select_nearest_stored(const PassState& state) {
     });
 }
 
-// A window of one key is followed to its end.
 void Region::select_window(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
@@ -124,13 +124,13 @@ void Region::select_window(const PassState& state) {
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     std::vector<std::uint64_t> in_order;
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        std::uint32_t last = first;
-        if (state.selection.at.exists())
-            while (last < words.size() && words[last] >> 32 == window.low(p)) ++last;
-        else
-            last = window.last(sorted, p, first);
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, last, low] = column;
         selected.inside += last - first;
+        if (last - first == 1) {
+            selected.add(p, words[first], 0);
+            return;
+        }
         const auto kept = in_order_of_arrival(words.subspan(first, last - first), in_order);
         for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
     });

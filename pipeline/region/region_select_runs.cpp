@@ -82,8 +82,8 @@ void Region::select_run(const PassState& state) {
     const std::uint32_t* const counts = storage(state.stencil_target).stencil(0);
     const std::uint32_t* const depths = storage(state.depth_target).depth(0);
     const bool is_float = storage(state.depth_target).format() == Format::d32f;
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        const std::uint32_t end = window.last(sorted, p, first);
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, low] = column;
         selected.inside += end - first;
         std::uint32_t count = counts[p], depth = depths[p];
         RunWalk walk{sorted, p, first, end};
@@ -133,9 +133,9 @@ void Region::select_nearest_after(const PassState& state) {
     const StoredDepth stored{at(state.depth_target)};
     std::uint32_t* const counts = at(state.stencil_target).stencil_plane(0).words;
     std::vector<std::uint32_t> dead;
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        const std::uint32_t end = window.last(sorted, p, first),
-                            dying = std::min(full_stencil - counts[p], end - first);
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, low] = column;
+        const std::uint32_t dying = std::min(full_stencil - counts[p], end - first);
         selected.inside += end - first;
         selected.killed += dying;
         counts[p] += dying;
@@ -174,11 +174,10 @@ void Region::select_last_run(const PassState& state) {
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     std::vector<std::uint64_t> kept;
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        const std::uint32_t end = window.last(sorted, p, first);
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, low] = column;
         kept.clear();
-        const std::uint64_t bound = window.low(p);
-        for (std::uint32_t k = first; k-- > 0 && words[k] >> 32 == bound - 1;) kept.push_back(words[k]);
+        for (std::uint32_t k = first; k-- > 0 && words[k] >> 32 == low - 1;) kept.push_back(words[k]);
         if (const std::uint32_t updates = sorted.passing(p, first, end); updates > 0) {
             const std::uint32_t previous = updates > 1 ? sorted.update(p, first, end, updates - 1) : end;
             if (updates > 1) kept.push_back(words[previous]);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "pipeline/fragments/selected_fragments.h"
 #include "pipeline/fragments/sorted_fragments.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/selection.h"
@@ -22,10 +23,23 @@ class KeyBound {
     KeyBound(const std::uint32_t* codes, DepthKey key) : codes_{codes}, is_float_key_{key == DepthKey::shader_z} {}
     [[nodiscard]] bool exists() const noexcept { return codes_ != nullptr; }
     [[nodiscard]] std::uint64_t of(std::size_t pixel) const noexcept {
-        return is_float_key_ ? rasterizer::ordered_code(std::bit_cast<float>(codes_[pixel])) : codes_[pixel];
+        return is_float_key_ ? ordered(codes_[pixel]) : codes_[pixel];
+    }
+    // keys[k] = narrowed(keys[k], the bound of pixels[k]), if there is a bound.
+    template <class Narrowed>
+    void narrow(std::span<const std::uint32_t> pixels, std::vector<std::uint64_t>& keys,
+                const Narrowed& narrowed) const noexcept {
+        for (std::size_t k = 0; exists() && is_float_key_ && k < keys.size(); ++k)
+            keys[k] = narrowed(keys[k], std::uint64_t{ordered(codes_[pixels[k]])});
+        for (std::size_t k = 0; exists() && !is_float_key_ && k < keys.size(); ++k)
+            keys[k] = narrowed(keys[k], std::uint64_t{codes_[pixels[k]]});
     }
 
   private:
+    [[nodiscard]] static std::uint32_t ordered(std::uint32_t code) noexcept {
+        return rasterizer::ordered_code(std::bit_cast<float>(code));
+    }
+
     const std::uint32_t* codes_;
     bool is_float_key_;
 };
@@ -36,15 +50,20 @@ class ValueBound {
     ValueBound() = default;
     ValueBound(Plane values, DepthFormat format) : values_{values.words}, format_{format} {}
     [[nodiscard]] bool exists() const noexcept { return values_ != nullptr; }
-    // The least key whose value is greater; 2^32 if there is none.
-    [[nodiscard]] std::uint64_t first_behind(std::size_t pixel) const noexcept {
-        const float bound = std::bit_cast<float>(values_[pixel]);
-        return first([=](float value) { return value > bound; }, bound);
+    // Raises keys to the least ones whose values are greater; to 2^32 if there is none.
+    void narrow_behind(std::span<const std::uint32_t> pixels, std::vector<std::uint64_t>& keys) const noexcept {
+        for (std::size_t k = 0; exists() && k < keys.size(); ++k) {
+            const float bound = std::bit_cast<float>(values_[pixels[k]]);
+            keys[k] = std::max(keys[k], first([=](float value) { return value > bound; }, bound));
+        }
     }
-    // The least key whose value is not less.
-    [[nodiscard]] std::uint64_t first_from(std::size_t pixel) const noexcept {
-        const float bound = std::bit_cast<float>(values_[pixel]);
-        return bound == bound ? first([=](float value) { return value >= bound; }, bound) : 0;
+    // Lowers keys to the least ones whose values are not less.
+    void narrow_before(std::span<const std::uint32_t> pixels, std::vector<std::uint64_t>& keys) const noexcept {
+        for (std::size_t k = 0; exists() && k < keys.size(); ++k) {
+            const float bound = std::bit_cast<float>(values_[pixels[k]]);
+            const bool is_number = bound == bound;
+            keys[k] = std::min(keys[k], is_number ? first([=](float value) { return value >= bound; }, bound) : 0);
+        }
     }
 
   private:
@@ -71,36 +90,33 @@ class ValueBound {
     DepthFormat format_ = DepthFormat::d32f;
 };
 
-// The bounds of a selection's window at a pixel: keys in [low, high).
+// The bounds of a selection's windows.
 struct KeyWindow {
     std::uint64_t least, end;
     KeyBound behind, from, at, before, also_before, up_to;
     ValueBound behind_value, before_value;
     std::uint64_t behind_codes, greatest;
 
-    [[nodiscard]] std::uint64_t low(std::size_t p) const noexcept {
-        std::uint64_t key = least;
-        if (behind.exists()) key = std::max(key, std::min(behind.of(p) + behind_codes, greatest) + 1);
-        if (from.exists()) key = std::max(key, from.of(p));
-        if (at.exists()) key = std::max(key, at.of(p));
-        if (behind_value.exists()) key = std::max(key, behind_value.first_behind(p));
-        return key;
-    }
     [[nodiscard]] bool has_high() const noexcept {
         return end <= 0xffffffff || before.exists() || also_before.exists() || up_to.exists() || before_value.exists();
     }
-    [[nodiscard]] std::uint64_t high(std::size_t p) const noexcept {
-        std::uint64_t key = end;
-        if (before.exists()) key = std::min(key, before.of(p));
-        if (also_before.exists()) key = std::min(key, also_before.of(p));
-        if (up_to.exists()) key = std::min(key, up_to.of(p) + 1);
-        if (before_value.exists()) key = std::min(key, before_value.first_from(p));
-        return key;
-    }
-    // The end of the window of a column that begins with number `first`.
-    [[nodiscard]] std::uint32_t last(SortedFragments& sorted, std::size_t p, std::uint32_t first) const noexcept {
-        return has_high() ? std::max(first, sorted.below(p, high(p), SortedFragments::Finger::high))
-                          : static_cast<std::uint32_t>(sorted.of(p).size());
+    // The ends of the windows of `pixels`, bound after bound.
+    void put(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
+        using Key = std::uint64_t;
+        const auto greater = [](Key key, Key code) { return std::max(key, code); };
+        const auto less = [](Key key, Key code) { return std::min(key, code); };
+        ends.low.assign(pixels.size(), least);
+        behind.narrow(pixels, ends.low, [raised = behind_codes, most = greatest](Key key, Key code) {
+            return std::max(key, std::min(code + raised, most) + 1);
+        });
+        from.narrow(pixels, ends.low, greater);
+        at.narrow(pixels, ends.low, greater);
+        behind_value.narrow_behind(pixels, ends.low);
+        ends.high.assign(has_high() ? pixels.size() : 0, end);
+        before.narrow(pixels, ends.high, less);
+        also_before.narrow(pixels, ends.high, less);
+        up_to.narrow(pixels, ends.high, [](Key key, Key code) { return std::min(key, code + 1); });
+        before_value.narrow_before(pixels, ends.high);
     }
 };
 
@@ -145,15 +161,33 @@ KeyWindow window_of(const FragmentSelection& s, const Frame& frame, const Storag
             greatest};
 }
 
-// Calls visit(pixel, its words, the number of its window's first) wherever there is a fragment.
+// A column of sorted fragments, and its window: numbers [first, last), keys from `low` on.
+struct WindowColumn {
+    std::uint32_t pixel;
+    std::span<const std::uint64_t> words;
+    std::uint32_t first, last;
+    std::uint64_t low;
+};
+
+// Calls `visit` with every column. A window of one key is followed to its end.
 template <class Visit>
-void for_each_column(SortedFragments& sorted, const KeyWindow& window, Visit&& visit) {
+void for_each_column(SortedFragments& sorted, const KeyWindow& window, WindowEnds& ends, const Visit& visit) {
     const auto occupied = sorted.occupied();
+    window.put(occupied, ends);
     for (std::size_t k = 0; k < occupied.size(); ++k) {
         if (k + pixels_ahead < occupied.size())
             sorted.prefetch(occupied[k + pixels_ahead], SortedFragments::Finger::low);
         const std::uint32_t p = occupied[k];
-        visit(p, sorted.of(p), sorted.below(p, window.low(p), SortedFragments::Finger::low));
+        const std::uint64_t low = ends.low[k];
+        WindowColumn column{p, sorted.of(p), sorted.below(p, low, SortedFragments::Finger::low), 0, low};
+        column.last = column.first;
+        if (window.at.exists())
+            while (column.last < column.words.size() && column.words[column.last] >> 32 == low) ++column.last;
+        else if (ends.high.empty())
+            column.last = static_cast<std::uint32_t>(column.words.size());
+        else
+            column.last = std::max(column.first, sorted.below(p, ends.high[k], SortedFragments::Finger::high));
+        visit(column);
     }
 }
 
