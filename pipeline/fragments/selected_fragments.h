@@ -38,7 +38,7 @@ struct SelectedFragments {
         return fragments;
     }
     // A word of SortedFragments.
-    void add(std::size_t pixel, std::uint64_t word, std::size_t at_rank) {
+    [[gnu::always_inline]] inline void add(std::size_t pixel, std::uint64_t word, std::size_t at_rank) {
         if (at_rank >= ranks) {
             ranks = at_rank + 1;
             if (of_rank.size() < ranks) of_rank.resize(ranks);

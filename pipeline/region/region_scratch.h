@@ -10,7 +10,7 @@
 #include "pipeline/fragments/sorted_sets.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
-#include "pipeline/region/arena.h"
+#include "pipeline/fragments/arena.h"
 
 namespace strata::pipeline {
 

@@ -4,9 +4,9 @@
 #include <bit>
 #include <utility>
 
+#include "pipeline/fragments/key_windows.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
-#include "pipeline/region/region_windows.h"
 #include "rasterizer/rules/depth_code.h"
 
 namespace strata::pipeline {
@@ -57,7 +57,7 @@ void Region::select_nearest(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    const StoredDepth stored{at(state.depth_target)};
+    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
     for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
         const auto& [p, words, first, end, low] = column;
         const std::uint32_t last = std::min(end, sorted.below(p, stored.of(p), Finger::surface));
@@ -106,7 +106,7 @@ void Region::select_nearest_stored(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    const StoredDepth stored{at(state.depth_target)};
+    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
     for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
         const auto& [p, words, first, end, low] = column;
         selected.inside += end - first;

@@ -5,9 +5,9 @@
 #include <numeric>
 #include <utility>
 
+#include "pipeline/fragments/key_windows.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
-#include "pipeline/region/region_windows.h"
 
 namespace strata::pipeline {
 
@@ -130,7 +130,7 @@ void Region::select_nearest_after(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    const StoredDepth stored{at(state.depth_target)};
+    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
     std::uint32_t* const counts = at(state.stencil_target).stencil_plane(0).words;
     std::vector<std::uint32_t> dead;
     for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {

@@ -76,19 +76,24 @@ const SortRequest without_faint{.alpha = {.enabled = true, .func = CompareFunc::
 
 std::uint32_t place_of(std::uint64_t word) { return static_cast<std::uint32_t>(word); }
 
-// The columns' fragments in the order of arrival: places rise with it.
-std::uint32_t passing_one_by_one(std::span<const std::uint64_t> words, std::uint32_t first, std::uint32_t last) {
-    std::vector<std::uint64_t> arrived(words.begin() + first, words.begin() + last);
+// Fragments of a column in the order of arrival: places rise with it.
+std::vector<std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t> words) {
+    std::vector<std::uint64_t> arrived(words.begin(), words.end());
     std::sort(arrived.begin(), arrived.end(),
-              [](std::uint64_t a, std::uint64_t b) { return (a & 0xffffffff) < (b & 0xffffffff); });
-    std::uint64_t stored = ~std::uint64_t{0};
-    std::uint32_t passed = 0;
+              [](std::uint64_t a, std::uint64_t b) { return place_of(a) < place_of(b); });
+    return arrived;
+}
+
+// Those of `arrived` that are nearer than all before them.
+std::vector<std::uint64_t> updates_by(const std::vector<std::uint64_t>& arrived) {
+    std::vector<std::uint64_t> updates;
     for (const std::uint64_t word : arrived)
-        if (word >> 32 < stored) {
-            stored = word >> 32;
-            ++passed;
-        }
-    return passed;
+        if (updates.empty() || word >> 32 < updates.back() >> 32) updates.push_back(word);
+    return updates;
+}
+
+std::uint32_t passing_one_by_one(std::span<const std::uint64_t> words, std::uint32_t first, std::uint32_t last) {
+    return static_cast<std::uint32_t>(updates_by(in_order_of_arrival(words.subspan(first, last - first))).size());
 }
 
 }  // namespace
@@ -165,12 +170,7 @@ TEST_CASE("the updates of a depth buffer are found one by one from the nearest b
         const auto words = sorted.of(p);
         const auto size = static_cast<std::uint32_t>(words.size());
         const std::uint32_t first = size / 4;
-        std::vector<std::uint64_t> arrived(words.begin() + first, words.end());
-        std::sort(arrived.begin(), arrived.end(),
-                  [](std::uint64_t a, std::uint64_t b) { return (a & 0xffffffff) < (b & 0xffffffff); });
-        std::vector<std::uint64_t> updates;
-        for (const std::uint64_t word : arrived)
-            if (updates.empty() || word >> 32 < updates.back() >> 32) updates.push_back(word);
+        const std::vector<std::uint64_t> updates = updates_by(in_order_of_arrival(words.subspan(first)));
         for (std::uint32_t n = 1; n <= updates.size(); ++n)
             wrong += words[sorted.update(p, first, size, n)] == updates[n - 1] ? 0 : 1;
     }
@@ -192,12 +192,8 @@ TEST_CASE("an update is the same one wherever its finger stood, and what arrived
         const std::uint32_t passing = passing_one_by_one(words, first, size);
         if (passing == 0) continue;
         const auto n = std::min(passing, static_cast<std::uint32_t>(random_int(random, 1, 3)));
-        std::vector<std::uint64_t> arrived(words.begin() + first, words.end());
-        std::sort(arrived.begin(), arrived.end(),
-                  [](std::uint64_t a, std::uint64_t b) { return place_of(a) < place_of(b); });
-        std::vector<std::uint64_t> updates;
-        for (const std::uint64_t word : arrived)
-            if (updates.empty() || word >> 32 < updates.back() >> 32) updates.push_back(word);
+        const std::vector<std::uint64_t> arrived = in_order_of_arrival(words.subspan(first));
+        const std::vector<std::uint64_t> updates = updates_by(arrived);
         const std::uint32_t found = sorted.update(p, first, size, n);
         wrong += words[found] == updates[n - 1] ? 0 : 1;
         const auto later = std::count_if(arrived.begin(), arrived.end(),

@@ -1,4 +1,4 @@
-// pipeline/region/region_windows.h - the windows of a selection in the sorted columns of a tile: keys in [low, high) at every pixel
+// pipeline/fragments/key_windows.h - the windows of a selection in the sorted columns of a tile: keys in [low, high) at every pixel
 // (execution.md 7.1).
 #pragma once
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "pipeline/fragments/sorted_fragments.h"
 #include "pipeline/frame/frame.h"
 #include "pipeline/frame/selection.h"
-#include "pipeline/region/target_storage.h"
+#include "pipeline/stages/lane_words.h"
 #include "rasterizer/rules/depth_code.h"
 
 namespace strata::pipeline {
@@ -124,8 +124,7 @@ struct KeyWindow {
 // stored code, or before none.
 class StoredDepth {
   public:
-    explicit StoredDepth(const TargetStorage& depth)
-        : codes_{depth.depth(0)}, is_float_{depth.format() == Format::d32f} {}
+    StoredDepth(const std::uint32_t* codes, bool is_float) : codes_{codes}, is_float_{is_float} {}
     [[nodiscard]] std::uint32_t of(std::size_t pixel) const noexcept {
         return is_float_ && codes_[pixel] > 0x7f800000u ? 0 : codes_[pixel];
     }
