@@ -84,6 +84,15 @@ std::vector<std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t> wo
     return arrived;
 }
 
+// What the sorting of some batches leaves: it needs their store no longer.
+SortedFragments sorted_columns(Random& random) {
+    StoredColumns given;
+    fill_columns(random, 60, 40, given);
+    SortedFragments sorted;
+    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    return sorted;
+}
+
 // Those of `arrived` that are nearer than all before them.
 std::vector<std::uint64_t> updates_by(const std::vector<std::uint64_t>& arrived) {
     std::vector<std::uint64_t> updates;
@@ -161,10 +170,7 @@ TEST_CASE("a bound is found wherever its finger stood, and as many fragments pas
 
 TEST_CASE("the updates of a depth buffer are found one by one from the nearest back") {
     Random random{20};
-    StoredColumns given;
-    fill_columns(random, 60, 40, given);
-    SortedFragments sorted;
-    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    SortedFragments sorted = sorted_columns(random);
     int wrong = 0;
     for (std::size_t p = 0; p < column_pixels; ++p) {
         const auto words = sorted.of(p);
@@ -179,10 +185,7 @@ TEST_CASE("the updates of a depth buffer are found one by one from the nearest b
 
 TEST_CASE("an update is the same one wherever its finger stood, and what arrived after it is counted") {
     Random random{23};
-    StoredColumns given;
-    fill_columns(random, 60, 40, given);
-    SortedFragments sorted;
-    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    SortedFragments sorted = sorted_columns(random);
     int wrong = 0, looked = 0;
     for (int look = 0; look < 20'000; ++look) {
         const auto p = static_cast<std::size_t>(random_int(random, 0, column_pixels - 1));
@@ -207,10 +210,7 @@ TEST_CASE("an update is the same one wherever its finger stood, and what arrived
 
 TEST_CASE("of any piece of the columns the first arrival is found, and the next one before a place") {
     Random random{24};
-    StoredColumns given;
-    fill_columns(random, 60, 40, given);
-    SortedFragments sorted;
-    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    SortedFragments sorted = sorted_columns(random);
     const EarliestIndex& index = sorted.earliest();
     const auto all = static_cast<int>(sorted.size());
     int wrong = 0;
@@ -231,10 +231,7 @@ TEST_CASE("of any piece of the columns the first arrival is found, and the next 
 
 TEST_CASE("without its first arrivals a range passes as a depth buffer lets the others through") {
     Random random{25};
-    StoredColumns given;
-    fill_columns(random, 60, 40, given);
-    SortedFragments sorted;
-    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    SortedFragments sorted = sorted_columns(random);
     int wrong = 0;
     for (int look = 0; look < 20'000; ++look) {
         const auto p = static_cast<std::size_t>(random_int(random, 0, column_pixels - 1));
