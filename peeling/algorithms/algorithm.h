@@ -40,7 +40,7 @@ struct Algorithm {
     bool kills_alpha_zero = false;    // an alpha test keeps fragments that store alpha 0 from being layers
     bool is_oracle = false;           // not a device's algorithm: never refused
     bool whole_frame = false;         // its queries nest: runs literally, whatever --execution says
-    bool runs_loops = false;          // one loop after another: in tiles unless a limit counts passes across them
+    bool runs_loops = false;          // one loop after another: in tiles wherever its queries are its own
     bool compares_own_codes = false;  // by the code that it stores, alone: refused where options choose another depth
     bool has_published_form = false;  // its listing has errata: --formulation published runs it as printed
     int (*geometry_passes)(int layers) = nullptr;  // the formula; null where the layers do not decide

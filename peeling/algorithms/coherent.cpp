@@ -44,7 +44,8 @@ void count_run(CoherentPeel& peel) {
     state.stencil = stencil_test(CompareFunc::greater, 128, StencilOp::keep, StencilOp::invert, StencilOp::incr);
     state.stencil_target = peel.stencil;
     state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
-    state.selection = {.keeps = Keeps::window, .from = peel.nearest, .before = peel.previous};
+    state.selection = {
+        .keeps = Keeps::run, .from = peel.nearest, .before = peel.previous, .also_before = region.opaque_depth()};
     static_cast<void>(region.draw(state, keep_after_nearest));
     const std::uint32_t* const stencil = region.storage(peel.stencil).stencil(0);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel)
@@ -59,7 +60,10 @@ void find_breaker(CoherentPeel& peel) {
     state.stencil = stencil_test(CompareFunc::equal, 255, StencilOp::incr, StencilOp::keep, StencilOp::keep);
     state.stencil_target = peel.stencil;
     state.reads = {peel.nearest, peel.previous, region.opaque_depth()};
-    state.selection = {.keeps = Keeps::window, .from = peel.nearest, .before = peel.previous};
+    state.selection = {.keeps = Keeps::nearest_after,
+                       .from = peel.nearest,
+                       .before = peel.previous,
+                       .also_before = region.opaque_depth()};
     static_cast<void>(region.draw(state, keep_after_nearest));
 }
 

@@ -11,7 +11,7 @@
 
 #include "peeling/closed/arrival_rows.h"
 #include "peeling/closed/arrivals.h"
-#include "pipeline/region/arena.h"
+#include "pipeline/fragments/arena.h"
 #include "pipeline/region/region_shortcuts.h"
 #include "rasterizer/walk/rows.h"
 

@@ -133,7 +133,7 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
 }
 
 // Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.
-void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs,
+void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs, Numbers numbers,
                           FragmentBatch& batch) const noexcept {
     std::array<const std::byte*, rasterizer::batch_capacity> begin;
     std::array<std::uint32_t, rasterizer::batch_capacity> count, number;
@@ -144,7 +144,8 @@ void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentN
         begin[i] = packed.begin + (packed.has_dead ? count[i] * sizeof(std::uint32_t) : 0);
     }
     const auto is_skipped = [&](const void* array) {
-        return array == &batch.pixel || array == &batch.x || array == &batch.y || is_left_out(batch, needs, array);
+        return array == &batch.pixel || array == &batch.x || array == &batch.y ||
+               (array == &batch.primitive && numbers == Numbers::no) || is_left_out(batch, needs, array);
     };
     std::uint32_t before = 0;
     for_each_array(needs_, batch, [&](auto& array) {

@@ -44,9 +44,10 @@ class FragmentStore {
         return batches_[number].primitives;
     }
     [[nodiscard]] const rasterizer::FragmentNeeds& needs() const noexcept { return needs_; }
-    // `primitive`, and what else `needs` names, of the fragments at `places` to the first lanes of a batch, in this order.
-    // Pixels and their positions are the caller's: it knows them.
-    void fetch(std::span<const std::uint32_t> places, const rasterizer::FragmentNeeds& needs,
+    // What `needs` names, and `primitive` where it is asked for, of the fragments at `places` to the first lanes of a batch, in
+    // this order. Pixels and their positions are the caller's: it knows them.
+    enum class Numbers : std::uint8_t { no, yes };
+    void fetch(std::span<const std::uint32_t> places, const rasterizer::FragmentNeeds& needs, Numbers numbers,
                rasterizer::FragmentBatch& batch) const noexcept;
 
     [[nodiscard]] std::uint64_t used_bytes() const noexcept { return used_chunks_ * std::uint64_t{chunk_bytes}; }

@@ -16,9 +16,9 @@ using rasterizer::Lanes;
 
 namespace {
 
-constexpr std::uint64_t bytes_per_fragment = sizeof(std::uint64_t) + sizeof(std::uint32_t);
+constexpr std::uint64_t bytes_per_fragment = sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t) + 1;  // and its index
 constexpr std::uint64_t more_by_reference = 2 * sizeof(std::uint64_t);
-constexpr std::uint64_t bytes_per_pixel = 32;  // start, end of the updates, three fingers
+constexpr std::uint64_t bytes_per_pixel = 57;  // start, two ends, its number and arrival, five fingers
 constexpr std::uint32_t not_counted = ~0u;
 
 [[nodiscard]] bool is_at_most(float value, float most) noexcept {
@@ -45,35 +45,19 @@ struct Fates {
     return from != ranges.end() && from->first <= batch.first && batch.last <= from->last;
 }
 
-// Of neighbouring passes bounds are the same or a few words apart: steps that double, from where the last one was.
-[[nodiscard]] std::uint32_t first_from(std::span<const std::uint64_t> words, std::uint64_t word,
-                                       std::uint32_t hint) noexcept {
-    const auto size = static_cast<std::uint32_t>(words.size());
-    std::uint32_t low = 0, high = size, step = 1;  // the answer lies in [low, high]
-    if (hint < size && words[hint] < word) {
-        low = hint + 1;
-        while (low + step <= size && words[low + step - 1] < word) low += step, step *= 2;
-        high = std::min(size, low + step - 1);
-    } else {
-        high = hint;
-        while (high >= step && words[high - step] >= word) high -= step, step *= 2;
-        low = high >= step ? high - step + 1 : 0;
-    }
-    const auto found = std::lower_bound(words.begin() + low, words.begin() + high, word);
-    return static_cast<std::uint32_t>(found - words.begin());
-}
+}  // namespace
 
 // What arrived in order of depth, either way, needs no sorting. Far to near, equal keys would stand in reverse.
-void sort_column(std::span<std::uint64_t> words) {
-    if (std::ranges::is_sorted(words)) return;
+SortedFragments::ColumnArrival SortedFragments::sort_column(std::span<std::uint64_t> words) {
+    if (std::ranges::is_sorted(words)) return ColumnArrival::near_to_far;
     const auto falls = [](std::uint64_t a, std::uint64_t b) { return a >> 32 <= b >> 32; };
-    if (std::ranges::adjacent_find(words, falls) == words.end())
+    if (std::ranges::adjacent_find(words, falls) == words.end()) {
         std::ranges::reverse(words);
-    else
-        std::ranges::sort(words);
+        return ColumnArrival::far_to_near;
+    }
+    std::ranges::sort(words);
+    return ColumnArrival::mixed;
 }
-
-}  // namespace
 
 bool SortedFragments::sort(const FragmentStore& store, const SortRequest& request, std::size_t pixels,
                            std::uint64_t limit, const std::uint32_t* surface) {
@@ -81,12 +65,19 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
     state_ = State::declined;
     start_.assign(pixels + 1, 0);
     if (!take(store, limit, surface)) return false;
-    for (std::size_t p = 0; p < pixels && !request.by_arrival; ++p)
-        sort_column({words_.data() + start_[p], start_[p + 1] - start_[p]});
+    occupied_.clear();
+    earliest_.forget();
+    arrival_.assign(pixels, ColumnArrival::near_to_far);
+    for (std::size_t p = 0; p < pixels; ++p)
+        if (start_[p] < start_[p + 1]) occupied_.push_back(static_cast<std::uint32_t>(p));
+    if (!request.by_arrival)
+        for (const std::uint32_t p : occupied_)
+            arrival_[p] = sort_column({words_.data() + start_[p], start_[p + 1] - start_[p]});
     if (request.by_reference) take_stored(store);
     for (auto& finger : finger_) finger.assign(pixels, Found{});
     updates_end_.assign(pixels, not_counted);
     updates_.resize(words_.size());
+    later_end_.assign(pixels, not_counted);
     state_ = State::sorted;
     return true;
 }
@@ -178,21 +169,26 @@ void SortedFragments::look_at_values(const FragmentStore& store, const FragmentB
     stores_reference_ &= same;
 }
 
-std::uint32_t SortedFragments::below(std::size_t pixel, std::uint64_t bound, Finger finger) noexcept {
-    if (bound > 0xffffffff) return start_[pixel + 1] - start_[pixel];
-    Found& last = finger_[static_cast<std::size_t>(finger)][pixel];
-    if (last.bound != bound) last = {static_cast<std::uint32_t>(bound), first_from(of(pixel), bound << 32, last.at)};
-    return last.at;
+// Of neighbouring passes bounds are the same or a few words apart: steps that double, from where the last one was.
+std::uint32_t SortedFragments::first_from(std::span<const std::uint64_t> words, std::uint64_t word,
+                                          std::uint32_t hint) noexcept {
+    const auto size = static_cast<std::uint32_t>(words.size());
+    std::uint32_t low = 0, high = size, step = 1;  // the answer lies in [low, high]
+    if (hint < size && words[hint] < word) {
+        low = hint + 1;
+        while (low + step <= size && words[low + step - 1] < word) low += step, step *= 2;
+        high = std::min(size, low + step - 1);
+    } else {
+        high = hint;
+        while (high >= step && words[high - step] >= word) high -= step, step *= 2;
+        low = high >= step ? high - step + 1 : 0;
+    }
+    const auto found = std::lower_bound(words.begin() + low, words.begin() + high, word);
+    return static_cast<std::uint32_t>(found - words.begin());
 }
 
 // A fragment passes if every fragment of the range that arrived before it is farther. Fragments nearer than the first
 // are peeled, so those that pass are the first in depth, the nearest behind it that arrived earlier, and so on.
-std::uint32_t SortedFragments::passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) noexcept {
-    if (first >= last) return 0;
-    if (updates_end_[pixel] != last) count_updates(pixel, last);
-    return updates_[start_[pixel] + first];
-}
-
 // From the far end on; next_nearer_ is, in depth order, the next fragment that arrived before this one.
 void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) noexcept {
     const std::span<const std::uint64_t> words = of(pixel);
@@ -206,20 +202,96 @@ void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) noexc
         updates[k] = 1 + (next < last ? updates[next] : 0);
     }
     updates_end_[pixel] = last;
+    finger_[static_cast<std::size_t>(Finger::update)][pixel] = {};
 }
 
-// Chains lead from the nearest to those that passed before it, one update fewer each.
+// Chains lead from the nearest to those that passed before it, one update fewer each; what lies between two of a chain has
+// no fewer than the former. So the first with as many is the one. While nothing of the chain but its beginning is
+// peeled, it stays where it was found.
 std::uint32_t SortedFragments::update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
                                       std::uint32_t updates) noexcept {
-    const std::span<const std::uint64_t> words = of(pixel);
-    const auto place = [&](std::uint32_t k) { return static_cast<std::uint32_t>(words[k]); };
-    std::uint32_t at = first;
-    for (std::uint32_t left = passing(pixel, first, last); left > updates; --left) {
-        const std::uint32_t from = place(at);
-        while (place(++at) > from) {
-        }
-    }
+    static_cast<void>(passing(pixel, first, last));
+    const std::uint32_t* const of_word = updates_.data() + start_[pixel];
+    Found& found = finger_[static_cast<std::size_t>(Finger::update)][pixel];
+    Found& from = finger_[static_cast<std::size_t>(Finger::update_from)][pixel];
+    std::uint32_t at = found.bound == updates && from.at <= first && first <= found.at ? found.at : first;
+    while (of_word[at] > updates) ++at;
+    found = {updates, at};
+    from.at = first;
     return at;
+}
+
+// The chain from `first` leaves the range at the first fragment behind it that arrived before all of the range's.
+std::uint32_t SortedFragments::passing_within(std::size_t pixel, std::uint32_t first, std::uint32_t last) {
+    if (first >= last) return 0;
+    if (updates_end_[pixel] == not_counted || updates_end_[pixel] < last) count_updates(pixel, last);
+    const std::size_t column = start_[pixel], end = column + updates_end_[pixel];
+    const std::uint32_t place = earliest().earliest(column + first, column + last);
+    const std::size_t left = earliest_.first_before(column + last, end, place);
+    return updates_[column + first] - (left < end ? updates_[left] : 0);
+}
+
+// Between two dead ones those pass that arrived before all nearer ones.
+std::uint32_t SortedFragments::passing_without(std::size_t pixel, std::uint32_t first, std::uint32_t last,
+                                               std::span<const std::uint32_t> dead) {
+    const std::size_t column = start_[pixel];
+    const EarliestIndex& index = earliest();
+    std::uint32_t passed = 0, before = ~0u, from = first;
+    for (std::size_t k = 0; from < last; ++k) {
+        const std::uint32_t until = k < dead.size() ? std::min(dead[k], last) : last;
+        const std::size_t found = index.first_before(column + from, column + until, before);
+        if (found < column + until) {
+            passed += passing_within(pixel, static_cast<std::uint32_t>(found - column), until);
+            before = index.earliest(found, column + until);
+        }
+        from = until + 1;
+    }
+    return passed;
+}
+
+namespace {
+
+// How many places of those put down so far lie above a given one: a Fenwick tree over their ranks.
+class LaterCounts {
+  public:
+    explicit LaterCounts(std::size_t size) : nodes_(size + 1) {}
+    void put(std::size_t rank) noexcept {
+        for (std::size_t n = rank + 1; n < nodes_.size(); n += n & (~n + 1)) ++nodes_[n];
+        ++all_;
+    }
+    [[nodiscard]] std::uint32_t above(std::size_t rank) const noexcept {
+        std::uint32_t up_to = 0;
+        for (std::size_t n = rank + 1; n > 0; n &= n - 1) up_to += nodes_[n];
+        return all_ - up_to;
+    }
+
+  private:
+    std::vector<std::uint32_t> nodes_;
+    std::uint32_t all_ = 0;
+};
+
+}  // namespace
+
+// From the far end on: what is put down lies behind.
+void SortedFragments::count_later(std::size_t pixel, std::uint32_t last) {
+    if (later_.size() < words_.size()) later_.resize(words_.size());
+    later_end_[pixel] = last;
+    const std::span<const std::uint64_t> words = of(pixel).first(last);
+    std::uint32_t* const later = later_.data() + start_[pixel];
+    if (arrival_[pixel] != ColumnArrival::mixed) {
+        const bool is_near_to_far = arrival_[pixel] == ColumnArrival::near_to_far;
+        for (std::uint32_t k = 0; k < last; ++k) later[k] = is_near_to_far ? last - 1 - k : 0;
+        return;
+    }
+    std::vector<std::uint32_t> places(words.begin(), words.end());
+    std::ranges::sort(places);
+    LaterCounts behind{places.size()};
+    for (std::uint32_t k = last; k-- > 0;) {
+        const auto place = static_cast<std::uint32_t>(words[k]);
+        const auto rank = static_cast<std::size_t>(std::ranges::lower_bound(places, place) - places.begin());
+        later[k] = behind.above(rank);
+        behind.put(rank);
+    }
 }
 
 }  // namespace strata::pipeline

@@ -51,7 +51,7 @@ void SortedFragments::take_stored(const FragmentStore& store) {
     for (std::size_t first = 0; first < words_.size(); first += places.size()) {
         const std::size_t count = std::min(places.size(), words_.size() - first);
         for (std::size_t i = 0; i < count; ++i) places[i] = static_cast<std::uint32_t>(words_[first + i]);
-        store.fetch({places.data(), count}, code_alone, *batch);
+        store.fetch({places.data(), count}, code_alone, FragmentStore::Numbers::no, *batch);
         for (std::size_t i = 0; i < count; ++i) stored_[first + i] = std::uint64_t{batch->code[i]} << 32 | places[i];
     }
 }

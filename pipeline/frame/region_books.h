@@ -48,8 +48,10 @@ struct RegionBooks {
     std::vector<LoopBooks> loops = std::vector<LoopBooks>(1);  // one, unless the body says that a further one begins
     std::vector<IterationRecord> records =
         std::vector<IterationRecord>(1);  // [0] before the first iteration, then one each, at last what follows
-    int iterations = 0;                   // of all loops
-    Target published;                     // what the body leaves: its final colour
+    // The frame's geometry passes before each loop, where a limit counts them; else as many as the region has made.
+    std::vector<int> passes_before;
+    int iterations = 0;  // of all loops
+    Target published;    // what the body leaves: its final colour
     std::vector<KeptLayer> layers;
     std::size_t idle_layers = 0;  // the last ones, kept while idle: empty
     std::vector<Diagnostic> diagnostics;

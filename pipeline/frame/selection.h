@@ -3,7 +3,7 @@
 // Rule     A selection is a promise about the pass's own state and program. At every pixel the *window* is a range of keys
 //          (Frame::key) between bounds that targets hold there when the pass begins, and the pass keeps some fragments of the
 //          window. The others leave every target as it is: those of the window because the kept ones decide alone, those outside
-//          because the machine drops them at the stage that `outside` names. `Instruments::check_selections` visits every
+//          because the machine drops them at the stage that `outside` names. The program looks at no primitive's number. `Instruments::check_selections` visits every
 //          fragment, too, and compares.
 // Source   execution.md 7.1.
 // Tests    tests/peeling/selection_test.cpp, execution_test.cpp
@@ -25,6 +25,12 @@ enum class Keeps : std::uint8_t {
     window,    // all of the window, in the order of arrival, whatever the tests
     arrivals,  // from number `first_arrival` of the window on, in the order of arrival, one for each sample: by a
                // stencil test that all of the window count down and only those meet
+    run,  // the window's first arrivals while each is farther than the one before, and what ends them: by a stencil that counts to
+          // 128 and that a depth test GREATER inverts where it fails
+    nearest_after,  // the nearest of the window but for its first arrivals, which fill a stencil up to 255
+    last_run,  // of updates below `before`, the last two; between them the last of those that arrive in order, what arrives
+    // out of order, and the nearest that arrives later; and all one key before the window: for registers that
+    // a program reads and writes, beside colours that the others blend with (0, 0, 0, 0) UNDER
     ends  // the window's first and last key, all arrivals, and the nearest and farthest between: for MAX of (-z, z)
 };
 
@@ -40,13 +46,19 @@ enum class Outside : std::uint8_t {
 struct FragmentSelection {
     Keeps keeps = Keeps::everything;
     Outside outside = Outside::discarded;
-    Target behind{};                      // depth target: keys greater than its code raised by `behind_codes`
-    Target from{};                        // depth target: keys not less than its code
-    Target at{};                          // depth target: keys equal to its code
-    Target before{};                      // depth target: keys less than its code
-    Target up_to{};                       // depth target: keys not greater than its code
-    Target range{};                       // float target: keys from minus its red to its green, both included
-    std::uint32_t least = 0, most = ~0u;  // keys, both included
+    Target behind{};                 // depth target: keys greater than its code raised by `behind_codes`
+    Target from{};                   // depth target: keys not less than its code
+    Target at{};                     // depth target: keys equal to its code
+    Target before{}, also_before{};  // depth targets: keys less than their codes
+    Target up_to{};                  // depth target: keys not greater than its code
+    Target range{};                  // float target: keys from minus its red to its green, both included
+    struct Channel {                 // of a float target, which holds values of stored codes
+        Target target{};
+        int channel = 0;
+        friend bool operator==(const Channel&, const Channel&) = default;
+    };
+    Channel behind_value{}, before_value{};  // keys with a greater and with a lesser value
+    std::uint32_t least = 0, most = ~0u;     // keys, both included
     std::uint32_t behind_codes = 0;
     std::uint32_t first_arrival = 0;
     bool by_reference = false;  // `behind` bounds reference_code, and the program looks at no other depth

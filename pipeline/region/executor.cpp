@@ -56,6 +56,7 @@ class FrameRun {
             else
                 copy_blank(others[i]);
         });
+        if (extent_ == Extent::tile && frame_.max_passes > 0 && regions_[0].books.loops.size() > 1) limit_loops();
         settle();
         gather();
         return std::move(result_);
@@ -135,6 +136,7 @@ class FrameRun {
         const Clock::time_point start = Clock::now();
         RegionBooks books;
         books.script = script;
+        books.passes_before = passes_before_;
         Region region{frame_, {rect(r), r, extent_}, books, instruments_, &scratch_};
         body_(region);
         RegionShortcuts shortcuts{region};
@@ -175,6 +177,38 @@ class FrameRun {
             longest = std::max(longest, next - d - 1);
         }
         return longest;
+    }
+
+    // A limit counts the passes of all loops. A region that leaves a loop before the others has made fewer, and may go too
+    // far. From loop to loop it follows how many iterations the limit leaves to the frame: a region with more runs again.
+    void limit_loops() {
+        std::vector<int> most;  // iterations of each loop
+        for (std::size_t loop = 0, last = 0; loop < regions_[0].books.loops.size(); last = loop++) {
+            const int made = loop == 0 ? regions_[0].books.records[0].passes.geometry
+                                       : std::min(most[last], iterations_of(last)) * passes_of_iteration(last);
+            passes_before_.push_back(made + (loop == 0 ? 0 : passes_before_[last]));
+            const int left = std::max(0, frame_.max_passes - passes_before_[loop]);
+            most.push_back(left / std::max(1, passes_of_iteration(loop)));
+        }
+        std::vector<std::size_t> again;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            const std::vector<LoopBooks>& loops = regions_[r].books.loops;
+            const auto goes_too_far = [&](std::size_t loop) { return loops[loop].iterations > most[loop]; };
+            for (std::size_t loop = 0; loop < loops.size(); ++loop)
+                if (goes_too_far(loop) && (again.empty() || again.back() != r)) again.push_back(r);
+        }
+        run(again, {});
+        result_.work.reruns += again.size();
+    }
+
+    // Geometry passes of an iteration, of which every one of a loop makes as many.
+    [[nodiscard]] int passes_of_iteration(std::size_t loop) const {
+        for (const auto& [r, fragments, runs] : regions_) {
+            int first = 1;
+            for (std::size_t before = 0; before < loop; ++before) first += r.loops[before].iterations;
+            if (r.loops[loop].iterations > 0) return r.records[static_cast<std::size_t>(first)].passes.geometry;
+        }
+        return 0;
     }
 
     // Settles the frame's answers one decision after the other. The counts at a decision depend on earlier answers only, so
@@ -306,6 +340,7 @@ class FrameRun {
     std::vector<RegionRun> regions_;
     static constexpr std::size_t no_twin = ~std::size_t{0};
     std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
+    std::vector<int> passes_before_;          // by loop, once a limit has asked for them
     FrameResult result_;
     std::atomic<std::size_t> finished_{0};
     // Sums over all threads, in ticks of the clock. Only their ratio is told: no result bit knows the time.

@@ -128,8 +128,8 @@ class Region {
     // A query for a branch within the iteration asks with Idle::no.
     [[nodiscard]] bool any(Count count, Idle idle);
     void begin_iteration();
-    // A further loop begins: promises made so far concern the loops before it, and further ones it alone. Only where no
-    // limit counts passes across the loops: a tile that leaves a loop early has made fewer.
+    // A further loop begins: promises made so far concern the loops before it, and further ones it alone. Where a limit
+    // counts passes across the loops, a tile that left one early learns how many the frame has made.
     void begin_loop();
     // A layer may be composited after the last iteration, but its cost belongs to the iteration that made it. From now
     // on counters go to the record of `iteration`, counted from 1.
@@ -198,6 +198,11 @@ class Region {
     void count_up(const PassState& state, std::size_t pixel, std::uint32_t by);
     void select_window(const PassState& state);
     void select_arrivals(const PassState& state);
+    void select_run(const PassState& state);
+    void select_nearest_after(const PassState& state);
+    void select_last_run(const PassState& state);
+    [[nodiscard]] bool waits_in_order(const PassState& state);
+    void finish_waiting(const PassState& state);
     void select_ends(const PassState& state);
     template <class FragmentsAt>
     void count_down(const PassState& state, const FragmentsAt& fragments_at);
@@ -208,7 +213,9 @@ class Region {
     [[nodiscard]] std::size_t samples_of_pass() const noexcept { return static_cast<std::size_t>(pass_samples_); }
     // Null where there is no such target.
     [[nodiscard]] const std::uint32_t* codes_of(Target t) const { return t.exists() ? storage(t).depth(0) : nullptr; }
+    void find_positions(FragmentBatch& batch, std::size_t count) const;
     [[nodiscard]] FragmentBatch* next_selected(const PassState& state);  // null after the last
+    [[nodiscard]] std::uint8_t samples_of_selected(const PassState& state) const noexcept;
     [[nodiscard]] Drawn book_selected(const PassState& state, const Counters& before, const Drawn& visited);
     struct Snapshot {
         std::vector<TargetStorage> targets;

@@ -7,7 +7,12 @@
 
 namespace strata::pipeline {
 
+// The frame has made no fewer passes than the region, whose idle probe is none of them.
 void Region::begin_loop() {
+    if (books_.loops.back().probed)
+        books_.geometry_passes -= books_.records[static_cast<std::size_t>(books_.iterations)].passes.geometry;
+    if (const std::size_t number = books_.loops.size(); number < books_.passes_before.size())
+        books_.geometry_passes = books_.passes_before[number];
     books_.loops.emplace_back();
     probing_ = false;
 }

@@ -40,11 +40,13 @@ Drawn Region::draw_selected(const PassState& state, P& program) {
     const Counters before = record().counters;
     select(state);
     Drawn drawn;
+    PassState drawn_to = state;
     while (FragmentBatch* const batch = next_selected(state)) {
         Outputs& out = start_batch(*batch);
         load(state, *batch);
         run_program(state, program, *batch, out);
-        finish(state, *batch, out, drawn);
+        drawn_to.sample_mask = samples_of_selected(state);
+        finish(drawn_to, *batch, out, drawn);
     }
     return book_selected(state, before, drawn);
 }

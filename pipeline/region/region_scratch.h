@@ -5,12 +5,12 @@
 #include <mutex>
 #include <vector>
 
+#include "pipeline/fragments/arena.h"
 #include "pipeline/fragments/fragment_store.h"
 #include "pipeline/fragments/selected_fragments.h"
 #include "pipeline/fragments/sorted_sets.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
-#include "pipeline/region/arena.h"
 
 namespace strata::pipeline {
 

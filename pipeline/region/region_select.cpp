@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "pipeline/fragments/key_windows.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "rasterizer/rules/depth_code.h"
@@ -15,45 +16,9 @@ using rasterizer::FragmentNeeds;
 namespace {
 
 using Finger = SortedFragments::Finger;
+using Numbers = FragmentStore::Numbers;
 
-constexpr std::size_t pixels_ahead = 12;  // whose words are asked for: about as many as memory answers at once
 constexpr std::uint32_t greatest_stencil = 255;
-
-// The codes of a depth target in the form of sorted keys.
-class KeyBound {
-  public:
-    KeyBound(const std::uint32_t* codes, DepthKey key) : codes_{codes}, is_float_key_{key == DepthKey::shader_z} {}
-    [[nodiscard]] bool exists() const noexcept { return codes_ != nullptr; }
-    [[nodiscard]] std::uint64_t of(std::size_t pixel) const noexcept {
-        return is_float_key_ ? rasterizer::ordered_code(std::bit_cast<float>(codes_[pixel])) : codes_[pixel];
-    }
-
-  private:
-    const std::uint32_t* codes_;
-    bool is_float_key_;
-};
-
-// The bounds of a selection's window at a pixel: keys in [low, high).
-struct KeyWindow {
-    std::uint64_t least, end;
-    KeyBound behind, from, at, before, up_to;
-    std::uint64_t behind_codes, greatest;
-
-    [[nodiscard]] std::uint64_t low(std::size_t p) const noexcept {
-        std::uint64_t key = least;
-        if (behind.exists()) key = std::max(key, std::min(behind.of(p) + behind_codes, greatest) + 1);
-        if (from.exists()) key = std::max(key, from.of(p));
-        if (at.exists()) key = std::max(key, at.of(p));
-        return key;
-    }
-    [[nodiscard]] bool has_high() const noexcept { return end <= 0xffffffff || before.exists() || up_to.exists(); }
-    [[nodiscard]] std::uint64_t high(std::size_t p) const noexcept {
-        std::uint64_t key = end;
-        if (before.exists()) key = std::min(key, before.of(p));
-        if (up_to.exists()) key = std::min(key, up_to.of(p) + 1);
-        return key;
-    }
-};
 
 // The words of a window by place; in `own` if they stand in another order.
 std::span<const std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t> words,
@@ -63,41 +28,6 @@ std::span<const std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t
     own.assign(words.begin(), words.end());
     std::ranges::sort(own, {}, place);
     return own;
-}
-
-// The codes that a depth test LESS compares with, in the order of keys: a binary32 that is negative or NaN lies before every
-// stored code, or before none.
-class StoredDepth {
-  public:
-    explicit StoredDepth(const TargetStorage& depth)
-        : codes_{depth.depth(0)}, is_float_{depth.format() == Format::d32f} {}
-    [[nodiscard]] std::uint32_t of(std::size_t pixel) const noexcept {
-        return is_float_ && codes_[pixel] > 0x7f800000u ? 0 : codes_[pixel];
-    }
-
-  private:
-    const std::uint32_t* codes_;
-    bool is_float_;
-};
-
-// Calls visit(pixel, its words, the number of its window's first) wherever there is a fragment.
-template <class Visit>
-void for_each_column(SortedFragments& sorted, const KeyWindow& window, Visit&& visit) {
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        const auto words = sorted.of(p);
-        if (words.empty()) continue;
-        const std::uint64_t low = window.low(p);
-        visit(p, words, low > 0 ? sorted.below(p, low, Finger::low) : 0);
-    }
-}
-
-// How many of a column's fragments [first, last) arrived after `word`.
-std::uint32_t arrived_after(std::span<const std::uint64_t> words, std::uint64_t word) {
-    std::uint32_t later = 0;
-    for (const std::uint64_t other : words)
-        later += static_cast<std::uint32_t>(other) > static_cast<std::uint32_t>(word) ? 1u : 0u;
-    return later;
 }
 
 }  // namespace
@@ -113,35 +43,23 @@ void Region::select(const PassState& state) {
         case Keeps::window: return select_window(state);
         case Keeps::arrivals: return select_arrivals(state);
         case Keeps::ends: return select_ends(state);
+        case Keeps::run: return select_run(state);
+        case Keeps::nearest_after: return select_nearest_after(state);
+        case Keeps::last_run: return select_last_run(state);
         case Keeps::everything: return;
     }
 }
-
-namespace {
-
-template <class CodesOf>
-KeyWindow window_of(const FragmentSelection& s, const Frame& frame, const CodesOf& codes_of) {
-    const auto bound = [&](Target t) { return KeyBound{codes_of(t), frame.key}; };
-    // Codes that are raised are stored ones, and stop at the greatest; binary32 keys are not raised.
-    const std::uint64_t greatest =
-        frame.key == DepthKey::shader_z ? ~0u : rasterizer::max_code(frame.key_request().format);
-    return {s.least,     std::uint64_t{s.most} + 1, bound(s.behind), bound(s.from),
-            bound(s.at), bound(s.before),           bound(s.up_to),  s.behind_codes,
-            greatest};
-}
-
-}  // namespace
 
 // Updates of a pixel form a chain (SortedFragments::passing), whose last is the nearest. Where a stencil counts them,
 // the visited one counts itself.
 void Region::select_nearest(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    const KeyWindow window = window_of(state.selection, frame_, [&](Target t) { return codes_of(t); });
-    const StoredDepth stored{at(state.depth_target)};
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        std::uint32_t end = static_cast<std::uint32_t>(words.size());
-        if (window.has_high()) end = std::max(first, sorted.below(p, window.high(p), Finger::high));
+    const KeyWindow window =
+        window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
+    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, low] = column;
         const std::uint32_t last = std::min(end, sorted.below(p, stored.of(p), Finger::surface));
         selected.inside += end - first;
         const std::uint32_t updates = sorted.passing(p, first, last);
@@ -175,22 +93,23 @@ void Region::select_previous(const PassState& state, std::size_t pixel, const Co
         selected.killed += part.end - part.first;
         return;
     }
-    const auto words = sorted.of(pixel);
-    const std::uint64_t word = words[sorted.update(pixel, part.first, part.last, made)];
-    selected.killed += arrived_after(words.subspan(part.first, part.end - part.first), word);
+    const std::uint32_t kept = sorted.update(pixel, part.first, part.last, made);
+    selected.killed += sorted.arrived_after(pixel, part.first, part.end, kept);
     selected.passed += made;
     at(state.stencil_target).stencil_plane(0).words[pixel] = 2;  // before it is visited
-    selected.add(pixel, word, 0);
+    selected.add(pixel, sorted.of(pixel)[kept], 0);
 }
 
 // The window bounds the depth that is compared, and the test looks at the one that is stored.
 void Region::select_nearest_stored(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    const KeyWindow window = window_of(state.selection, frame_, [&](Target t) { return codes_of(t); });
-    const StoredDepth stored{at(state.depth_target)};
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        selected.inside += words.size() - first;
+    const KeyWindow window =
+        window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
+    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, low] = column;
+        selected.inside += end - first;
         const SortedFragments::Passing found = sorted.passing_stored(p, first, stored.of(p));
         if (found.passed == 0) return;
         selected.passed += found.passed;
@@ -198,44 +117,74 @@ void Region::select_nearest_stored(const PassState& state) {
     });
 }
 
-// A window of one key is followed to its end.
 void Region::select_window(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     selected.start();
-    const KeyWindow window = window_of(state.selection, frame_, [&](Target t) { return codes_of(t); });
+    const KeyWindow window =
+        window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     std::vector<std::uint64_t> in_order;
-    for_each_column(sorted, window, [&](std::size_t p, std::span<const std::uint64_t> words, std::uint32_t first) {
-        std::uint32_t last = first;
-        if (window.at.exists())
-            while (last < words.size() && words[last] >> 32 == window.low(p)) ++last;
-        else
-            last = std::max(first, sorted.below(p, window.high(p), Finger::high));
+    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, last, low] = column;
         selected.inside += last - first;
+        if (last - first == 1) {
+            selected.add(p, words[first], 0);
+            return;
+        }
         const auto kept = in_order_of_arrival(words.subspan(first, last - first), in_order);
         for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
     });
 }
 
-// Those before have counted the stencil down by the time that the kept ones come, and met no sample's test.
+// Those before have counted the stencil down by the time that the kept ones come, and met no sample's test. Where sample s
+// waits for kept arrival s, that one goes through its sample alone: it fails the tests of the others.
 void Region::select_arrivals(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const std::size_t past = state.selection.first_arrival;
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
+    for (const std::uint32_t p : sorted.occupied()) {
         const auto words = sorted.of(p);
         const std::size_t last = std::min(words.size(), past + samples_of_pass());
         for (std::size_t k = past; k < last; ++k) selected.add(p, words[k], k - past);
         selected.inside += last > past ? last - past : 0;
     }
-    count_down(state, [&](std::size_t p) { return std::min(sorted.of(p).size(), past); });
+    selected.is_routed = waits_in_order(state);
+    if (!selected.is_routed)
+        return count_down(state, [&](std::size_t p) { return std::min(sorted.of(p).size(), past); });
+    for (std::size_t rank = 0; rank < selected.ranks; ++rank) {
+        std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(rank)).words;
+        for (const SelectedFragments::One& one : selected.of_rank[rank]) stored[one.pixel] = state.stencil.front.ref;
+    }
+}
+
+// Whether sample s of every pixel with fragments takes arrival number first_arrival + s.
+bool Region::waits_in_order(const PassState& state) {
+    const SortedFragments& sorted = scratch_->sorted.present();
+    for (std::size_t s = 0; s < samples_of_pass(); ++s) {
+        const std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
+        const std::size_t expected = state.stencil.front.ref + state.selection.first_arrival + s;
+        if (!std::ranges::all_of(sorted.occupied(), [&](std::uint32_t p) { return stored[p] == expected; }))
+            return false;
+    }
+    return true;
+}
+
+// What all of a pixel's fragments leave of stencils that waited in order.
+void Region::finish_waiting(const PassState& state) {
+    const SortedFragments& sorted = scratch_->sorted.present();
+    for (std::size_t s = 0; s < samples_of_pass(); ++s) {
+        std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
+        const std::size_t before = state.stencil.front.ref + state.selection.first_arrival + s;
+        for (const std::uint32_t p : sorted.occupied())
+            stored[p] = static_cast<std::uint32_t>(before - std::min(before, sorted.of(p).size()));
+    }
 }
 
 // Decrements every sample's stencil by a number of fragments of its pixel, down to 0.
 template <class FragmentsAt>
 void Region::count_down(const PassState& state, const FragmentsAt& fragments_at) {
     TargetStorage& stencil = at(state.stencil_target);
-    for (std::size_t p = 0; p < scratch_->sorted.present().pixels(); ++p) {
+    for (const std::uint32_t p : scratch_->sorted.present().occupied()) {
         const auto fragments = static_cast<std::uint32_t>(fragments_at(p));
         for (int sample = 0; fragments > 0 && sample < pass_samples_; ++sample) {
             std::uint32_t& stored = stencil.stencil_plane(sample).words[p];
@@ -251,11 +200,14 @@ void Region::select_ends(const PassState& state) {
     const FragmentSelection& selection = state.selection;
     const KeyBound before{codes_of(selection.before), frame_.key};
     const auto range = selection.range.exists() ? at(selection.range).texels(0) : Texels{};
-    for (std::size_t p = 0; p < sorted.pixels(); ++p) {
-        sorted.prefetch(p + pixels_ahead, Finger::low);
-        sorted.prefetch(p + pixels_ahead, Finger::high);
+    const auto occupied = sorted.occupied();
+    for (std::size_t column = 0; column < occupied.size(); ++column) {
+        if (const std::size_t ahead = column + pixels_ahead; ahead < occupied.size()) {
+            sorted.prefetch(occupied[ahead], Finger::low);
+            sorted.prefetch(occupied[ahead], Finger::high);
+        }
+        const std::uint32_t p = occupied[column];
         const auto words = sorted.of(p);
-        if (words.empty()) continue;
         const auto size = static_cast<std::uint32_t>(words.size());
         std::uint32_t first = 0, last = sorted.below(p, before.of(p), Finger::surface);
         if (selection.range.exists()) {
@@ -282,7 +234,25 @@ void Region::select_ends(const PassState& state) {
     }
 }
 
-// Keys that are stored codes need no fetching. Pixels rise within a rank, so their rows do.
+// The samples that the present batch is drawn to.
+std::uint8_t Region::samples_of_selected(const PassState& state) const noexcept {
+    const SelectedFragments& selected = scratch_->selected;
+    return selected.is_routed ? static_cast<std::uint8_t>(1u << selected.rank) : state.sample_mask;
+}
+
+// Where the pixels of a batch lie in the window. A tile has at most 2^14 pixels in rows of up to 2^7, so that the reciprocal's
+// error, below 2^-21 a pixel, is less than one part of a row.
+void Region::find_positions(FragmentBatch& batch, std::size_t count) const {
+    const auto width = static_cast<std::uint32_t>(rect_.width()), x0 = static_cast<std::uint32_t>(rect_.x0);
+    const std::uint32_t reciprocal = ((1u << 21) + width - 1) / width, y0 = static_cast<std::uint32_t>(rect_.y0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t row = batch.pixel[i] * reciprocal >> 21;
+        batch.x[i] = static_cast<std::uint16_t>(x0 + batch.pixel[i] - row * width);
+        batch.y[i] = static_cast<std::uint16_t>(y0 + row);
+    }
+}
+
+// Keys that are stored codes need no fetching. No program that selects looks at a primitive's number: the trace does.
 FragmentBatch* Region::next_selected(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     while (selected.rank < selected.ranks && selected.next == selected.of_rank[selected.rank].size())
@@ -292,17 +262,13 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     const std::size_t count = std::min<std::size_t>(all.size() - selected.next, batch_capacity);
     FragmentBatch& batch = scratch_->recalled;
     Lanes<std::uint32_t>& places = scratch_->depth_stored;
-    const auto width = static_cast<std::uint32_t>(rect_.width());
-    std::uint32_t row = all[selected.next].pixel / width;
     for (std::size_t i = 0; i < count; ++i) {
         const SelectedFragments::One& one = all[selected.next + i];
-        while (one.pixel >= (row + 1) * width) ++row;
         batch.pixel[i] = one.pixel;
-        batch.x[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(rect_.x0) + one.pixel - row * width);
-        batch.y[i] = static_cast<std::uint16_t>(static_cast<std::uint32_t>(rect_.y0) + row);
         batch.code[i] = one.key;
         places[i] = one.place;
     }
+    find_positions(batch, count);
     if (state.selection.by_reference && !scratch_->sorted.present().is_by_reference())
         std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
     selected.next += count;
@@ -310,7 +276,8 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     batch.material = 0;
     FragmentNeeds fetched = state.needs;
     fetched.code = frame_.key == DepthKey::shader_z;  // else the key is the code
-    store().fetch({places.data(), count}, fetched, batch);
+    store().fetch({places.data(), count}, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
+    if (!frame_.trace) std::fill_n(batch.primitive.begin(), count, ~0u);
     return &batch;
 }
 

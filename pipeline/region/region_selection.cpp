@@ -37,6 +37,10 @@ bool has_stencil(const PassState& state, const StencilFace& face) {
 bool has_tests_of_its_kind(const PassState& state, int samples) {
     constexpr StencilFace counts_updates{.func = CompareFunc::always, .ref = 0, .pass = StencilOp::incr};
     constexpr StencilFace counts_back{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};
+    constexpr StencilFace counts_in_order{
+        .func = CompareFunc::greater, .ref = 128, .depth_fail = StencilOp::invert, .pass = StencilOp::incr};
+    constexpr StencilFace counts_first{.func = CompareFunc::equal, .ref = 255, .fail = StencilOp::incr};
+    constexpr DepthTest leaves_the_last{.enabled = true, .func = CompareFunc::greater, .write = true};
     if (state.selection.keeps == Keeps::arrivals) return routes_arrivals(state);
     if (samples != 1) return false;
     const bool is_blended = std::ranges::any_of(state.blend, &Blend::enabled);
@@ -48,6 +52,10 @@ bool has_tests_of_its_kind(const PassState& state, int samples) {
         case Keeps::previous:
             return state.depth == leaves_the_nearest && !is_blended && has_stencil(state, counts_back);
         case Keeps::window: return state.selection.outside == Outside::discarded;
+        case Keeps::run: return state.depth == leaves_the_last && has_stencil(state, counts_in_order);
+        case Keeps::nearest_after:
+            return state.depth == leaves_the_nearest && !is_blended && has_stencil(state, counts_first);
+        case Keeps::last_run: return state.ordered_rmw && !state.depth.enabled && !state.stencil.enabled;
         case Keeps::ends: return !state.depth.enabled && !state.stencil.enabled;
         case Keeps::arrivals:
         case Keeps::everything: break;
@@ -59,14 +67,17 @@ bool has_tests_of_its_kind(const PassState& state, int samples) {
 bool has_foreign_stages(const PassState& state) {
     const bool is_killed_by_alpha = state.selection.outside == Outside::alpha_test;
     const bool is_killed_by_unit = state.selection.outside == Outside::depth_unit;
-    return state.replaces_depth || state.ordered_rmw || (state.sample_mask & 1u) == 0 ||
+    const bool is_ordered = state.ordered_rmw && state.selection.keeps != Keeps::last_run;
+    return state.replaces_depth || is_ordered || (state.sample_mask & 1u) == 0 ||
            state.alpha.enabled != is_killed_by_alpha || state.depth_unit_count != (is_killed_by_unit ? 1 : 0);
 }
 
 // Whether selections of this kind look at stored codes alone.
 bool wants_stored_codes(const PassState& state) {
-    const Keeps keeps = state.selection.keeps;
-    return keeps == Keeps::arrivals || keeps == Keeps::previous || keeps == Keeps::last_two || state.stencil.enabled;
+    const FragmentSelection& s = state.selection;
+    return s.keeps == Keeps::arrivals || s.keeps == Keeps::previous || s.keeps == Keeps::last_two ||
+           s.keeps == Keeps::last_run || state.stencil.enabled || s.behind_value.target.exists() ||
+           s.before_value.target.exists();
 }
 
 std::uint64_t pixel_bytes_of(const TargetStorage& s) {
@@ -95,10 +106,12 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
     }
     if (!sort_for(state)) return false;
     const SortedFragments& sorted = scratch_->sorted.present();
-    const bool has_order =
-        selection.keeps == Keeps::ends && std::ranges::any_of(state.color, [&](Target t) {
-            return t.exists() && info(at(t).format()).type != ChannelType::unorm8 && t != state.color[0];
-        });
+    const Target own =
+        selection.keeps == Keeps::last_run ? state.color[1] : state.color[0];  // not blended with colours
+    const bool blends_all = selection.keeps == Keeps::ends || selection.keeps == Keeps::last_run;
+    const bool has_order = blends_all && std::ranges::any_of(state.color, [&](Target t) {
+                               return t.exists() && info(at(t).format()).type != ChannelType::unorm8 && t != own;
+                           });
     if (has_order && !sorted.has_plain_colors()) return false;
     // Where a window holds most of the fragments, it is cheaper to visit all of them in a row.
     scratch_->selected.is_ready = selection.keeps == Keeps::window;
@@ -122,7 +135,8 @@ bool Region::sort_for(const PassState& state) {
     }
     if (!find_or_sort(state, request)) return false;
     if (!selection.by_reference || scratch_->sorted.present().stores_reference()) return true;
-    const bool is_bounded = selection.before.exists() || selection.up_to.exists() || selection.most != ~0u;
+    const bool is_bounded = selection.before.exists() || selection.also_before.exists() || selection.up_to.exists() ||
+                            selection.most != ~0u;
     if (selection.keeps != Keeps::nearest || state.stencil.enabled || is_bounded || frame_.key != DepthKey::stored_code)
         return false;
     request.by_reference = true;
@@ -178,9 +192,13 @@ Drawn Region::book_selected(const PassState& state, const Counters& before, cons
     const FragmentSelection& selection = state.selection;
     if (selection.keeps == Keeps::arrivals) return book_arrivals(state, visited);
     Counters& counters = record().counters;
-    if (selection.keeps == Keeps::window) {
-        count_unvisited(state, selected.inside);
-        counters.discarded += sorted.size() - selected.inside;
+    if (selection.keeps == Keeps::window || selection.keeps == Keeps::run) {
+        const std::uint64_t killed = selected.inside - selected.visited();  // by the stencil, of a run
+        count_unvisited(state, selected.visited());
+        counters += {.discarded = sorted.size() - selected.inside,
+                     .stencil_killed = killed,
+                     .bytes_read = killed,
+                     .bytes_written = killed};
         return visited;
     }
     counters = before;
@@ -198,7 +216,8 @@ Drawn Region::book_selected(const PassState& state, const Counters& before, cons
         case Outside::one_value: arriving = sorted.size(); break;
     }
     Drawn drawn;
-    drawn.passed.own_ = selection.keeps == Keeps::ends ? arriving : selected.passed;
+    const bool passes_all = selection.keeps == Keeps::ends || selection.keeps == Keeps::last_run;
+    drawn.passed.own_ = passes_all ? arriving : selected.passed;
     drawn.tallied = visited.tallied;
     if (state.stencil.enabled)
         counters += {.stencil_killed = selected.killed, .bytes_read = arriving, .bytes_written = arriving};
@@ -219,8 +238,13 @@ Drawn Region::book_arrivals(const PassState& state, const Drawn& visited) {
     Counters& counters = record().counters;
     count_unvisited(state, kept);
     counters.discarded += sorted.hidden();
-    const std::uint64_t tests = (sorted.size() - kept) * samples_of_pass();
+    const std::uint64_t other_samples = scratch_->selected.is_routed ? kept * (samples_of_pass() - 1) : 0;
+    const std::uint64_t tests = (sorted.size() - kept) * samples_of_pass() + other_samples;
     counters += {.stencil_killed = tests, .bytes_read = tests, .bytes_written = tests};
+    if (scratch_->selected.is_routed) {
+        finish_waiting(state);
+        return visited;
+    }
     count_down(state, [&](std::size_t p) {
         const std::size_t done = state.selection.first_arrival + samples_of_pass();
         return sorted.of(p).size() - std::min(sorted.of(p).size(), done);

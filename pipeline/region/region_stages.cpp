@@ -1,6 +1,7 @@
 // pipeline/region/region_stages.cpp - a batch's way from the rasterizer to the render targets, in OpenGL's order: texture and MASK,
 // (the fragment program), alpha test, depth units, stencil test, depth test, query, blending. fragment-stages.md 1.
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "pipeline/formats/convert.h"
@@ -107,12 +108,14 @@ bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
     const std::size_t left = rect_.area() - next;
     const std::size_t count = std::min<std::size_t>(left, batch_capacity);
     const auto width = static_cast<std::size_t>(rect_.width());
-    std::size_t x = next % width, y = next / width;
-    for (std::size_t i = 0; i < count; ++i) {
-        batch.pixel[i] = static_cast<std::uint32_t>(next + i);
-        batch.x[i] = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.x0) + x);
-        batch.y[i] = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.y0) + y);
-        if (++x == width) x = 0, ++y;
+    std::iota(batch.pixel.begin(), batch.pixel.begin() + static_cast<std::ptrdiff_t>(count), static_cast<Word>(next));
+    for (std::size_t i = 0; i < count;) {
+        const std::size_t x = (next + i) % width, y = (next + i) / width, end = std::min(count, i + width - x);
+        const auto first_x = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.x0) + x);
+        for (std::size_t k = i; k < end; ++k) batch.x[k] = static_cast<std::uint16_t>(first_x + (k - i));
+        std::fill(batch.y.begin() + static_cast<std::ptrdiff_t>(i), batch.y.begin() + static_cast<std::ptrdiff_t>(end),
+                  static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.y0) + y));
+        i = end;
     }
     next += count;
     batch.count = static_cast<int>(count);

@@ -13,6 +13,7 @@ using namespace strata::testing;
 using strata::peeling::RenderOptions;
 using strata::peeling::RenderResult;
 using strata::pipeline::DepthFormat;
+using strata::pipeline::Execution;
 using strata::pipeline::Fault;
 
 constexpr Rgba background{0.25f, 0.5f, 0.8f, 1};
@@ -95,6 +96,32 @@ TEST_CASE("batches of objects whose depths overlap, boundaries included, show wh
         CHECK(batched.audit.lost_by_ties == whole.audit.lost_by_ties);
         CHECK(batched.frame.iterations == batched.frame.passes.geometry);
         CHECK(batched.frame.counters.fragments_rasterized < 2 * whole.frame.counters.fragments_rasterized);
+    }
+}
+
+TEST_CASE("a limit that counts passes across loops ends a frame of tiles where it ends the whole frame") {
+    Random random{20241108};
+    FragmentScene all{16, 16};
+    const auto list = objects(random, 11, 0.5f, all);
+    RenderOptions options = options_for(all);
+    for (const int tile_size : {8, 32}) {
+        int passes = 0;
+        for (int most = 1; most <= passes + 2; ++most) {
+            options.max_passes = most;
+            options.tile_size = tile_size;
+            options.execution = Execution::literal;
+            const RenderResult literal = render(list, {}, {"geforce8", "batched"}, options);
+            options.execution = Execution::replay;
+            const RenderResult tiled = render(list, {}, {"geforce8", "batched"}, options);
+            passes = std::max(passes, literal.frame.passes.geometry);
+            INFO("tiles of " << tile_size << ", at most " << most << " passes, " << passes << " made");
+            CHECK(tiled.frame.color == literal.frame.color);
+            CHECK(tiled.frame.counters == literal.frame.counters);
+            CHECK(tiled.frame.passes == literal.frame.passes);
+            CHECK(tiled.frame.iterations == literal.frame.iterations);
+            CHECK(tiled.frame.diagnostics == literal.frame.diagnostics);
+        }
+        CHECK(passes > 20);
     }
 }
 

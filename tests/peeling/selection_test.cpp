@@ -2,6 +2,7 @@
 // layers that the scene was built with.
 #include <catch2/catch.hpp>
 #include <stdexcept>
+#include <tuple>
 
 #include "peeling/registry.h"
 #include "tests/peeling/rendering.h"
@@ -24,20 +25,25 @@ RenderOptions frame_of_many_tiles() {
     return options;
 }
 
-enum class Arrival : std::uint8_t { shuffled, near_to_far, far_to_near };
+enum class Arrival : std::uint8_t { shuffled, near_to_far, far_to_near, nearly_sorted };
 
 // `layers` at every pixel, by default in an order of arrival that is no order of depth.
-FragmentScene deep_scene(std::uint32_t layers, Arrival arrival = Arrival::shuffled) {
-    FragmentScene scene{16, 16};
+FragmentScene deep_scene(std::uint32_t layers, Arrival arrival = Arrival::shuffled, int side = 16) {
+    FragmentScene scene{side, side};
     Random random{5};
     for (auto& pixel : scene.pixels) {
         std::vector<std::uint32_t> order(layers);
         for (std::uint32_t k = 0; k < layers; ++k) order[k] = k;
         if (arrival == Arrival::shuffled) std::shuffle(order.begin(), order.end(), random);
+        // Some neighbours swapped; and below, every fifth fragment as deep as the one before it.
+        const bool is_nearly_sorted = arrival == Arrival::nearly_sorted;
+        for (std::uint32_t k = 1; k < layers && is_nearly_sorted;
+             k += static_cast<std::uint32_t>(random_int(random, 2, 60)))
+            std::swap(order[k - 1], order[k]);
         if (arrival == Arrival::far_to_near) std::reverse(order.begin(), order.end());
         for (const std::uint32_t k : order)
-            pixel.fragments.push_back(
-                {static_cast<float>(k + 1) / 2048.0f, {random_channel(random), 0.5f, 0.25f, 0.5f}});
+            pixel.fragments.push_back({static_cast<float>(is_nearly_sorted && k % 5 == 4 ? k : k + 1) / 2048.0f,
+                                       {random_channel(random), 0.5f, 0.25f, 0.5f}});
     }
     return scene;
 }
@@ -151,6 +157,37 @@ TEST_CASE("coherent peeling visits what its iterations keep, not all that is lef
             CHECK(frame.iterations == static_cast<int>(layers / 2));
             CHECK(frame.work.visited >= std::uint64_t{layers} * scene.pixels.size());
             CHECK(frame.work.visited <= std::uint64_t{4} * layers * scene.pixels.size());
+        }
+}
+
+TEST_CASE("coherent peeling visits what its iterations keep where a stencil no longer counts all updates", "[slow]") {
+    for (const auto& [profile, algorithm, most_a_layer] :
+         {std::tuple{"geforce8", "coherent_stencil", 9u}, std::tuple{"ideal", "coherent_ideal", 5u}})
+        for (const Arrival arrival : {Arrival::far_to_near, Arrival::near_to_far})
+            for (const std::uint32_t layers : {300u, 900u}) {
+                const FragmentScene scene = deep_scene(layers, arrival);
+                RenderOptions options = options_for(scene);
+                options.tile_size = 8;
+                options.audit = false;
+                const auto frame = render(scene, {profile, algorithm}, options).frame;
+                INFO(algorithm << ", " << layers << " layers, " << frame.iterations << " iterations");
+                CHECK(frame.work.visited >= std::uint64_t{layers} * scene.pixels.size());
+                CHECK(frame.work.visited <= std::uint64_t{most_a_layer} * layers * scene.pixels.size());
+            }
+}
+
+TEST_CASE("runs in deep columns are what visiting everything finds, in every order of arrival", "[slow]") {
+    for (const auto& [profile, algorithm] :
+         {std::pair{"geforce8", "coherent_stencil"}, std::pair{"geforce8", "coherent_blend"},
+          std::pair{"ideal", "coherent_ideal"}})
+        for (const Arrival arrival :
+             {Arrival::far_to_near, Arrival::near_to_far, Arrival::shuffled, Arrival::nearly_sorted}) {
+            const FragmentScene scene = deep_scene(300, arrival, 4);
+            const DrawList list = draw_list(scene);
+            RenderOptions options = options_for(scene);
+            options.audit = false;
+            INFO(algorithm << ", arrival " << static_cast<int>(arrival));
+            CHECK_NOTHROW(render(list, {}, {profile, algorithm}, options, {.check_selections = true}));
         }
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How long every peel takes beside the a_buffer of the same run: by device, format, layers and limits.
 
-    tools/bench/peels.py [--slices 64,256] [--size 512x512] [--orders near] [--models ../shared/models] [--repeat 3]
+    tools/bench/peels.py [--slices 64,256] [--size 512x512] [--orders near] [--models ../shared/models] [--formats rgba8] [--repeat 3]
 
 Standard library alone. A row is a job; its time is the processor's, which other work on the machine disturbs little; its ratio is over
 a_buffer's of the same profile, format and run. `most` is what the ratio is to keep to; the exit status is 1 if one does not.
@@ -29,10 +29,12 @@ def parse_arguments():
     parser.add_argument("--slices", default="64,256", help="planes of the stack, with commas between")
     parser.add_argument("--orders", default="near,far", help="which end of the stack is drawn first")
     parser.add_argument("--profiles", default=",".join(FORMATS))
+    parser.add_argument("--formats", default="rgba8,rgba16f,rgba32f", help="of those that a profile has")
+    parser.add_argument("--limits", default=f"all,{LIMIT}", help="passes at most; all: to the last layer")
     parser.add_argument("--algorithms", default=",".join(PEELS))
     parser.add_argument("--size", default="512x512")
     parser.add_argument("--model-size", default="1024x1024")
-    parser.add_argument("--models", default=str(ROOT / "../shared/models"), help="folder with bunny.glb and dragon.glb")
+    parser.add_argument("--models", default=str(ROOT / "../shared/models"), help="folder with bunny.glb and dragon.glb; empty: none")
     parser.add_argument("--repeat", default="5", help="frames of a job that are timed together")
     options = parser.parse_args()
     if not pathlib.Path(options.strata).exists():
@@ -72,10 +74,10 @@ def jobs(options, scene, size, profile, color_format, extra):
 
 
 def scenes_of(options):
-    for slices in options.slices.split(","):
+    for slices in filter(None, options.slices.split(",")):
         for order in options.orders.split(","):
             yield f"volume-beam:slices={slices},order={order}", options.size, [], MOST_ON_SLICES, {}
-    for model in ("bunny", "dragon"):
+    for model in ("bunny", "dragon") if options.models else ():
         path = pathlib.Path(options.models) / f"{model}.glb"
         if path.exists():
             yield str(path), options.model_size, ["--alpha", "0.5"], 2.0, MOST_ON_MODELS
@@ -96,13 +98,13 @@ def main():
     options = parse_arguments()
     kept, ratios = True, {}
     print(f"# Every peel beside the oracle\n\nMade by `tools/bench/peels.py {' '.join(sys.argv[1:])}`: processor time of a frame on one thread, over "
-          "{options.repeat} frames; ratios over the a_buffer of the same profile, format and run. `most` is what a ratio is to keep to.\n")
+          f"{options.repeat} frames; ratios over the a_buffer of the same profile, format and run. `most` is what a ratio is to keep to.\n")
     print("| scene | profile | format | passes | job | ms | a_buffer | ratio | most | kept |")
     print("|" + "---|" * 10)
     for scene, size, extra, most, exceptions in scenes_of(options):
         for profile in options.profiles.split(","):
-            for color_format in FORMATS.get(profile, ["rgba8"]):
-                for limit in ([], ["--max-passes", str(LIMIT)]):
+            for color_format in [f for f in FORMATS.get(profile, ["rgba8"]) if f in options.formats.split(",")]:
+                for limit in [[] if most_passes == "all" else ["--max-passes", most_passes] for most_passes in options.limits.split(",")]:
                     times = jobs(options, scene, size, profile, color_format, extra + limit)
                     base = times.pop("a_buffer")
                     for algorithm, ms in times.items():

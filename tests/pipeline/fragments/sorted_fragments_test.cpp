@@ -74,19 +74,35 @@ void fill_columns(Random& random, int batches, int codes, StoredColumns& to) {
 const SortRequest without_faint{.alpha = {.enabled = true, .func = CompareFunc::gequal, .ref = 0.25f},
                                 .eight_bit_alpha = false};
 
-// The columns' fragments in the order of arrival: places rise with it.
-std::uint32_t passing_one_by_one(std::span<const std::uint64_t> words, std::uint32_t first, std::uint32_t last) {
-    std::vector<std::uint64_t> arrived(words.begin() + first, words.begin() + last);
+std::uint32_t place_of(std::uint64_t word) { return static_cast<std::uint32_t>(word); }
+
+// Fragments of a column in the order of arrival: places rise with it.
+std::vector<std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t> words) {
+    std::vector<std::uint64_t> arrived(words.begin(), words.end());
     std::sort(arrived.begin(), arrived.end(),
-              [](std::uint64_t a, std::uint64_t b) { return (a & 0xffffffff) < (b & 0xffffffff); });
-    std::uint64_t stored = ~std::uint64_t{0};
-    std::uint32_t passed = 0;
+              [](std::uint64_t a, std::uint64_t b) { return place_of(a) < place_of(b); });
+    return arrived;
+}
+
+// What the sorting of some batches leaves: it needs their store no longer.
+SortedFragments sorted_columns(Random& random) {
+    StoredColumns given;
+    fill_columns(random, 60, 40, given);
+    SortedFragments sorted;
+    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    return sorted;
+}
+
+// Those of `arrived` that are nearer than all before them.
+std::vector<std::uint64_t> updates_by(const std::vector<std::uint64_t>& arrived) {
+    std::vector<std::uint64_t> updates;
     for (const std::uint64_t word : arrived)
-        if (word >> 32 < stored) {
-            stored = word >> 32;
-            ++passed;
-        }
-    return passed;
+        if (updates.empty() || word >> 32 < updates.back() >> 32) updates.push_back(word);
+    return updates;
+}
+
+std::uint32_t passing_one_by_one(std::span<const std::uint64_t> words, std::uint32_t first, std::uint32_t last) {
+    return static_cast<std::uint32_t>(updates_by(in_order_of_arrival(words.subspan(first, last - first))).size());
 }
 
 }  // namespace
@@ -109,7 +125,8 @@ TEST_CASE("sorted fragments are each pixel's by key and arrival, without those t
             REQUIRE(words.size() == given.columns[p].size());
             for (std::size_t k = 0; k < words.size(); ++k) {
                 const auto place = static_cast<std::uint32_t>(words[k]);
-                given.store.fetch({&place, 1}, {.code = true, .color = true}, *one);
+                given.store.fetch({&place, 1}, {.code = true, .color = true},
+                                  strata::pipeline::FragmentStore::Numbers::no, *one);
                 const SortedArrival& expected = given.columns[p][k];
                 wrong +=
                     one->code[0] == expected.key && one->color[0][0] == expected.red && words[k] >> 32 == expected.key
@@ -153,23 +170,86 @@ TEST_CASE("a bound is found wherever its finger stood, and as many fragments pas
 
 TEST_CASE("the updates of a depth buffer are found one by one from the nearest back") {
     Random random{20};
-    StoredColumns given;
-    fill_columns(random, 60, 40, given);
-    SortedFragments sorted;
-    REQUIRE(sorted.sort(given.store, {}, column_pixels, std::uint64_t{64} << 20));
+    SortedFragments sorted = sorted_columns(random);
     int wrong = 0;
     for (std::size_t p = 0; p < column_pixels; ++p) {
         const auto words = sorted.of(p);
         const auto size = static_cast<std::uint32_t>(words.size());
         const std::uint32_t first = size / 4;
-        std::vector<std::uint64_t> arrived(words.begin() + first, words.end());
-        std::sort(arrived.begin(), arrived.end(),
-                  [](std::uint64_t a, std::uint64_t b) { return (a & 0xffffffff) < (b & 0xffffffff); });
-        std::vector<std::uint64_t> updates;
-        for (const std::uint64_t word : arrived)
-            if (updates.empty() || word >> 32 < updates.back() >> 32) updates.push_back(word);
+        const std::vector<std::uint64_t> updates = updates_by(in_order_of_arrival(words.subspan(first)));
         for (std::uint32_t n = 1; n <= updates.size(); ++n)
             wrong += words[sorted.update(p, first, size, n)] == updates[n - 1] ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("an update is the same one wherever its finger stood, and what arrived after it is counted") {
+    Random random{23};
+    SortedFragments sorted = sorted_columns(random);
+    int wrong = 0, looked = 0;
+    for (int look = 0; look < 20'000; ++look) {
+        const auto p = static_cast<std::size_t>(random_int(random, 0, column_pixels - 1));
+        const auto words = sorted.of(p);
+        const auto size = static_cast<std::uint32_t>(words.size());
+        const auto first = static_cast<std::uint32_t>(random_int(random, 0, static_cast<int>(size)));
+        const std::uint32_t passing = passing_one_by_one(words, first, size);
+        if (passing == 0) continue;
+        const auto n = std::min(passing, static_cast<std::uint32_t>(random_int(random, 1, 3)));
+        const std::vector<std::uint64_t> arrived = in_order_of_arrival(words.subspan(first));
+        const std::vector<std::uint64_t> updates = updates_by(arrived);
+        const std::uint32_t found = sorted.update(p, first, size, n);
+        wrong += words[found] == updates[n - 1] ? 0 : 1;
+        const auto later = std::count_if(arrived.begin(), arrived.end(),
+                                         [&](std::uint64_t word) { return place_of(word) > place_of(updates[n - 1]); });
+        wrong += sorted.arrived_after(p, first, size, found) == later ? 0 : 1;
+        ++looked;
+    }
+    CHECK(wrong == 0);
+    CHECK(looked > 10'000);
+}
+
+TEST_CASE("of any piece of the columns the first arrival is found, and the next one before a place") {
+    Random random{24};
+    SortedFragments sorted = sorted_columns(random);
+    const EarliestIndex& index = sorted.earliest();
+    const auto all = static_cast<int>(sorted.size());
+    int wrong = 0;
+    for (int look = 0; look < 20'000; ++look) {
+        const int reach = look % 2 == 0 ? 70 : all;
+        const auto first = static_cast<std::size_t>(random_int(random, 0, all));
+        const auto last = std::min(sorted.size(), first + static_cast<std::size_t>(random_int(random, 0, reach)));
+        std::uint32_t least = ~0u;
+        for (std::size_t k = first; k < last; ++k) least = std::min(least, place_of(sorted.word(k)));
+        wrong += index.earliest(first, last) == least ? 0 : 1;
+        const auto place = static_cast<std::uint32_t>(random_int(random, 0, 1 << 12));
+        std::size_t found = first;
+        while (found < last && place_of(sorted.word(found)) >= place) ++found;
+        wrong += index.first_before(first, last, place) == found ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("without its first arrivals a range passes as a depth buffer lets the others through") {
+    Random random{25};
+    SortedFragments sorted = sorted_columns(random);
+    int wrong = 0;
+    for (int look = 0; look < 20'000; ++look) {
+        const auto p = static_cast<std::size_t>(random_int(random, 0, column_pixels - 1));
+        const auto words = sorted.of(p);
+        const auto size = static_cast<int>(words.size());
+        const auto first = static_cast<std::uint32_t>(random_int(random, 0, size));
+        const auto last = static_cast<std::uint32_t>(random_int(random, static_cast<int>(first), size));
+        std::vector<std::uint32_t> dead(last - first);
+        for (std::uint32_t k = 0; k < dead.size(); ++k) dead[k] = first + k;
+        std::sort(dead.begin(), dead.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return place_of(words[a]) < place_of(words[b]); });
+        dead.resize(static_cast<std::size_t>(random_int(random, 0, static_cast<int>(dead.size()))));
+        std::sort(dead.begin(), dead.end());
+        std::vector<std::uint64_t> left;
+        for (std::uint32_t k = first; k < last; ++k)
+            if (!std::ranges::binary_search(dead, k)) left.push_back(words[k]);
+        const std::uint32_t expected = passing_one_by_one(left, 0, static_cast<std::uint32_t>(left.size()));
+        wrong += sorted.passing_without(p, first, last, dead) == expected ? 0 : 1;
     }
     CHECK(wrong == 0);
 }
@@ -189,7 +269,7 @@ TEST_CASE("a part of the primitives is sorted as if there were no others") {
         std::vector<std::uint64_t> expected;
         for (const std::uint64_t word : all.of(p)) {
             const auto place = static_cast<std::uint32_t>(word);
-            given.store.fetch({&place, 1}, {}, *one);
+            given.store.fetch({&place, 1}, {}, strata::pipeline::FragmentStore::Numbers::yes, *one);
             const std::uint32_t n = one->primitive[0];
             if ((n >= 3 && n < 9) || n == 12 || (n >= 40 && n < 48)) expected.push_back(word);
         }
@@ -217,7 +297,8 @@ TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffe
             std::vector<Arrival> arrivals;
             for (const std::uint64_t word : sorted.of(p)) {
                 const auto place = static_cast<std::uint32_t>(word);
-                given.store.fetch({&place, 1}, {.code = true, .color = false, .reference = true}, *one);
+                given.store.fetch({&place, 1}, {.code = true, .color = false, .reference = true},
+                                  strata::pipeline::FragmentStore::Numbers::no, *one);
                 arrivals.push_back({place, one->reference_code[0], one->code[0]});
                 wrong += word >> 32 == one->reference_code[0] ? 0 : 1;
             }
@@ -249,7 +330,7 @@ TEST_CASE("what has no order, or no room, is not sorted") {
     StoredColumns given;
     fill_columns(random, 10, 40, given);
     SortedFragments sorted;
-    const std::uint64_t needed = given.store.used_bytes() + 12 * (given.rasterized - given.masked) + 32 * column_pixels;
+    const std::uint64_t needed = given.store.used_bytes() + 17 * (given.rasterized - given.masked) + 57 * column_pixels;
     CHECK_FALSE(sorted.sort(given.store, {}, column_pixels, needed - 1));
     CHECK(sorted.sort(given.store, {}, column_pixels, needed));
     CHECK(sorted.sort(given.store, {.key = DepthKey::shader_z}, column_pixels, needed));

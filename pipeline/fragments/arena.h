@@ -1,4 +1,4 @@
-// pipeline/region/arena.h - memory that a region takes in pieces and gives back as a whole; kept from region to region.
+// pipeline/fragments/arena.h - memory that a region takes in pieces and gives back as a whole; kept from region to region.
 #pragma once
 #include <algorithm>
 #include <cstddef>

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""What else is bounded beside peels.py's rows: formats, devices, commands that run everything.
+
+    tools/bench/bounds.py [--models ../shared/models] [--captures ../shared/nv2a] [--before STRATA] [--repeat 3] [--rows formats,...]
+
+Standard library alone. Every ratio is of two processor times of one run of this script, the median of `--repeat` pairs taken in turn.
+`--before` is a built command to compare whole commands with; without it their rows are left out. Exit status 1 if a bound is not kept.
+"""
+import argparse
+import pathlib
+import statistics
+import sys
+
+from peels import ROOT, bench_command, frame_ms, processor_ms
+
+MODEL_SIZE, SLICES = "1024x1024", "volume-beam:slices=64,order=near"
+FRAMES = 3  # of a job that are timed together
+LAYERED = ["front_to_back", "dual", "layer_peel", "depth_units", "coherent_blend", "stencil_routed_k_buffer"]
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--strata", default=str(ROOT / "build/release/strata"), help="the built command")
+    parser.add_argument("--before", help="another build of it, for the rows that compare whole commands")
+    parser.add_argument("--models", default=str(ROOT / "../shared/models"), help="folder with bunny.glb and dragon.glb")
+    parser.add_argument("--captures", default=str(ROOT / "../shared/nv2a"), help="pictures for hardware-check")
+    parser.add_argument("--size", default=MODEL_SIZE, help="of the models' frames")
+    parser.add_argument("--repeat", type=int, default=3, help="pairs of a row")
+    parser.add_argument("--rows", default="formats,devices,layers,check", help="which groups of rows")
+    options = parser.parse_args()
+    if not pathlib.Path(options.strata).exists():
+        sys.exit(f"bounds.py: --strata: expected the built command, found nothing at {options.strata}")
+    return options
+
+
+class Table:
+    def __init__(self, repeat):
+        self.repeat, self.kept = repeat, True
+        print("| what | first ms | second ms | ratio | bound | kept |\n|" + "---|" * 6)
+
+    def row(self, what, first, second, bound, at_least=False):
+        """`first` and `second` measure milliseconds when called; the bound is on first / second."""
+        pairs = [(first(), second()) for _ in range(self.repeat)]
+        ratio = statistics.median(a / b for a, b in pairs)
+        keeps = ratio >= bound if at_least else ratio <= bound
+        self.kept = self.kept and keeps
+        a, b = (statistics.median(pair[side] for pair in pairs) for side in (0, 1))
+        print(f"| {what} | {a:.1f} | {b:.1f} | {ratio:.2f} | {'at least' if at_least else 'at most'} {bound} | "
+              f"{'yes' if keeps else '**no**'} |", flush=True)
+
+
+def models(options):
+    for name in ("bunny", "dragon"):
+        path = pathlib.Path(options.models) / f"{name}.glb"
+        if path.exists():
+            yield name, str(path)
+        else:
+            print(f"bounds.py: no {path}: its rows are missing", file=sys.stderr)
+
+
+def frame(options, scene, size, profile, color_format, algorithm, extra=()):
+    command = bench_command(options, scene, size, profile, color_format, extra)
+    return lambda: frame_ms(command, algorithm, FRAMES)
+
+
+def format_rows(options, table):
+    scenes = [("64 planes", SLICES, "128x128", ()), *((n, p, options.size, ("--alpha", "0.5")) for n, p in models(options))]
+    for name, scene, size, extra in scenes:
+        for algorithm in ("dual", "weighted_average"):
+            for color_format, bound in (("rgba16f", 1.5), ("rgba32f", 2)):
+                table.row(f"{name}, {algorithm}, {color_format} to rgba8",
+                          frame(options, scene, size, "geforce8_dx101", color_format, algorithm, extra),
+                          frame(options, scene, size, "geforce8_dx101", "rgba8", algorithm, extra), bound)
+
+
+def device_rows(options, table):
+    alpha = ("--alpha", "0.5")
+    for name, scene in models(options):
+        for algorithm in ("depth", "depth_units"):
+            table.row(f"{name}, {algorithm}, geforce3 to geforce8", frame(options, scene, options.size, "geforce3", "rgba8", algorithm, alpha),
+                      frame(options, scene, options.size, "geforce8", "rgba8", algorithm, alpha), 1.5)
+        limited = (*alpha, "--max-passes", "8")
+        table.row(f"{name}, eight passes on geforce3, shadow_map to depth_units",
+                  frame(options, scene, options.size, "geforce3", "rgba8", "shadow_map", limited),
+                  frame(options, scene, options.size, "geforce3", "rgba8", "depth_units", limited), 1.5)
+
+
+def layer_rows(options, table):
+    def layers(strata, algorithm):
+        return lambda: processor_ms([strata, "layers", SLICES, "--size", "96x96", "--profile", "geforce8", "--algorithm", algorithm,
+                                     "--threads", "1", "--stats", "-"])
+    for algorithm in LAYERED:
+        table.row(f"strata layers, {algorithm}, before to now", layers(options.before, algorithm), layers(options.strata, algorithm), 2,
+                  at_least=True)
+
+
+def check_rows(options, table):
+    if not pathlib.Path(options.captures).is_dir():
+        return print(f"bounds.py: no {options.captures}: its row is missing", file=sys.stderr)
+    check = ["hardware-check", options.captures, "--json"]
+    table.row("strata hardware-check, before to now", lambda: processor_ms([options.before, *check]),
+              lambda: processor_ms([options.strata, *check]), 2, at_least=True)
+
+
+def main():
+    options = parse_arguments()
+    table = Table(options.repeat)
+    groups = {"formats": format_rows, "devices": device_rows, "layers": layer_rows, "check": check_rows}
+    for name in options.rows.split(","):
+        if name not in groups:
+            sys.exit(f"bounds.py: --rows: expected {', '.join(groups)}, found '{name}'")
+        if name in ("layers", "check") and not options.before:
+            print(f"bounds.py: no --before: the rows of {name} are missing", file=sys.stderr)
+            continue
+        groups[name](options, table)
+    sys.exit(0 if table.kept else 1)
+
+
+if __name__ == "__main__":
+    main()
