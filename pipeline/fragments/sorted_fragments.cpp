@@ -187,14 +187,14 @@ std::uint32_t SortedFragments::below(std::size_t pixel, std::uint64_t bound, Fin
 
 // A fragment passes if every fragment of the range that arrived before it is farther. Fragments nearer than the first
 // are peeled, so those that pass are the first in depth, the nearest behind it that arrived earlier, and so on.
-std::uint32_t SortedFragments::passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) noexcept {
+std::uint32_t SortedFragments::passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) {
     if (first >= last) return 0;
     if (updates_end_[pixel] != last) count_updates(pixel, last);
     return updates_[start_[pixel] + first];
 }
 
 // From the far end on; next_nearer_ is, in depth order, the next fragment that arrived before this one.
-void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) noexcept {
+void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) {
     const std::span<const std::uint64_t> words = of(pixel);
     std::uint32_t* const updates = updates_.data() + start_[pixel];
     if (next_nearer_.size() < words.size()) next_nearer_.resize(2 * words.size());
@@ -210,7 +210,7 @@ void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) noexc
 
 // Chains lead from the nearest to those that passed before it, one update fewer each.
 std::uint32_t SortedFragments::update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
-                                      std::uint32_t updates) noexcept {
+                                      std::uint32_t updates) {
     const std::span<const std::uint64_t> words = of(pixel);
     const auto place = [&](std::uint32_t k) { return static_cast<std::uint32_t>(words[k]); };
     std::uint32_t at = first;

@@ -71,10 +71,10 @@ class SortedFragments {
             __builtin_prefetch(words_.data() + start_[pixel] + finger_[static_cast<std::size_t>(finger)][pixel].at);
     }
     // How many of the fragments [first, last) pass a depth test LESS with a write, as they arrive.
-    [[nodiscard]] std::uint32_t passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) noexcept;
+    [[nodiscard]] std::uint32_t passing(std::size_t pixel, std::uint32_t first, std::uint32_t last);
     // The one of [first, last) that passes `updates`-th there, 1 <= updates <= passing. The last is the nearest.
     [[nodiscard]] std::uint32_t update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
-                                       std::uint32_t updates) noexcept;
+                                       std::uint32_t updates);
     // Bytes that the present sorting takes.
     [[nodiscard]] std::uint64_t bytes() const noexcept { return state_ == State::sorted ? needed_bytes() : 0; }
 
@@ -94,7 +94,7 @@ class SortedFragments {
     void take_stored(const FragmentStore& store);
     [[nodiscard]] bool has_sortable_keys(const rasterizer::FragmentBatch& batch) const noexcept;
     void look_at_values(const FragmentStore& store, const rasterizer::FragmentBatch& batch) noexcept;
-    void count_updates(std::size_t pixel, std::uint32_t last) noexcept;
+    void count_updates(std::size_t pixel, std::uint32_t last);
     void count_stored_updates(std::size_t pixel, std::uint32_t surface);
 
     State state_ = State::empty;
