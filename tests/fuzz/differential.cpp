@@ -166,8 +166,9 @@ FrameCase reduced(FrameCase frame) {
     return frame;
 }
 
-bool check(std::span<const std::uint8_t> bytes, std::ostream& out) {
-    const FrameCase frame = make_case(bytes);
+bool check(std::span<const std::uint8_t> bytes, std::ostream& out, int threads) {
+    FrameCase frame = make_case(bytes);
+    frame.options.threads = threads;
     const std::string what = first_difference(frame);
     if (what.empty()) return true;
     const FrameCase smallest = reduced(frame);

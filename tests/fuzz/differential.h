@@ -16,7 +16,7 @@ namespace strata::fuzz {
 // Without the triangles, state and ways that the difference does not need.
 [[nodiscard]] FrameCase reduced(FrameCase frame);
 
-// True if every way agrees; else prints the difference, the reduced case and the bytes.
-[[nodiscard]] bool check(std::span<const std::uint8_t> bytes, std::ostream& out);
+// True if every way agrees, on up to `threads` threads; else prints the difference, the reduced case and the bytes.
+[[nodiscard]] bool check(std::span<const std::uint8_t> bytes, std::ostream& out, int threads = 1);
 
 }  // namespace strata::fuzz

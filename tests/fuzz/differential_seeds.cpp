@@ -1,7 +1,8 @@
 // tests/fuzz/differential_seeds.cpp - the same frames without libFuzzer: the bytes of each come from its seed.
-// Run: differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference;
+// Run: differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference; --seeds A..B --threads N on N threads;
 //      differential_seeds --write FOLDER: the bytes of the first hundred as files for libFuzzer to start from.
 #include <charconv>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -53,16 +54,18 @@ int main(int count, char** words) {
         write(words[2]);
         return 0;
     }
-    const std::optional<Seeds> seeds =
-        count == 3 && std::string_view{words[1]} == "--seeds" ? parse(words[2]) : std::nullopt;
+    const bool has_threads = count == 5 && std::string_view{words[3]} == "--threads";
+    const int threads = has_threads ? std::atoi(words[4]) : 1;
+    const bool is_run = (count == 3 || has_threads) && std::string_view{words[1]} == "--seeds" && threads > 0;
+    const std::optional<Seeds> seeds = is_run ? parse(words[2]) : std::nullopt;
     if (!seeds) {
-        std::cerr << "differential_seeds --seeds A..B | --write FOLDER\n";
+        std::cerr << "differential_seeds --seeds A..B [--threads N] | --write FOLDER\n";
         return 2;
     }
     for (std::uint64_t seed = seeds->first; seed < seeds->end; ++seed) {
         bool agrees = false;
         try {
-            agrees = strata::fuzz::check(bytes_of(seed), std::cerr);
+            agrees = strata::fuzz::check(bytes_of(seed), std::cerr, threads);
         } catch (const std::exception& error) {
             std::cerr << error.what() << '\n';
         }
