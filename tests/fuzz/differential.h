@@ -10,6 +10,8 @@
 
 namespace strata::fuzz {
 
+[[nodiscard]] peeling::RenderResult run(const FrameCase& frame, const Way& way);
+
 // Which way differs from the first, and in what; empty if none does.
 [[nodiscard]] std::string first_difference(const FrameCase& frame);
 
