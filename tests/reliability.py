@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Makes tests/RELIABILITY.md: what is promised, how it was tried, how often, what was found, and what is not promised.
 
+    tools/test.sh --instrumented              # the builds under sanitizers
     tests/reliability.py build/release        # runs what counts, some minutes on a free machine, and writes the page
 
-A figure on the page comes from the command beside it; where a command finds a fault, nothing is written.
+A figure on the page comes from the command beside it; where a command finds a fault, nothing is written. What a command printed is
+kept in BUILD_FOLDER/reliability, so that a second call goes on where the first ended: remove the folder to try everything anew.
 """
+import hashlib
 import pathlib
 import re
 import subprocess
@@ -20,21 +23,41 @@ ROWS = [
      "flags took values; sentences held line ends and bytes that are no UTF-8; a plan's text could be an object; names held zero bytes"),
     ("where memory runs out while a scene is made, the caller is told, nothing leaks, and the next call is whole",
      "BUILD/tests/faults/allocation_faults --load --all",
-     r"(\d+) jobs, (\d+) requests failed, 0 bad", "{1} requests of {0} jobs",
-     "nothing in scenes; in frames, see below"),
+     r"(\d+) jobs, (\d+) requests failed, 0 bad", "{1} requests of {0} jobs", "nothing"),
+    ("and where it runs out while a frame is drawn, by every algorithm and execution",
+     "BUILD/tests/faults/allocation_faults --render",
+     r"(\d+) jobs, (\d+) requests failed, 0 bad", "{1} requests of {0} jobs; `--all` tries each of the first 2,000 of a job",
+     "a destructor and a search that could not throw asked for memory, which ended the process"),
     ("whichever call of the system fails, files are old or new, and a sentence tells",
-     "BUILD/tests/tools/tools_test 'whichever call of the system*,a sweep whose calls*'",
-     r"All tests passed \((\d+) assertions", "every call of open, write, fsync and rename of eight commands, of files also close",
+     "BUILD/tests/tools/tools_test 'each single call of the system*,a sweep goes on after each single*'",
+     r"(\d+) calls failed", "{0} calls of open, write, fsync, rename and close, every one of nine commands and three sweeps",
      "outputs without fsync; temporary files that stayed"),
     ("the thread sanitizer's build (preset `tsan`) tells a race in a parallel loop, and nothing where there is none",
      "BUILD/tests/faults/race own",
      r"(4)", "four threads with places of their own; with one place for all `race shared` is told",
      "nothing"),
+    ("no two threads of a loop touch the same place without order",
+     "build/tsan/tests/golden/core_digests threads=4 tile=8 check=tests/golden/core_digests.txt && "
+     "build/tsan/tests/fuzz/differential_seeds --seeds 0..2000 --threads 4",
+     r"0 of (\d+) lines differ\n(\d+) frames: every way alike", "{0} lines of golden digests and {1} frames in all their ways, on four threads under the thread sanitizer",
+     "nothing"),
+    ("no bit comes from memory that nobody wrote",
+     "for s in tile=64 'execution=literal tile=8 effects=all'; do build/msan/tests/golden/core_digests simd=scalar $s | "
+     "diff - tests/golden/core_digests.txt && wc -l <tests/golden/core_digests.txt; done",
+     r"\n(\d+)(?=\n)", "{0} lines of golden digests, half of them drawn in every pass anew, under the memory sanitizer, by the scalar twins",
+     "nothing"),
+    ("a frame said in another way (meshes in two parts, corners that are not shared, points, things that nobody names) is the same picture",
+     "BUILD/tests/fuzz/differential_seeds --seeds 0..30000 --relations",
+     r"(\d+) frames: (\d+) relations hold", "{1} relations of {0} frames",
+     "nothing; meshes in two parts are other objects to object_sorted and batched, as they should be"),
+    ("other machines, big-endian ones too, give the same bits",
+     "for m in aarch64 s390x riscv64; do tools/cross.sh $m; done",
+     r"0 of (\d+) lines differ", "{0} lines of digests, a third of them on each of aarch64, s390x and riscv64",
+     "a header that was missing; the build asked Highway for a library that such machines have no use for"),
 ]
 
 NOT_PROMISED = [
-    "Memory that runs out while a frame is drawn: where a region's scratch memory goes back to its pool the process may end.",
-    "Memory that runs out while JSON is read or written: at two points the process ended, one in profiles and one in cameras; why is not traced.",
+    "Memory that runs out while JSON is read or written: nlohmann's values ask for memory where they are destroyed, and such a request that fails ends the process.",
     "A host's allocator that promises memory which the machine has not (Linux by default): the system ends the process.",
     "32-bit processors, and compilers without 128-bit integers.",
     "SIGKILL and a loss of power between two lines of a sweep: the line that was being written is measured again.",
@@ -43,11 +66,18 @@ NOT_PROMISED = [
 
 def figures_of(command, pattern, build):
     words = command.replace("BUILD", str(build))
-    ended = subprocess.run(["bash", "-c", words], cwd=ROOT, capture_output=True, text=True)
-    found = re.search(pattern, ended.stdout)
-    if ended.returncode != 0 or not found:
-        sys.exit(f"reliability.py: {words}: status {ended.returncode}:\n{ended.stdout[-2000:]}{ended.stderr[-500:]}")
-    return [f"{int(n):,}" for n in found.groups()]
+    kept = pathlib.Path(build) / "reliability" / (hashlib.sha1(command.encode()).hexdigest()[:12] + ".txt")
+    if not kept.exists():
+        ended = subprocess.run(["bash", "-c", words], cwd=ROOT, capture_output=True, text=True)
+        if ended.returncode != 0:
+            sys.exit(f"reliability.py: {words}: status {ended.returncode}:\n{ended.stdout[-2000:]}{ended.stderr[-500:]}")
+        kept.parent.mkdir(exist_ok=True)
+        kept.write_text(words + "\n" + ended.stdout)
+    found = [match.groups() for match in re.finditer(pattern, kept.read_text())]
+    if not found:
+        sys.exit(f"reliability.py: {words}: {kept} has no figure")
+    # Of a figure that is printed more than once, the sum.
+    return [f"{sum(int(one[i]) for one in found):,}" for i in range(len(found[0]))]
 
 
 def main():
@@ -58,10 +88,12 @@ def main():
              "| promise | tried | by | found on the way |", "|---|---|---|---|"]
     for promise, command, pattern, sentence, found in ROWS:
         figures = figures_of(command, pattern, sys.argv[1])
-        lines.append(f"| {promise} | {sentence.format(*figures)} | `{command.replace('BUILD', 'build/release')}` | {found} |")
+        shown = command.replace("BUILD", "build/release").replace("|", "\\|")  # in a table
+        lines.append(f"| {promise} | {sentence.format(*figures)} | `{shown}` | {found} |")
     lines += ["", "Not promised:", ""] + [f"- {line}" for line in NOT_PROMISED]
     lines += ["", "Whether the tests would see a fault is another question: `tools/mutate.py` puts changes of one step into the sources,",
-              "and [README.md](README.md) says how."]
+              "and [README.md](README.md) says how. Of a sample in rasterizer it was 114 of 134; pipeline and peeling have no figure yet, and",
+              "the share of branches that the tests take was not measured."]
     (ROOT / "tests" / "RELIABILITY.md").write_text("\n".join(lines) + "\n")
 
 

@@ -2,6 +2,7 @@
 # Installs what is missing, builds, and runs the tests.
 #   tools/test.sh               unit and golden tests; the fast ones under sanitizers; one minute of fuzzing
 #   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too
+#   tools/test.sh --instrumented  the core's golden scenes under the thread and the memory sanitizer, and 2,000 frames under the first
 #   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
 #   tools/test.sh --exhaustive  the tests that try every value
 set -euo pipefail
@@ -64,6 +65,29 @@ sanitized() {
     quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure -j "$(nproc)"
 }
 
+# Is a race found, and a number that nobody wrote? Then the core's own frames: on four threads, and on one by the scalar twins,
+# for the memory sanitizer takes a store of some lanes of a vector for one of all.
+instrumented() {
+    step "the core under the thread sanitizer (preset tsan)"
+    build tsan core_digests differential_seeds race
+    quietly tsan-race ctest --test-dir build/tsan -R '^faults' --output-on-failure
+    quietly tsan-digests build/tsan/tests/golden/core_digests threads=4 tile=8 check=tests/golden/core_digests.txt
+    build/tsan/tests/fuzz/differential_seeds --seeds 0..2000 --threads 4
+    if ! command -v clang++ >/dev/null; then
+        step "no clang++: the memory sanitizer left out"
+        return
+    fi
+    step "the core under the memory sanitizer (preset msan)"
+    build msan core_digests unset
+    quietly msan-unset ctest --test-dir build/msan -R '^faults' --output-on-failure
+    local settings
+    for settings in tile=64 "execution=literal tile=8 effects=all"; do
+        # The program does not read the file itself: the library's streams are not instrumented.
+        # shellcheck disable=SC2086
+        build/msan/tests/golden/core_digests simd=scalar $settings | diff - tests/golden/core_digests.txt
+    done
+}
+
 # The digests of tests/golden/core_digests.txt from a core of each compiler at each level of optimisation.
 matrix() {
     local compiler level folder
@@ -92,9 +116,10 @@ matrix() {
 case "${1:-}" in
     "") ;;
     --sanitizers) tools/setup.sh; sanitizers; exit 0 ;;
+    --instrumented) tools/setup.sh; instrumented; exit 0 ;;
     --matrix) tools/setup.sh; matrix; exit 0 ;;
     --exhaustive) tools/setup.sh; build release; ctest --preset exhaustive -j "$(nproc)"; exit 0 ;;
-    *) echo "tools/test.sh: expected nothing, --sanitizers, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
+    *) echo "tools/test.sh: expected nothing, --sanitizers, --instrumented, --matrix or --exhaustive, found '$1'" >&2; exit 2 ;;
 esac
 
 tools/setup.sh

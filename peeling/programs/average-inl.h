@@ -1,6 +1,8 @@
 // peeling/programs/average-inl.h - average_text-inl.h for vectors. For *_simd.cpp alone: Highway compiles it once a
 // set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3). Tests:
 // tests/peeling/programs/programs_test.cpp
+#include <cstdint>
+
 #include "hwy/highway.h"
 #include "rasterizer/base/numerics.h"
 

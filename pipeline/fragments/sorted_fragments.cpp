@@ -190,7 +190,7 @@ std::uint32_t SortedFragments::first_from(std::span<const std::uint64_t> words, 
 // A fragment passes if every fragment of the range that arrived before it is farther. Fragments nearer than the first
 // are peeled, so those that pass are the first in depth, the nearest behind it that arrived earlier, and so on.
 // From the far end on; next_nearer_ is, in depth order, the next fragment that arrived before this one.
-void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) noexcept {
+void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) {
     const std::span<const std::uint64_t> words = of(pixel);
     std::uint32_t* const updates = updates_.data() + start_[pixel];
     if (next_nearer_.size() < words.size()) next_nearer_.resize(2 * words.size());
@@ -209,7 +209,7 @@ void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) noexc
 // no fewer than the former. So the first with as many is the one. While nothing of the chain but its beginning is
 // peeled, it stays where it was found.
 std::uint32_t SortedFragments::update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
-                                      std::uint32_t updates) noexcept {
+                                      std::uint32_t updates) {
     static_cast<void>(passing(pixel, first, last));
     const std::uint32_t* const of_word = updates_.data() + start_[pixel];
     Found& found = finger_[static_cast<std::size_t>(Finger::update)][pixel];

@@ -88,14 +88,14 @@ class SortedFragments {
         __builtin_prefetch(updates_.data() + at);
     }
     // How many of the fragments [first, last) pass a depth test LESS with a write, as they arrive.
-    [[nodiscard]] std::uint32_t passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) noexcept {
+    [[nodiscard]] std::uint32_t passing(std::size_t pixel, std::uint32_t first, std::uint32_t last) {
         if (first >= last) return 0;
         if (updates_end_[pixel] != last) count_updates(pixel, last);
         return updates_[start_[pixel] + first];
     }
     // The one of [first, last) that passes `updates`-th there, 1 <= updates <= passing. The last is the nearest.
     [[nodiscard]] std::uint32_t update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
-                                       std::uint32_t updates) noexcept;
+                                       std::uint32_t updates);
     // How many of [first, last) arrived after that of number `word`, which passes there.
     [[nodiscard]] std::uint32_t arrived_after(std::size_t pixel, std::uint32_t first, std::uint32_t last,
                                               std::uint32_t word) {
@@ -142,7 +142,7 @@ class SortedFragments {
     void take_stored(const FragmentStore& store);
     [[nodiscard]] bool has_sortable_keys(const rasterizer::FragmentBatch& batch) const noexcept;
     void look_at_values(const FragmentStore& store, const rasterizer::FragmentBatch& batch) noexcept;
-    void count_updates(std::size_t pixel, std::uint32_t last) noexcept;
+    void count_updates(std::size_t pixel, std::uint32_t last);
     void count_later(std::size_t pixel, std::uint32_t last);
     [[nodiscard]] static ColumnArrival sort_column(std::span<std::uint64_t> words);
     void count_stored_updates(std::size_t pixel, std::uint32_t surface);

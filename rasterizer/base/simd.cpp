@@ -18,7 +18,11 @@ thread_local constinit Simd chosen = Simd::best;
 }  // namespace
 
 std::vector<Simd> available_simd() {
+#if HWY_ARCH_X86
     static const std::int64_t machine = hwy::SupportedTargets() & HWY_TARGETS;
+#else
+    constexpr std::int64_t machine = 0;  // the names above are x86's: all other machines run the scalar twins
+#endif
     std::vector<Simd> all{Simd::scalar};
     for (const Simd simd : {Simd::sse4, Simd::avx2, Simd::avx512})
         if ((machine & target_of(simd)) != 0) all.push_back(simd);

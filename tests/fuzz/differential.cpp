@@ -12,8 +12,6 @@
 
 namespace strata::fuzz {
 
-namespace {
-
 peeling::RenderResult run(const FrameCase& frame, const Way& way) {
     peeling::RenderOptions options = frame.options;
     options.execution = way.execution;
@@ -29,6 +27,8 @@ peeling::RenderResult run(const FrameCase& frame, const Way& way) {
         static_cast<void>(renderer.render(algorithm, {}, {.check_selections = true, .trust_idle = way.trust_idle}));
     return renderer.render(algorithm, {}, {.trust_idle = way.trust_idle});
 }
+
+namespace {
 
 // Keeps what `change` makes of the frame if it still differs.
 bool try_change(FrameCase& frame, const std::function<void(FrameCase&)>& change) {
@@ -166,8 +166,9 @@ FrameCase reduced(FrameCase frame) {
     return frame;
 }
 
-bool check(std::span<const std::uint8_t> bytes, std::ostream& out) {
-    const FrameCase frame = make_case(bytes);
+bool check(std::span<const std::uint8_t> bytes, std::ostream& out, int threads) {
+    FrameCase frame = make_case(bytes);
+    frame.options.threads = threads;
     const std::string what = first_difference(frame);
     if (what.empty()) return true;
     const FrameCase smallest = reduced(frame);

@@ -1,7 +1,9 @@
 // tests/fuzz/differential_seeds.cpp - the same frames without libFuzzer: the bytes of each come from its seed.
-// Run: differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference;
+// Run: differential_seeds --seeds A..B (B is left out), exit status 1 at the first difference; --seeds A..B --threads N on N threads,
+//      --seeds A..B --relations holds each frame against itself said in other ways;
 //      differential_seeds --write FOLDER: the bytes of the first hundred as files for libFuzzer to start from.
 #include <charconv>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +13,7 @@
 #include <string_view>
 
 #include "tests/fuzz/differential.h"
+#include "tests/fuzz/relations.h"
 
 namespace {
 
@@ -53,16 +56,23 @@ int main(int count, char** words) {
         write(words[2]);
         return 0;
     }
-    const std::optional<Seeds> seeds =
-        count == 3 && std::string_view{words[1]} == "--seeds" ? parse(words[2]) : std::nullopt;
+    const bool has_threads = count == 5 && std::string_view{words[3]} == "--threads";
+    const int threads = has_threads ? std::atoi(words[4]) : 1;
+    const bool has_relations = count == 4 && std::string_view{words[3]} == "--relations";
+    const bool is_run =
+        (count == 3 || has_threads || has_relations) && std::string_view{words[1]} == "--seeds" && threads > 0;
+    const std::optional<Seeds> seeds = is_run ? parse(words[2]) : std::nullopt;
     if (!seeds) {
-        std::cerr << "differential_seeds --seeds A..B | --write FOLDER\n";
+        std::cerr << "differential_seeds --seeds A..B [--threads N | --relations] | --write FOLDER\n";
         return 2;
     }
+    std::uint64_t relations = 0;
     for (std::uint64_t seed = seeds->first; seed < seeds->end; ++seed) {
         bool agrees = false;
         try {
-            agrees = strata::fuzz::check(bytes_of(seed), std::cerr);
+            const int held = has_relations ? strata::fuzz::check_relations(bytes_of(seed), std::cerr) : 0;
+            agrees = has_relations ? held > 0 : strata::fuzz::check(bytes_of(seed), std::cerr, threads);
+            relations += static_cast<std::uint64_t>(held);
         } catch (const std::exception& error) {
             std::cerr << error.what() << '\n';
         }
@@ -70,5 +80,9 @@ int main(int count, char** words) {
         std::cerr << "seed " << seed << '\n';
         return 1;
     }
-    std::cout << seeds->end - seeds->first << " frames: every way alike\n";
+    std::cout << seeds->end - seeds->first << " frames: ";
+    if (has_relations)
+        std::cout << relations << " relations hold\n";
+    else
+        std::cout << "every way alike\n";
 }
