@@ -11,9 +11,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/frame/trace.h"
+
 namespace strata::pipeline {
 struct CapturedFragment;
-struct TraceEntry;
 }  // namespace strata::pipeline
 namespace strata::peeling {
 struct Algorithm;
@@ -45,19 +46,22 @@ struct ComposedFrame {
 
 [[nodiscard]] Composited composited(const ComposedFrame& frame);
 
-// The fragments of every pixel, row by row, that lie before the opaque surface and are layers to the algorithm, in
-// submission order; and their keys.
+// A fragment that lies before the opaque surface and is a layer to the algorithm, and its key.
 struct VisibleFragment {
     std::uint32_t key = 0;
     const pipeline::CapturedFragment* fragment = nullptr;
 };
-[[nodiscard]] std::vector<std::vector<VisibleFragment>> visible_fragments(const ComposedFrame& frame);
 [[nodiscard]] bool has_tie(const std::vector<VisibleFragment>& pixel);
 
 // What a pixel composited, near to far.
 using Sequence = std::vector<pipeline::TraceEntry>;
-// Of every pixel of the frame, row by row.
-[[nodiscard]] std::vector<Sequence> sequences(const std::vector<peeling::RegionTrace>& traces, int width,
-                                              std::size_t pixels);
+
+struct ComposedPixel {
+    std::size_t pixel = 0;                 // of the frame, row by row
+    std::vector<VisibleFragment> visible;  // in submission order
+    Sequence sequence;
+};
+// In the order of the frame. A pixel that has neither is left out, so a frame costs what it shows, however large it is.
+[[nodiscard]] std::vector<ComposedPixel> composed_pixels(const ComposedFrame& frame);
 
 }  // namespace strata::tools
