@@ -6,6 +6,7 @@
 #include "peeling/audit/region_trace.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 
 namespace {
 

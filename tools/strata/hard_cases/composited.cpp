@@ -8,6 +8,7 @@
 #include "peeling/programs/programs.h"
 #include "peeling/render.h"
 #include "pipeline/formats/unorm8.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 
 namespace strata::tools {
 

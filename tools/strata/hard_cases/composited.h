@@ -11,11 +11,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/frame/trace.h"
-
-namespace strata::pipeline {
-struct CapturedFragment;
-}  // namespace strata::pipeline
 namespace strata::peeling {
 struct Algorithm;
 struct FrameFragments;
@@ -45,23 +40,5 @@ struct ComposedFrame {
 };
 
 [[nodiscard]] Composited composited(const ComposedFrame& frame);
-
-// A fragment that lies before the opaque surface and is a layer to the algorithm, and its key.
-struct VisibleFragment {
-    std::uint32_t key = 0;
-    const pipeline::CapturedFragment* fragment = nullptr;
-};
-[[nodiscard]] bool has_tie(const std::vector<VisibleFragment>& pixel);
-
-// What a pixel composited, near to far.
-using Sequence = std::vector<pipeline::TraceEntry>;
-
-struct ComposedPixel {
-    std::size_t pixel = 0;                 // of the frame, row by row
-    std::vector<VisibleFragment> visible;  // in submission order
-    Sequence sequence;
-};
-// In the order of the frame. A pixel that has neither is left out, so a frame costs what it shows, however large it is.
-[[nodiscard]] std::vector<ComposedPixel> composed_pixels(const ComposedFrame& frame);
 
 }  // namespace strata::tools

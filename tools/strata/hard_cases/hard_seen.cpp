@@ -6,6 +6,7 @@
 #include "peeling/audit/image_error.h"
 #include "peeling/audit/region_trace.h"
 #include "peeling/render.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 #include "tools/strata/hard_cases/hard_run.h"
 
 namespace strata::tools {

@@ -6,6 +6,7 @@
 #include "peeling/audit/image_error.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "tools/strata/hard_cases/composited.h"
 
 namespace strata::tools {
 

@@ -14,7 +14,7 @@
 
 #include "pipeline/formats/image.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
-#include "tools/strata/hard_cases/composited.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 
 namespace strata::pipeline {
 struct DeviceProfile;
