@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "scenes/procedural/hard_cases/hard_case.h"
@@ -21,6 +22,8 @@ struct ExactFragment {
     std::uint32_t triangle = 0;  // its number in its mesh
     Rational depth{};            // of the window
 };
+
+using ExactPixels = std::map<std::size_t, std::vector<ExactFragment>>;
 
 // A linear function of X and Y.
 struct Linear {
@@ -51,28 +54,28 @@ class ExactScene {
           transparent_{fragments_of(scene, scene.list.meshes[0])},
           opaque_{fragments_of(scene, scene.list.meshes[1])} {}
 
-    // The visible fragments of every pixel, row by row from the top, in the order of their triangles.
-    [[nodiscard]] std::vector<std::vector<ExactFragment>> visible() const {
-        auto result = transparent_;
-        for (std::size_t p = 0; p < result.size(); ++p) {
+    // The visible fragments by pixel, row by row from the top, in the order of their triangles. A pixel that no triangle
+    // covers is missing.
+    [[nodiscard]] ExactPixels visible() const {
+        ExactPixels result = transparent_;
+        for (auto& [pixel, fragments] : result) {
             Rational limit{1};
-            for (const ExactFragment& f : opaque_[p]) limit = std::min(limit, f.depth);
-            std::erase_if(result[p], [&](const ExactFragment& f) { return !(f.depth < limit); });
+            if (const auto surface = opaque_.find(pixel); surface != opaque_.end())
+                for (const ExactFragment& f : surface->second) limit = std::min(limit, f.depth);
+            std::erase_if(fragments, [&](const ExactFragment& f) { return !(f.depth < limit); });
         }
         return result;
     }
 
   private:
-    using Pixels = std::vector<std::vector<ExactFragment>>;
-
     static bool all_finite(const auto& v) {
         for (const float value : components(v))
             if (!std::isfinite(value)) return false;
         return true;
     }
 
-    [[nodiscard]] Pixels fragments_of(const scenes::Scene& scene, const pipeline::Mesh& mesh) const {
-        Pixels pixels(static_cast<std::size_t>(hard_.width) * static_cast<std::size_t>(hard_.height));
+    [[nodiscard]] ExactPixels fragments_of(const scenes::Scene& scene, const pipeline::Mesh& mesh) const {
+        ExactPixels pixels;
         const Matrix& m = scene.own_view->projection;
         for (std::uint32_t t = 0; 3 * t < mesh.indices.size(); ++t) {
             std::array<std::array<Rational, 4>, 3> clip;
@@ -133,7 +136,7 @@ class ExactScene {
     }
 
     void add(const std::array<std::array<Rational, 4>, 3>& clip, std::uint32_t triangle, const Reach& reach,
-             Pixels& pixels) const {
+             ExactPixels& pixels) const {
         // Rows k: the cross product of the two other corners over (x, y, w).
         const auto cross = [&](std::size_t a, std::size_t b) -> std::array<Rational, 3> {
             const auto& [ax, ay, az, aw] = clip[a];
@@ -156,7 +159,7 @@ class ExactScene {
     }
 
     void add_pixel(const std::array<Linear, 3>& weights, const Linear& plane, std::uint32_t triangle, int x, int y,
-                   Pixels& pixels) const {
+                   ExactPixels& pixels) const {
         const Rational ndc_x = Rational{2 * x + 1, hard_.width} - 1, ndc_y = 1 - Rational{2 * y + 1, hard_.height};
         const double near_x = (2.0 * x + 1) / hard_.width - 1, near_y = 1 - (2.0 * y + 1) / hard_.height;
         for (const Linear& weight : weights) {
@@ -172,13 +175,13 @@ class ExactScene {
     }
 
     const scenes::HardCase& hard_;
-    Pixels transparent_, opaque_;
+    ExactPixels transparent_, opaque_;
 };
 
 // The figures of hard_case.h.
-[[nodiscard]] inline scenes::HardAnswer counts_of(const std::vector<std::vector<ExactFragment>>& pixels) {
+[[nodiscard]] inline scenes::HardAnswer counts_of(const ExactPixels& pixels) {
     scenes::HardAnswer counts;
-    for (const auto& fragments : pixels) {
+    for (const auto& [pixel, fragments] : pixels) {
         std::vector<Rational> depths;
         for (const ExactFragment& f : fragments) depths.push_back(f.depth);
         std::sort(depths.begin(), depths.end());

@@ -59,6 +59,29 @@ TEST_CASE("a cell's depth range is the orbit's, the orbit's far plane with a rat
     CHECK(cells.view(cell).view.view != orbit.view.view);
 }
 
+TEST_CASE("a cell is seen as its scene's own view has it, unless an orbit is named; its planes cannot be moved") {
+    CellRunner cells = runner();
+    Cell cell = small_cell();
+    cell.scene = "hard:case=planes-1-unit";
+    // The case's corners are clip coordinates: nothing moves them.
+    const CellView own = cells.view(cell);
+    CHECK(own.is_own);
+    CHECK(own.view.view == strata::identity);
+    CHECK(own.view.projection == strata::identity);
+    // Two planes over the whole frame.
+    const CellResult seen = cells.run(cell);
+    CHECK(seen.measured.errors.layers == 2 * 16 * 8);
+    cell.range = {.ratio = 1000};
+    CHECK_THROWS_WITH(
+        cells.check(cell),
+        "hard:case=planes-1-unit: near_far: expected orbit, for the scene's own view has planes of its own "
+        "(--orbit gives it another view), found ratio:1000");
+    cell.takes_own_view = false;
+    CHECK_NOTHROW(cells.check(cell));
+    CHECK_FALSE(cells.view(cell).is_own);
+    CHECK(cells.view(cell).far > 0);
+}
+
 TEST_CASE("a cell's grid of positions is the profile's unless it names one") {
     CellRunner cells = runner();
     for (const char* profile : {"geforce3", "ideal"})

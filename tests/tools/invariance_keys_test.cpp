@@ -101,7 +101,7 @@ TEST_CASE("the value of a key is found in the cell, and in no other member of it
         CHECK((cell && *cell == expected));
     };
     changes("size", "3x5", [](Cell& c) { c.width = 3, c.height = 5; });
-    changes("orbit", "-7,11", [](Cell& c) { c.azimuth = -7, c.elevation = 11; });
+    changes("orbit", "-7,11", [](Cell& c) { c.azimuth = -7, c.elevation = 11, c.takes_own_view = false; });
     changes("alpha", "0.25", [](Cell& c) { c.alpha = 0.25f; });
     changes("split", "moved", [](Cell& c) { c.split = Split::moved; });
     changes("hypothesis", "all", [](Cell& c) { c.hypothesis = "all"; });

@@ -129,6 +129,20 @@ TEST_CASE("a hard case rendered in its own frame and depth range is the picture 
     CHECK(reversed.err.find("reversed depth range") != std::string::npos);
 }
 
+TEST_CASE("a hard case, a device or an algorithm that is named twice is refused, and nothing is written") {
+    const Folder folder;
+    const auto told = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"hard-cases", "frame-1x1", "-o", "out"});
+        const Ended ended = run_strata(folder, words);
+        return ended.status == 2 ? ended.err : "exit status " + std::to_string(ended.status);
+    };
+    CHECK(told({"frame-1x1"}) == "strata: NAME: expected each hard case once, found 'frame-1x1' twice\n");
+    CHECK(told({"--profile", "ideal,ideal"}) == "strata: --profile: expected each name once, found 'ideal' twice\n");
+    CHECK(told({"--algorithm", "dual,painter,dual"}) ==
+          "strata: --algorithm: expected each name once, found 'dual' twice\n");
+    CHECK(folder.files().empty());
+}
+
 TEST_CASE("no output holds a path, a host or a user") {
     const Folder folder;
     CHECK(shell(folder, "cp " STRATA_PROGRAM

@@ -1,4 +1,6 @@
 """The page's sections: what is said of the rows of a sweep. Each function gives blocks, or none where its rows are missing."""
+import math
+
 import figures
 
 WHAT = ("scene", "profile", "algorithm", "write_path", "compare_path", "depth_format")
@@ -24,7 +26,12 @@ def decibels(row):
 
 
 def ratio(row):
-    return row["far"] / row["near"]
+    """Of the depth range; nan where the view is the scene's own, whose planes nobody named."""
+    return row["far"] / row["near"] if row["near"] else math.nan
+
+
+def planes(row):
+    return f"far/near {ratio(row):.4g}" if row["near"] else "the scene's own view"
 
 
 def groups(rows, *keys):
@@ -65,16 +72,16 @@ def answers(rows):
             said.append(f"{name}: 0 of {fragments:,} fragments differ, whatever the depth range.")
         else:
             low, high = min(own, key=share), max(own, key=share)
-            said.append(f"{name}: {percent(share(low))} (far/near {ratio(low):.4g}) to {percent(share(high))} (far/near {ratio(high):.4g}) differ, by "
+            said.append(f"{name}: {percent(share(low))} ({planes(low)}) to {percent(share(high))} ({planes(high)}) differ, by "
                         f"{max(r['ulp_max'] for r in own):,} ulp at most.")
     judged = [r for r in plain(rows) if r["safe_bias"] and total(r) > 0]
     for (scene, profile, depth), own in groups(judged, "scene", "profile", "depth_format"):
         for r in [min(own, key=lambda row: abs(ratio(row) - 100))]:
             safe = r["safe_bias"]
             if safe["safe"]:
-                said.append(f"{scene} on {profile}, `{depth}`, far/near {ratio(r):.4g}: every constant bias from {safe['lowest']} to {safe['highest']} codes peels without error.")
+                said.append(f"{scene} on {profile}, `{depth}`, {planes(r)}: every constant bias from {safe['lowest']} to {safe['highest']} codes peels without error.")
             else:
-                said.append(f"{scene} on {profile}, `{depth}`, far/near {ratio(r):.4g}: no constant bias peels without error.")
+                said.append(f"{scene} on {profile}, `{depth}`, {planes(r)}: no constant bias peels without error.")
     return [("heading", "In short"), ("list", said)] if said else []
 
 
@@ -86,7 +93,7 @@ def differences(rows):
     table = []
     for r in rows:
         place = "-" if r["ulp_max_at"] is None else f"{r['ulp_max_at']['x']},{r['ulp_max_at']['y']}"
-        table.append([r["scene"], r["profile"], pair(r), r["depth_format"], f"{ratio(r):.4g}", f"{r['fragments']:,}",
+        table.append([r["scene"], r["profile"], pair(r), r["depth_format"], f"{ratio(r):.4g}" if r["near"] else "own", f"{r['fragments']:,}",
                       percent(share(r)), f"{r['ulp_max']:,}", place])
     blocks = [("heading", "How often the two depths differ, and by how much"),
               ("text", "Every fragment of the frame by both paths, paired by pixel and triangle. An ulp is a code of `d16` and "
@@ -138,7 +145,7 @@ def remedies(rows):
     for key, own in groups(alike(rows), *WHAT[:3], "compare_path", "depth_format", "near", "far"):
         if len(own) < 3:
             continue
-        scene, profile, algorithm, _, depth, near, far = key
+        scene, profile, algorithm, _, depth, _, _ = key
         base = next((r for r in own if r["remedy"] == "none"), own[0])
         best = min(own, key=lambda r: (total(r), r["rmse"]))
         table = []
@@ -148,7 +155,7 @@ def remedies(rows):
             table.append([f"`{r['remedy']}`", pair(r), f"{r['passes']}" + (" of its limit" if r["outcome"] == "never_ends" else ""),
                           f"{r['layers_true']}", f"{r['duplicated']:,}", f"{r['lost']:,}", f"{total(r):,}{mark}",
                           f"{r['pixels_touched']:,}", f"{r['max_difference']:.1f}", f"{r['rmse']:.2f}", decibels(r), time])
-        blocks += [("text", f"{scene}, {algorithm} on {profile}, `{depth}`, far/near {far / near:.4g}, {own[0]['layers']:,} layers in all. "
+        blocks += [("text", f"{scene}, {algorithm} on {profile}, `{depth}`, {planes(own[0])}, {own[0]['layers']:,} layers in all. "
                             f"Least total error: `{best['remedy']}` ({pair(best)}), {total(best):,}.")]
         blocks += bias_plot(key, own)
         blocks.append(("table", ["remedy", "writes : compares", "passes", "N", "twice", "lost", "total", "pixels", "max diff", "rmse", "PSNR", "time"], table))
@@ -166,7 +173,7 @@ def bias_plot(key, own):
     constant = {r["bias_constant"]: r for r in own if r["remedy"] == "none" or r["remedy"] == f"bias:{r['bias_constant']:g}"}
     if len(constant) < 3:
         return []
-    scene, profile, _, _, depth, near, far = key
+    scene, profile, _, _, depth, _, _ = key
     series = {"twice": [], "lost": [], "total": []}
     for bias in sorted(constant):
         for name, value in (("twice", constant[bias]["duplicated"]), ("lost", constant[bias]["lost"]), ("total", total(constant[bias]))):
@@ -176,7 +183,7 @@ def bias_plot(key, own):
     if safe and safe["safe"] and safe["highest"] is not None:
         shaded = (max(safe["lowest"], 0), min(safe["highest"], max(constant)))
         shaded = shaded if shaded[0] < shaded[1] else None
-    name = "".join(c if c.isalnum() else "-" for c in f"{scene}-{profile}-{depth}-{far / near:.4g}")
+    name = "".join(c if c.isalnum() else "-" for c in f"{scene}-{profile}-{depth}-{ratio(own[0]):.4g}")
     caption = f"{scene}, {depth}: layers composited twice, and lost, against a constant bias" + ("; the safe interval is green" if shaded else "")
     return [("plot", f"bias-{name}", caption, figures.zero_and_powers_plot(f"{scene}, {profile}, {depth}", "polygon offset units", "layers", series, shaded))]
 

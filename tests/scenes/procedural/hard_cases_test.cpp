@@ -17,7 +17,7 @@ std::string in_words(const strata::scenes::HardAnswer& counts) {
            std::to_string(counts.layers) + " layers, " + std::to_string(counts.tied_pixels) + " pixels with ties";
 }
 
-std::vector<std::vector<strata::testing::ExactFragment>> exact_pixels(const char* name) {
+strata::testing::ExactPixels exact_pixels(const char* name) {
     const HardCase& hard = *strata::scenes::find_hard_case(name);
     return strata::testing::ExactScene{make_hard_case({}, hard), hard}.visible();
 }
@@ -51,10 +51,10 @@ TEST_CASE("hard cases have names of their own, sentences, and a scene of that na
 TEST_CASE("planes through one line are in reversed order on its two sides, by exact arithmetic") {
     const auto pixels = exact_pixels("eight-through-a-line");
     int wrong = 0;
-    for (std::size_t p = 0; p < pixels.size(); ++p)
-        for (std::size_t k = 0; k + 1 < pixels[p].size(); ++k) {
-            const auto& a = pixels[p][k].depth;
-            const auto& b = pixels[p][k + 1].depth;
+    for (const auto& [p, fragments] : pixels)
+        for (std::size_t k = 0; k + 1 < fragments.size(); ++k) {
+            const auto& a = fragments[k].depth;
+            const auto& b = fragments[k + 1].depth;
             const std::size_t column = p % 32;
             if (column < 16 ? !(a > b) : column == 16 ? a != b : !(a < b)) ++wrong;
         }
@@ -69,7 +69,7 @@ TEST_CASE("in each corner of a cyclic overlap another one of two neighbouring ba
         std::uint32_t front, behind;
     } const corners[]{{0, 3, 0}, {31, 0, 1}, {31 * 32 + 31, 1, 2}, {31 * 32, 2, 3}};
     for (const auto& corner : corners) {
-        const auto& at = pixels[corner.pixel];
+        const auto& at = pixels.at(corner.pixel);
         REQUIRE(at.size() == 2);
         const auto& near = at[0].depth < at[1].depth ? at[0] : at[1];
         const auto& far = at[0].depth < at[1].depth ? at[1] : at[0];

@@ -6,6 +6,7 @@
 #include "peeling/audit/region_trace.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 
 namespace {
 
@@ -81,4 +82,27 @@ TEST_CASE("a fragment that stores alpha 0 is no layer where an alpha test looks 
     const Entries entries{{0, 3, 1, front, true}, {0, 5, 0, front, true}};
     CHECK(found_by(peeling::TiePolicy::unique, entries, true).wrong_pixels == 0);
     CHECK(found_by(peeling::TiePolicy::unique, entries, false).lost == 1);
+}
+
+TEST_CASE("pixels come in the frame's order with what they show, and empty ones between them cost nothing") {
+    const peeling::Algorithm& algorithm = *peeling::find_algorithm("dual");
+    peeling::FrameFragments fragments;
+    // A frame of 2^10 x 2^10 pixels, of which three are shown: one that is visible, one in both ways, one composited.
+    constexpr int side = 1 << 10;
+    fragments.opaque.resize(std::size_t{side} * side, 100);
+    fragments.all.push_back({.pixel = 2 * side, .primitive = 1, .code = 9, .exact_code = 9, .color = {1, 1, 1, 1}});
+    fragments.all.push_back({.pixel = side + 5, .primitive = 0, .code = 8, .exact_code = 8, .color = {1, 1, 1, 1}});
+    const std::vector<peeling::RegionTrace> traces{{{4, 1, 8, 2}, {{1, 8, 0, front, true}, {3, 1, 7, back, true}}},
+                                                   {{4, 1, 8, 2}, {{3, 2, 6, front, true}, {3, 0, 5, back, true}}}};
+    const auto pixels = tools::composed_pixels({algorithm, side, true, fragments, traces});
+    REQUIRE(pixels.size() == 3);
+    CHECK((pixels[0].pixel == side + 5 && pixels[1].pixel == side + 7 && pixels[2].pixel == 2 * side));
+    CHECK((pixels[0].visible.size() == 1 && pixels[0].sequence.size() == 1));
+    CHECK(pixels[1].visible.empty());
+    // From the near end as they came; from the far end, the last one first.
+    REQUIRE(pixels[1].sequence.size() == 3);
+    CHECK(pixels[1].sequence[0].primitive == 6);
+    CHECK(pixels[1].sequence[1].primitive == 5);
+    CHECK(pixels[1].sequence[2].primitive == 7);
+    CHECK((pixels[2].visible.size() == 1 && pixels[2].sequence.empty()));
 }

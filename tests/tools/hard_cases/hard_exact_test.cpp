@@ -17,7 +17,9 @@ using tools::SeenPixel;
 using RationalPixels = std::vector<std::vector<testing::ExactFragment>>;
 
 RationalPixels by_rationals(const scenes::HardCase& hard, const scenes::Scene& scene) {
-    return testing::ExactScene{scene, hard}.visible();
+    RationalPixels pixels(static_cast<std::size_t>(hard.width) * static_cast<std::size_t>(hard.height));
+    for (const auto& [pixel, fragments] : testing::ExactScene{scene, hard}.visible()) pixels[pixel] = fragments;
+    return pixels;
 }
 
 // Every fragment is there, and none else; a nearer one never has a later place.

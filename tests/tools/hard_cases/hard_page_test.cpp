@@ -73,3 +73,29 @@ TEST_CASE("a page of cases that are not moved tells nothing of movements") {
                                  .algorithms = {peeling::find_algorithm("dual")}};
     CHECK_THAT(page_of(sweep, {to_line(sweep, 0, {})}), !Catch::Contains("oved"));
 }
+
+TEST_CASE(
+    "a picture of the page shows every pixel of a small frame as a block, and no bright pixel of a large one is lost") {
+    using pipeline::Image;
+    const auto red_at = [](const Image& image, int x, int y) { return image.codes[image.index(x, y)]; };
+    // 2 x 1 pixels, 128 times as large.
+    Image small{pipeline::Format::rgba8, 2, 1};
+    small.codes[small.index(1, 0)] = 200;
+    const Image blocks = tools::page_picture(small);
+    REQUIRE((blocks.width == 256 && blocks.height == 128));
+    int wrong = 0;
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 256; ++x)
+            if (red_at(blocks, x, y) != (x < 128 ? 0u : 200u)) ++wrong;
+    CHECK(wrong == 0);
+    // Columns 0 to 3 of 4096 become one; the one row becomes 32.
+    Image wide{pipeline::Format::rgba8, 4096, 1};
+    wide.codes[wide.index(2, 0)] = 90;
+    wide.codes[wide.index(3, 0)] = 40;
+    wide.codes[wide.index(4095, 0)] = 7;
+    const Image line = tools::page_picture(wide);
+    REQUIRE((line.width == 1024 && line.height == 32));
+    CHECK(red_at(line, 0, 31) == 90);
+    CHECK(red_at(line, 1, 0) == 0);
+    CHECK(red_at(line, 1023, 5) == 7);
+}

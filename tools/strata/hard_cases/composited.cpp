@@ -8,6 +8,7 @@
 #include "peeling/programs/programs.h"
 #include "peeling/render.h"
 #include "pipeline/formats/unorm8.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 
 namespace strata::tools {
 
@@ -91,28 +92,56 @@ void look_at_pixel(const std::vector<Known>& visible, const Sequence& sequence, 
     if (found.lost + found.repeated + found.misplaced != before) ++found.wrong_pixels;
 }
 
-}  // namespace
+// Values with the pixel that each belongs to.
+template <class T>
+using ByPixel = std::vector<std::pair<std::size_t, T>>;
 
-std::vector<Sequence> sequences(const std::vector<peeling::RegionTrace>& traces, int width, std::size_t pixels) {
-    std::vector<Sequence> all(pixels), backs(pixels);
-    for (const peeling::RegionTrace& region : traces) {
+// Those of one pixel keep their order.
+template <class T>
+ByPixel<T> sorted(ByPixel<T> all) {
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return all;
+}
+
+ByPixel<VisibleFragment> visible_by_pixel(const ComposedFrame& frame) {
+    ByPixel<VisibleFragment> all;
+    for (const CapturedFragment& f : frame.fragments.all)
+        if (is_visible(f, frame) && is_layer(f, frame))
+            all.push_back({f.pixel, VisibleFragment{key_of(f, frame.algorithm), &f}});
+    return sorted(std::move(all));
+}
+
+ByPixel<TraceEntry> composited_by_pixel(const ComposedFrame& frame) {
+    ByPixel<TraceEntry> all, backs;
+    for (const peeling::RegionTrace& region : frame.traces) {
         const auto columns = static_cast<std::size_t>(region.rect.width());
         for (const TraceEntry& entry : region.entries) {
             const std::size_t x = static_cast<std::size_t>(region.rect.x0) + entry.pixel % columns;
             const std::size_t y = static_cast<std::size_t>(region.rect.y0) + entry.pixel / columns;
-            const std::size_t pixel = y * static_cast<std::size_t>(width) + x;
-            if (entry.side == pipeline::Side::front) all[pixel].push_back(entry);
-            if (entry.side == pipeline::Side::back) backs[pixel].push_back(entry);
+            const std::size_t pixel = y * static_cast<std::size_t>(frame.width) + x;
+            if (entry.side == pipeline::Side::front) all.emplace_back(pixel, entry);
+            if (entry.side == pipeline::Side::back) backs.emplace_back(pixel, entry);
         }
     }
-    for (std::size_t p = 0; p < pixels; ++p) all[p].insert(all[p].end(), backs[p].rbegin(), backs[p].rend());
-    return all;
+    all.insert(all.end(), backs.rbegin(), backs.rend());
+    return sorted(std::move(all));
 }
 
-std::vector<std::vector<VisibleFragment>> visible_fragments(const ComposedFrame& frame) {
-    std::vector<std::vector<VisibleFragment>> pixels(frame.fragments.opaque.size());
-    for (const CapturedFragment& f : frame.fragments.all)
-        if (is_visible(f, frame) && is_layer(f, frame)) pixels[f.pixel].push_back({key_of(f, frame.algorithm), &f});
+}  // namespace
+
+std::vector<ComposedPixel> composed_pixels(const ComposedFrame& frame) {
+    const auto visible = visible_by_pixel(frame);
+    const auto composited = composited_by_pixel(frame);
+    std::vector<ComposedPixel> pixels;
+    auto v = visible.begin();
+    auto c = composited.begin();
+    while (v != visible.end() || c != composited.end()) {
+        const bool is_visible_next = c == composited.end() || (v != visible.end() && v->first <= c->first);
+        ComposedPixel& at = pixels.emplace_back();
+        at.pixel = is_visible_next ? v->first : c->first;
+        for (; v != visible.end() && v->first == at.pixel; ++v) at.visible.push_back(v->second);
+        for (; c != composited.end() && c->first == at.pixel; ++c) at.sequence.push_back(c->second);
+    }
     return pixels;
 }
 
@@ -123,13 +152,11 @@ bool has_tie(const std::vector<VisibleFragment>& pixel) {
 }
 
 Composited composited(const ComposedFrame& frame) {
-    const auto pixels = visible_fragments(frame);
-    const std::vector<Sequence> shown = sequences(frame.traces, frame.width, pixels.size());
     Composited found;
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
+    for (const ComposedPixel& at : composed_pixels(frame)) {
         std::vector<Known> visible;
-        for (const VisibleFragment& f : pixels[p]) visible.push_back({f.key, f.fragment->primitive});
-        look_at_pixel(visible, shown[p], frame.algorithm.ties, found);
+        for (const VisibleFragment& f : at.visible) visible.push_back({f.key, f.fragment->primitive});
+        look_at_pixel(visible, at.sequence, frame.algorithm.ties, found);
     }
     return found;
 }

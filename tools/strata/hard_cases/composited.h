@@ -11,10 +11,6 @@
 #include <cstdint>
 #include <vector>
 
-namespace strata::pipeline {
-struct CapturedFragment;
-struct TraceEntry;
-}  // namespace strata::pipeline
 namespace strata::peeling {
 struct Algorithm;
 struct FrameFragments;
@@ -44,20 +40,5 @@ struct ComposedFrame {
 };
 
 [[nodiscard]] Composited composited(const ComposedFrame& frame);
-
-// The fragments of every pixel, row by row, that lie before the opaque surface and are layers to the algorithm, in
-// submission order; and their keys.
-struct VisibleFragment {
-    std::uint32_t key = 0;
-    const pipeline::CapturedFragment* fragment = nullptr;
-};
-[[nodiscard]] std::vector<std::vector<VisibleFragment>> visible_fragments(const ComposedFrame& frame);
-[[nodiscard]] bool has_tie(const std::vector<VisibleFragment>& pixel);
-
-// What a pixel composited, near to far.
-using Sequence = std::vector<pipeline::TraceEntry>;
-// Of every pixel of the frame, row by row.
-[[nodiscard]] std::vector<Sequence> sequences(const std::vector<peeling::RegionTrace>& traces, int width,
-                                              std::size_t pixels);
 
 }  // namespace strata::tools

@@ -62,6 +62,8 @@ std::vector<const scenes::HardCase*> cases_of(const std::vector<std::string>& na
         if (hard == nullptr)
             throw CLI::ValidationError("NAME", "expected a hard case (strata hard-cases --list names them), found " +
                                                    found_but_near(name, known));
+        if (std::find(cases.begin(), cases.end(), hard) != cases.end())
+            throw CLI::ValidationError("NAME", "expected each hard case once, found '" + name + "' twice");
         cases.push_back(hard);
     }
     return cases;
@@ -106,11 +108,15 @@ int hard_cases_command(const HardOptions& options) {
 void add_names(CLI::App& app, const std::string& option, std::vector<std::string>& target,
                const std::vector<std::string>& known, const std::string& help) {
     const auto fill = [&target, known, option](const std::string& given) {
-        target = split(given, ',');
-        for (const std::string& name : target)
+        target.clear();
+        for (const std::string& name : split(given, ',')) {
             if (std::find(known.begin(), known.end(), name) == known.end())
                 throw CLI::ValidationError(option,
                                            "expected " + one_of(known) + ", found " + found_but_near(name, known));
+            if (std::find(target.begin(), target.end(), name) != target.end())
+                throw CLI::ValidationError(option, "expected each name once, found '" + name + "' twice");
+            target.push_back(name);
+        }
     };
     app.add_option_function<std::string>(option, fill, help)->type_name("NAME[,NAME...]");
 }
@@ -141,8 +147,11 @@ Command add_hard_cases(CLI::App& root) {
         "neither stability nor flicker of the cases that name them");
     app->add_flag("--dry-run", options->dry_run, "print the cells and how long they would take");
     app->footer(
-        footer("  strata hard-cases --list\n"
-               "  strata hard-cases cyclic-overlap coincident --algorithm dual,painter -o hard\n"));
+        "Examples:\n"
+        "  strata hard-cases --list\n"
+        "  strata hard-cases cyclic-overlap coincident --algorithm dual,painter -o hard\n"
+        "Exit status: 0 done, 1 a combination failed or is unstable, 2 bad input or usage, 3 the system failed, 130 "
+        "interrupted.");
     return {app, [options] { return hard_cases_command(*options); }};
 }
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
 
+#include "peeling/audit/image_error.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
 #include "scenes/files/atomic_file.h"
@@ -91,7 +93,47 @@ std::string in_folder(const std::string& folder, const std::string& name) {
 
 bool is_refused(const scenes::HardCase& hard) { return hard.depth_near > hard.depth_far; }
 
+// Which of a frame's pixels one pixel of its picture shows, along one axis: from `first` up to but without `end`.
+struct Covered {
+    int first = 0, end = 0;
+};
+
+Covered covered_by(int number, int side, int picture_side) {
+    const auto at = [&](int n) { return static_cast<int>(std::int64_t{n} * side / picture_side); };
+    return {at(number), std::max(at(number) + 1, at(number + 1))};
+}
+
+// Where the codes of the brightest pixel of a block stand.
+std::size_t brightest(const pipeline::Image& image, const Covered& columns, const Covered& rows) {
+    std::size_t best = image.index(columns.first, rows.first);
+    double most = -1;
+    for (int y = rows.first; y < rows.end; ++y)
+        for (int x = columns.first; x < columns.end; ++x) {
+            double sum = 0;
+            for (int c = 0; c < 3; ++c) sum += peeling::channel_value(image, x, y, c);
+            if (!(sum > most)) continue;
+            most = sum;
+            best = image.index(x, y);
+        }
+    return best;
+}
+
 }  // namespace
+
+pipeline::Image page_picture(const pipeline::Image& image) {
+    constexpr int least_side = 32, small = 256, large = 1024;
+    const int enlarged = std::max(1, small / std::max(image.width, image.height));
+    const auto side = [&](int pixels) { return std::clamp(pixels * enlarged, least_side, large); };
+    pipeline::Image picture{image.format, side(image.width), side(image.height)};
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+            const std::size_t from = brightest(image, covered_by(x, image.width, picture.width),
+                                               covered_by(y, image.height, picture.height));
+            std::copy_n(image.codes.begin() + static_cast<std::ptrdiff_t>(from), image.channels(),
+                        picture.codes.begin() + static_cast<std::ptrdiff_t>(picture.index(x, y)));
+        }
+    return picture;
+}
 
 std::string page_of(const HardSweep& sweep, const Lines& lines) {
     std::map<std::string, std::vector<const ordered_json*>> by_case;
@@ -103,7 +145,7 @@ std::string page_of(const HardSweep& sweep, const Lines& lines) {
     std::string text = fmt::format(
         "# Hard cases\n"
         "{} scenes by {} algorithms on {} devices at {} depth formats. Pictures are the exact A-buffer of the profile "
-        "ideal.\n\n",
+        "ideal, small frames enlarged; of frames over 1024 pixels each block's brightest.\n\n",
         sweep.cases.size(), sweep.algorithms.size(), sweep.profiles.size(), sweep.formats.size());
     text += page_head("") + page_row("all", all) + moved_overview(sweep, lines);
     for (const scenes::HardCase* hard : sweep.cases)
@@ -117,7 +159,7 @@ void write_page(const HardSweep& sweep, const Lines& lines, const std::string& f
         if (is_refused(*hard)) continue;
         const auto picture = picture_of(*hard, *pipeline::find_profile("ideal"), *peeling::find_algorithm("a_buffer"));
         scenes::write_image(in_folder(folder, fmt::format("pictures/{}.png", hard->name)),
-                            {.color = picture.frame.color});
+                            {.color = page_picture(picture.frame.color)});
     }
     scenes::write_file(in_folder(folder, "RESULTS.md"), page_of(sweep, lines));
 }

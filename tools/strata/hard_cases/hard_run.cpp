@@ -67,9 +67,26 @@ struct HardMachine::Way {
 
 namespace {
 
+using NamedOptions = std::pair<std::string, peeling::RenderOptions>;
+
+// A frame whose pictures are large enough that each way of running takes seconds.
+bool is_huge(const scenes::HardCase& hard) {
+    return static_cast<std::int64_t>(hard.width) * hard.height > std::int64_t{1} << 24;
+}
+
+// Everything that is not the default, in one run.
+NamedOptions all_else(peeling::RenderOptions options) {
+    options.execution = Execution::literal;
+    options.threads = 2;
+    options.effects = Effects::all;
+    options.simd = Simd::scalar;
+    return {"literal threads=2 effects=all simd=scalar", options};
+}
+
 // Names and settings, the default way first.
-std::vector<std::pair<std::string, peeling::RenderOptions>> ways_of(const peeling::RenderOptions& options) {
-    std::vector<std::pair<std::string, peeling::RenderOptions>> ways{{"default", options}};
+std::vector<NamedOptions> ways_of(const scenes::HardCase& hard, const peeling::RenderOptions& options) {
+    std::vector<NamedOptions> ways{{"default", options}};
+    if (is_huge(hard)) return ways.push_back(all_else(options)), ways;
     const auto add = [&](std::string name) -> peeling::RenderOptions& {
         return ways.emplace_back(std::move(name), options).second;
     };
@@ -84,6 +101,7 @@ std::vector<std::pair<std::string, peeling::RenderOptions>> ways_of(const peelin
 
 std::uint64_t nan_values(const Image& image) {
     std::uint64_t found = 0;
+    if (image.format == Format::rgba8) return found;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < image.channels(); ++c)
@@ -181,7 +199,7 @@ HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& prof
       scene_{make_hard_case({}, hard)},
       options_{hard_options(hard, depth)},
       truth_{std::make_unique<const HardTruth>(scene_, profile_, options_)} {
-    for (auto& [name, options] : ways_of(options_))
+    for (auto& [name, options] : ways_of(hard, options_))
         ways_.push_back({name, std::make_unique<peeling::Renderer>(scene_.list, *scene_.own_view, profile_, options)});
 }
 
@@ -205,15 +223,31 @@ std::vector<std::string> HardMachine::unlike_ways(const peeling::Algorithm& algo
     return unlike;
 }
 
+namespace {
+
+HardRow refused(std::string sentence) {
+    HardRow row;
+    row.refusal = std::move(sentence);
+    row.verdict = HardVerdict::refused;
+    return row;
+}
+
+// The sentence; empty: the case is for the algorithm.
+std::string reason_to_leave_out(const scenes::HardCase& hard, const peeling::Algorithm& algorithm) {
+    const bool is_one_pass = algorithm.geometry_passes != nullptr && algorithm.geometry_passes(2) == 1;
+    if (!is_huge(hard) || is_one_pass) return "";
+    return fmt::format("a frame of {} x {} pixels is for algorithms of one geometry pass; {} takes {}", hard.width,
+                       hard.height, algorithm.name, algorithm.pass_formula);
+}
+
+}  // namespace
+
 HardRow HardMachine::run(const peeling::Algorithm& algorithm) {
+    if (const std::string reason = reason_to_leave_out(hard_, algorithm); !reason.empty()) return refused(reason);
     peeling::Renderer& renderer = *ways_.front().renderer;
     const peeling::RenderResult result = renderer.render(algorithm);
+    if (result.refusal) return refused(result.refusal->sentence(profile_));
     HardRow row;
-    if (result.refusal) {
-        row.refusal = result.refusal->sentence(profile_);
-        row.verdict = HardVerdict::refused;
-        return row;
-    }
     std::vector<peeling::RegionTrace> traces;
     static_cast<void>(renderer.render_traced(algorithm, traces));
     const peeling::FrameFragments fragments = renderer.fragments(algorithm);

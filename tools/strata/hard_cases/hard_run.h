@@ -5,7 +5,8 @@
 //          all effects simulated, on each instruction set. Picture, depths, passes, audit and diagnostics must be those
 //          of the first run. Where triangles times layers exceed 2^20, what rasterizes every pass takes minutes: there
 //          literal runs and all effects are left to dual and front_to_back, and algorithms that always run literally
-//          run by default settings alone.
+//          run by default settings alone. A frame of more than 2^24 pixels is for algorithms of one geometry pass, and
+//          the other ways are one: literally, on two threads, with all effects, without vector instructions.
 //          Verdict, the first that holds:
 //            failed    a NaN, a bit that another way of running changes, fragments lost or repeated without a
 //                      diagnostic of exactly as many pixels, or a picture beyond the case's bound for no such reason

@@ -6,6 +6,7 @@
 #include "peeling/audit/image_error.h"
 #include "peeling/audit/region_trace.h"
 #include "peeling/render.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 #include "tools/strata/hard_cases/hard_run.h"
 
 namespace strata::tools {
@@ -122,22 +123,20 @@ Looked look(peeling::Renderer& renderer, const peeling::Algorithm& algorithm, in
         return looked;
     }
     const peeling::FrameFragments fragments = renderer.fragments(algorithm);
-    const auto pixels =
-        visible_fragments({algorithm, width, renderer.color_format() == Format::rgba8, fragments, traces});
-    const std::vector<Sequence> shown = sequences(traces, width, pixels.size());
     const bool is_ordered = algorithm.ties != peeling::TiePolicy::none;
     const bool merges = algorithm.ties == peeling::TiePolicy::merged;
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
-        const Layers layers = layers_of(shown[p]);
-        SeenPixel pixel{.fragments = {},
-                        .layers = static_cast<int>(is_ordered ? shown[p].size() : pixels[p].size()),
-                        .color = color_at(result.frame.color, p)};
-        for (std::size_t i = 0; i < pixels[p].size(); ++i)
-            pixel.fragments.push_back({pixels[p][i].fragment->primitive,
-                                       is_ordered ? place_of(layers, pixels[p], i, merges) : 0,
-                                       depth_of(pixels[p][i], renderer.depth_format())});
+    looked.seen.resize(fragments.opaque.size());
+    for (std::size_t p = 0; p < looked.seen.size(); ++p) looked.seen[p].color = color_at(result.frame.color, p);
+    for (const ComposedPixel& at :
+         composed_pixels({algorithm, width, renderer.color_format() == Format::rgba8, fragments, traces})) {
+        const Layers layers = layers_of(at.sequence);
+        SeenPixel& pixel = looked.seen[at.pixel];
+        pixel.layers = static_cast<int>(is_ordered ? at.sequence.size() : at.visible.size());
+        for (std::size_t i = 0; i < at.visible.size(); ++i)
+            pixel.fragments.push_back({at.visible[i].fragment->primitive,
+                                       is_ordered ? place_of(layers, at.visible, i, merges) : 0,
+                                       depth_of(at.visible[i], renderer.depth_format())});
         std::sort(pixel.fragments.begin(), pixel.fragments.end());
-        looked.seen.push_back(std::move(pixel));
     }
     looked.names_misplaced = std::any_of(result.frame.diagnostics.begin(), result.frame.diagnostics.end(),
                                          [](const Diagnostic& d) { return misplaces(d.fault); });
@@ -147,12 +146,15 @@ Looked look(peeling::Renderer& renderer, const peeling::Algorithm& algorithm, in
 Looked look_at_depths(peeling::Renderer& renderer, const peeling::Algorithm& algorithm) {
     Looked looked;
     const peeling::FrameFragments fragments = renderer.fragments(algorithm);
-    for (const auto& visible : visible_fragments({algorithm, 1, true, fragments, {}})) {
+    looked.seen.resize(fragments.opaque.size());
+    for (const ComposedPixel& at : composed_pixels({algorithm, 1, true, fragments, {}})) {
+        const std::vector<VisibleFragment>& visible = at.visible;
         std::vector<std::uint32_t> keys;
         for (const VisibleFragment& f : visible) keys.push_back(f.key);
         std::sort(keys.begin(), keys.end());
         keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-        SeenPixel pixel{.fragments = {}, .layers = static_cast<int>(keys.size())};
+        SeenPixel& pixel = looked.seen[at.pixel];
+        pixel.layers = static_cast<int>(keys.size());
         for (std::size_t i = 0; i < visible.size(); ++i) {
             const auto is_same = [&](const VisibleFragment& f) { return f.key == visible[i].key; };
             const bool is_first =
@@ -162,7 +164,6 @@ Looked look_at_depths(peeling::Renderer& renderer, const peeling::Algorithm& alg
                                        depth_of(visible[i], renderer.depth_format())});
         }
         std::sort(pixel.fragments.begin(), pixel.fragments.end());
-        looked.seen.push_back(std::move(pixel));
     }
     return looked;
 }

@@ -6,6 +6,7 @@
 #include "peeling/audit/image_error.h"
 #include "peeling/registry.h"
 #include "peeling/render.h"
+#include "tools/strata/hard_cases/composited.h"
 
 namespace strata::tools {
 
@@ -29,14 +30,13 @@ HardTruth::HardTruth(const scenes::Scene& scene, const DeviceProfile& profile, c
     peeling::RenderOptions with_floats = options;
     with_floats.depth = DepthFormat::d32f;
     with_floats.depth_path = rasterizer::DepthPath::exact;
-    depths_.resize(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height));
     peeling::Renderer renderer{scene.list, *scene.own_view, exact, with_floats};
     const peeling::Algorithm& oracle = *peeling::find_algorithm("a_buffer");
     // A device that refuses the frame has no fragments.
     if (background_.codes.empty()) return;
     for (const CapturedFragment& f : renderer.fragments(oracle).all)
-        depths_[f.pixel].emplace_back(f.primitive, f.exact_code);
-    for (auto& pixel : depths_) std::sort(pixel.begin(), pixel.end());
+        depths_.push_back({f.pixel, f.primitive, f.exact_code});
+    std::sort(depths_.begin(), depths_.end());
 }
 
 HardTruth::Order HardTruth::order(std::size_t pixel, const std::vector<VisibleFragment>& visible,
@@ -44,10 +44,10 @@ HardTruth::Order HardTruth::order(std::size_t pixel, const std::vector<VisibleFr
     Order order;
     for (std::size_t i = 0; i < visible.size(); ++i) {
         const CapturedFragment& f = *visible[i].fragment;
-        const auto& known = depths_[pixel];
-        const auto found = std::lower_bound(known.begin(), known.end(), std::pair{f.primitive, std::uint32_t{0}});
-        const bool is_known = keeps_numbers && found != known.end() && found->first == f.primitive;
-        order.emplace_back(is_known ? found->second : f.exact_code, i);
+        const auto found = std::lower_bound(depths_.begin(), depths_.end(), KnownDepth{pixel, f.primitive, 0});
+        const bool is_known =
+            keeps_numbers && found != depths_.end() && found->pixel == pixel && found->primitive == f.primitive;
+        order.emplace_back(is_known ? found->code : f.exact_code, i);
     }
     std::sort(order.begin(), order.end());
     return order;
@@ -70,18 +70,30 @@ std::array<double, 3> HardTruth::color(std::size_t pixel, const std::vector<Visi
     return sum;
 }
 
+bool HardTruth::is_background(std::size_t pixel, const Image& picture) const {
+    const auto channels = static_cast<std::ptrdiff_t>(picture.channels());
+    const auto first = static_cast<std::ptrdiff_t>(pixel) * channels;
+    const auto begin = picture.codes.begin() + first;
+    return std::equal(begin, begin + channels, background_.codes.begin() + first);
+}
+
 HardTruth::Difference HardTruth::difference(const ComposedFrame& frame, const Image& picture) const {
     Difference worst;
-    const auto pixels = visible_fragments(frame);
+    const auto pixels = composed_pixels(frame);
+    const ComposedPixel nothing{};
+    auto next = pixels.begin();
     // An algorithm that sorts triangles gives them other numbers.
     const bool keeps_numbers = frame.algorithm.order == peeling::ListOrder::given;
-    for (std::size_t p = 0; p < pixels.size(); ++p) {
-        const Order near_to_far = order(p, pixels[p], keeps_numbers);
+    for (std::size_t p = 0; p < frame.fragments.opaque.size(); ++p) {
+        const bool is_composed = next != pixels.end() && next->pixel == p;
+        if (!is_composed && is_background(p, picture)) continue;
+        const auto& visible = (is_composed ? *next++ : nothing).visible;
+        const Order near_to_far = order(p, visible, keeps_numbers);
         const bool is_tied =
             std::adjacent_find(near_to_far.begin(), near_to_far.end(),
                                [](const auto& a, const auto& b) { return a.first == b.first; }) != near_to_far.end();
-        const std::array<double, 3> truth = color(p, pixels[p], near_to_far);
-        double& place = is_tied || has_tie(pixels[p]) ? worst.at_ties : worst.elsewhere;
+        const std::array<double, 3> truth = color(p, visible, near_to_far);
+        double& place = is_tied || has_tie(visible) ? worst.at_ties : worst.elsewhere;
         for (int c = 0; c < 3; ++c) {
             const auto width = static_cast<std::size_t>(picture.width);
             const double shown =

@@ -8,12 +8,13 @@
 // Tests    tests/tools/hard_cases/hard_run_test.cpp
 #pragma once
 #include <array>
+#include <compare>
 #include <utility>
 #include <vector>
 
 #include "pipeline/formats/image.h"
 #include "scenes/procedural/hard_cases/hard_case.h"
-#include "tools/strata/hard_cases/composited.h"
+#include "tools/strata/hard_cases/composed_pixels.h"
 
 namespace strata::pipeline {
 struct DeviceProfile;
@@ -40,12 +41,17 @@ class HardTruth {
     // Fragments of a pixel from near to far, each as its depth and its place in `visible`.
     using Order = std::vector<std::pair<std::uint32_t, std::size_t>>;
     [[nodiscard]] Order order(std::size_t pixel, const std::vector<VisibleFragment>& visible, bool keeps_numbers) const;
+    [[nodiscard]] bool is_background(std::size_t pixel, const pipeline::Image& picture) const;
     [[nodiscard]] std::array<double, 3> color(std::size_t pixel, const std::vector<VisibleFragment>& visible,
                                               const Order& near_to_far) const;
 
     pipeline::Image background_;
-    // Of each pixel: triangles and their exact depths, by triangle.
-    std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> depths_;
+    struct KnownDepth {
+        std::size_t pixel = 0;
+        std::uint32_t primitive = 0, code = 0;
+        friend auto operator<=>(const KnownDepth&, const KnownDepth&) = default;
+    };
+    std::vector<KnownDepth> depths_;  // the exact ones, sorted
 };
 
 }  // namespace strata::tools

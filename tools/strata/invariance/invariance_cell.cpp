@@ -1,11 +1,14 @@
 #include "tools/strata/invariance/invariance_cell.h"
 
+#include <fmt/format.h>
+
 #include "pipeline/vertices/other_splits.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/rules/hypotheses.h"
 #include "scenes/camera.h"
 #include "scenes/files/profile_json.h"
 #include "tools/strata/options/names.h"
+#include "tools/strata/options/pack_options.h"
 
 namespace strata::tools {
 
@@ -80,10 +83,26 @@ std::vector<Cell> CellRunner::expanded(const std::vector<Cell>& cells) {
     return all;
 }
 
+// A pack's view may follow another clip convention; cells are drawn under the default one.
+const pipeline::View* CellRunner::own_view(const Cell& cell) {
+    if (!cell.takes_own_view || !scene(cell.scene).own_view) return nullptr;
+    const auto known = own_views_.find(cell.scene);
+    if (known != own_views_.end()) return &known->second;
+    RunOptions pack;
+    take_pack_state(pack, cell.scene);
+    const pipeline::View view = scenes::as_seen_under(*scene(cell.scene).own_view, pack.view_convention, {});
+    return &own_views_.emplace(cell.scene, view).first->second;
+}
+
 // Reading is checking: both throw InputError.
 void CellRunner::check(const Cell& cell) {
     static_cast<void>(profile(cell));
     static_cast<void>(scene(cell.scene));
+    if (cell.range == DepthRange{} || own_view(cell) == nullptr) return;
+    const DepthRange& r = cell.range;
+    throw InputError(cell.scene, "near_far",
+                     "orbit, for the scene's own view has planes of its own (--orbit gives it another view)",
+                     r.ratio > 0 ? fmt::format("ratio:{}", r.ratio) : fmt::format("{}:{}", r.near, r.far));
 }
 
 const pipeline::DrawList* CellRunner::split_list(const Cell& cell) {
@@ -98,6 +117,8 @@ const pipeline::DrawList* CellRunner::split_list(const Cell& cell) {
 }
 
 CellView CellRunner::view(const Cell& cell) {
+    const int subpixel_bits = profile(cell).raster.subpixel_bits;
+    if (const pipeline::View* const own = own_view(cell)) return {*own, 0, 0, subpixel_bits, true};
     const double aspect = double(cell.width) / cell.height;
     scenes::LookAt camera = scenes::orbit_camera(scene(cell.scene).bounds, cell.azimuth, cell.elevation);
     // The far plane stays the orbit's and the near one moves towards the eye: nothing of the scene
@@ -107,7 +128,7 @@ CellView CellRunner::view(const Cell& cell) {
         camera.near = cell.range.near;
         camera.far = cell.range.far;
     }
-    return {scenes::look_at(camera, aspect), camera.near, camera.far, profile(cell).raster.subpixel_bits};
+    return {scenes::look_at(camera, aspect), camera.near, camera.far, subpixel_bits, false};
 }
 
 CellResult CellRunner::run(const Cell& cell) {

@@ -38,7 +38,7 @@ bool set_size(Cell& cell, const std::string& text) {
 
 bool set_orbit(Cell& cell, const std::string& text) {
     const auto orbit = to_orbit(text);
-    if (orbit) cell.azimuth = orbit->azimuth, cell.elevation = orbit->elevation;
+    if (orbit) cell.azimuth = orbit->azimuth, cell.elevation = orbit->elevation, cell.takes_own_view = false;
     return orbit.has_value();
 }
 
@@ -118,8 +118,8 @@ std::vector<PlanKey> make_keys() {
         {"profile", "devices, built-in or JSON files", "a profile's name or file", "geforce3",
          [](Cell& c, const std::string& t) { return set_name(c.profile, t); }},
         {"size", "pixels", "WIDTHxHEIGHT, each from 1 to 16384", "256x192", set_size},
-        {"orbit", "degrees from which the scene is seen", "azimuth and elevation in degrees such as 30,20", "30,20",
-         set_orbit, false},
+        {"orbit", "degrees from which the scene is seen", "azimuth and elevation in degrees such as 30,20",
+         "the scene's own view if it has one, else 30,20", set_orbit, false},
         {"alpha", "everything is drawn with its own alpha times this", "a number from 0 to 1", "0.5",
          [](Cell& c, const std::string& t) { return assign(c.alpha, to_share(t)); }},
         {"algorithm", "peels", "an algorithm that peels in order (strata algorithms)", "shadow_map", set_algorithm},

@@ -42,6 +42,7 @@ struct Cell {
     std::string scene, profile = "geforce3";
     int width = 256, height = 192;
     double azimuth = 30, elevation = 20;  // degrees
+    bool takes_own_view = true;           // if the scene has one: no orbit is named
     float alpha = 0.5f;
     const peeling::Algorithm* algorithm = nullptr;
     Split split = Split::none;

@@ -131,20 +131,22 @@ std::string outcome(const CellResult& result) {
 ordered_json description(std::size_t number, const Cell& cell, const CellView& view) {
     // The path that really writes: a remedy may replace the cell's own.
     const auto write = cell.remedy.depth_replace ? rasterizer::DepthPath::depth_replace : cell.write;
+    // A view that the scene brings has neither degrees nor planes that anybody named.
+    const auto unless_own = [&](const ordered_json& value) { return view.is_own ? ordered_json(nullptr) : value; };
     return {{"cell", number},
             {"scene", without_folder(cell.scene)},
             {"width", cell.width},
             {"height", cell.height},
             {"profile", without_folder(cell.profile)},
             {"algorithm", cell.algorithm->name},
-            {"orbit", {cell.azimuth, cell.elevation}},
+            {"orbit", unless_own({cell.azimuth, cell.elevation})},
             {"alpha", shortest(cell.alpha)},
             {"write_path", name_of(depth_paths(), write)},
             {"compare_path", name_of(depth_paths(), cell.compare)},
             {"depth_format", name_of(depth_formats, cell.format)},
             {"subpixel_bits", view.subpixel_bits},
-            {"near", view.near},
-            {"far", view.far},
+            {"near", unless_own(view.near)},
+            {"far", unless_own(view.far)},
             {"remedy", name_of(cell.remedy)},
             {"bias_constant", shortest(cell.remedy.bias_constant)},
             {"bias_slope", shortest(cell.remedy.bias_slope)},
