@@ -1,4 +1,5 @@
 // Model: files that the command wrote, copied or cut on purpose; exit statuses of tools/README.md.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,60 @@ TEST_CASE("compare ends with 0 for equal pictures, with 1 for others and with 2 
     CHECK(run_strata(folder, {"compare", "a.png", "none.png"}).status == 2);
     std::ofstream{folder / "cut.exr"} << content_of(folder / "a.exr").substr(0, 200);
     CHECK(run_strata(folder, {"compare", "a.exr", "cut.exr"}).status == 2);
+}
+
+TEST_CASE("compare knows a background that it is told, and tells lost coverage from another background") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata render planes:count=1,cells=1 --size 24x18 --background 0.2,0.4,0.6 -o a.png && "
+                  "strata render planes:count=1,cells=1 --size 24x18 --background 0.2,0.4,0.7 -o b.png")
+                .status == 0);
+    const auto kinds = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"compare", "a.png", "b.png", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Ended ended = run_strata(folder, words);
+        CHECK(ended.status == 1);
+        const auto document = nlohmann::json::parse(ended.out);
+        std::vector<std::string> found;
+        for (const auto& kind : document["kinds"]) found.push_back(kind["kind"]);
+        return found;
+    };
+    CHECK(kinds({"--background", "0.2,0.4,0.6"}) == std::vector<std::string>{"background"});
+    CHECK(kinds({"--background", "0.9,0.9,0.9"}) == std::vector<std::string>{"color"});  // drawn everywhere, then
+    CHECK(run_strata(folder, {"compare", "a.png", "b.png", "--background", "0.2"}).err ==
+          "strata: --background: expected three numbers such as 0.2,0.2,0.3, found '0.2'\n");
+}
+
+TEST_CASE("a folder's heat maps and comparisons side by side are drawn of each algorithm") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata golden teapot --size 24x18 --algorithm dual,front_to_back -o pack && "
+                  "strata golden teapot --size 24x18 --algorithm dual,front_to_back --alpha 0.5 -o other")
+                .status == 0);
+    REQUIRE(run_strata(folder, {"compare", "pack", "other", "--heat", "heat.png", "--side", "side.png"}).status == 1);
+    CHECK(folder.files() == std::vector<std::string>{"heat.dual.png", "heat.front_to_back.png", "other", "pack",
+                                                     "side.dual.png", "side.front_to_back.png"});
+    REQUIRE(run_strata(folder, {"compare", "pack", "other", "--algorithm", "dual", "--heat", "one.png"}).status == 1);
+    CHECK(content_of(folder / "one.png") == content_of(folder / "heat.dual.png"));
+    // The picture of the pack against that of the folder, by itself.
+    REQUIRE(run_strata(folder, {"compare", "pack/expected/dual/picture.npy", "other/expected/dual/picture.npy",
+                                "--heat", "alone.png"})
+                .status == 1);
+    CHECK(content_of(folder / "alone.png").size() > 0);
+    CHECK(run_strata(folder, {"compare", "pack", "other", "--junit", "x.xml"}).err ==
+          "strata: --junit: expected a picture as the candidate, found a folder; compare its picture.npy alone\n");
+}
+
+TEST_CASE("deep files are compared by their layers") {
+    const Folder folder;
+    REQUIRE(shell(folder,
+                  "strata layers planes:count=3 --size 16x12 --algorithm front_to_back --deep a.exr && "
+                  "strata layers planes:count=2 --size 16x12 --algorithm front_to_back --deep b.exr")
+                .status == 0);
+    CHECK(run_strata(folder, {"compare", "a.exr", "a.exr"}).out == "equal\n");
+    const Ended other = run_strata(folder, {"compare", "a.exr", "b.exr"});
+    CHECK(other.status == 1);
+    CHECK(other.out.find("layer") != std::string::npos);
 }
 
 TEST_CASE("compare says what it wanted where it was given something else") {

@@ -122,6 +122,26 @@ def check_schema_bites(validator, manifest):
             expect(not validator.is_valid(other), f"the schema takes /{'/'.join(map(str, path))} with a key {change}")
 
 
+def check_suite(strata, schema_file):
+    """One scene's suite: its list fits the suite's schema, and each scene named in it is one of its scenes."""
+    with open(os.path.join(os.path.dirname(schema_file), "suite.schema.json"), encoding="utf-8") as text:
+        schema = json.load(text)
+    jsonschema.Draft7Validator.check_schema(schema)
+    validator = jsonschema.Draft7Validator(schema)
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([strata, "golden", "planes.front_to_back", "--suite", "-o", os.path.join(folder, "set")], check=True)
+        with open(os.path.join(folder, "set", "suite.json"), encoding="utf-8") as text:
+            suite = json.load(text)
+    for error in validator.iter_errors(suite):
+        faults.append(f"suite.json: /{'/'.join(map(str, error.absolute_path))}: {error.message[:200]}")
+    for key in suite:
+        expect(not validator.is_valid({k: v for k, v in suite.items() if k != key}), f"the suite's schema takes one without {key}")
+    there = {scene["name"] for scene in suite["scenes"]}
+    for mistake in suite["mistakes"]:
+        for key in ("named_first", "beside_another", "named_otherwise", "does_not_show"):
+            expect(set(mistake[key]) <= there, f"{mistake['name']}: {key} names another scene")
+
+
 def main(strata, schema_file):
     with open(schema_file, encoding="utf-8") as text:
         schema = json.load(text)
@@ -140,6 +160,7 @@ def main(strata, schema_file):
             check_targets(manifest)
             if number == 2:
                 check_schema_bites(validator, manifest)
+    check_suite(strata, schema_file)
     for fault in faults[:20]:
         print(fault)
     return 1 if faults else 0

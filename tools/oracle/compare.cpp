@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "rasterizer/base/float_environment.h"
-#include "tools/oracle/coverage.h"
 #include "tools/oracle/layers.h"
 
 namespace strata::oracle {
@@ -51,10 +50,11 @@ void measure(const Pair& pair, Distances& worst, Comparison& result) {
 
 class Sorter {
   public:
-    Sorter(const Picture& reference, const Picture& candidate, const Pairing& pairing, const Tolerances& tolerances)
+    Sorter(const Picture& reference, const Picture& candidate, const Pairing& pairing, const Tolerances& tolerances,
+           const Background& background)
         : reference_layers_{layers_of(reference)},
           candidate_layers_{layers_of(candidate)},
-          masks_{drawn(pairing.pairs)},
+          masks_{drawn(pairing.pairs, background)},
           tolerances_{tolerances} {}
 
     [[nodiscard]] const std::optional<Masks>& masks() const { return masks_; }
@@ -103,7 +103,8 @@ void add(std::vector<KindReport>& kinds, Kind kind, std::size_t pixel, int width
 
 }  // namespace
 
-Comparison compare(const Picture& reference, const Picture& candidate, const Tolerances& tolerances) {
+Comparison compare(const Picture& reference, const Picture& candidate, const Tolerances& tolerances,
+                   const Background& background) {
     const FloatEnvironment ours;
     const Pairing pairing = pair_targets(reference, candidate);
     const Target& first = *pairing.pairs[0].reference;
@@ -113,7 +114,7 @@ Comparison compare(const Picture& reference, const Picture& candidate, const Tol
     Distances worst{std::vector<std::uint32_t>(pixels), std::vector<std::uint32_t>(pixels)};
     for (const Pair& pair : pairing.pairs) measure(pair, worst, result);
 
-    const Sorter sorter{reference, candidate, pairing, tolerances};
+    const Sorter sorter{reference, candidate, pairing, tolerances, background};
     std::vector<KindReport> kinds(kind_count);
     result.kind_of.resize(pixels);
     result.distance_of.resize(pixels);

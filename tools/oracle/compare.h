@@ -9,6 +9,7 @@
 #include <map>
 #include <vector>
 
+#include "tools/oracle/coverage.h"
 #include "tools/oracle/explanations.h"
 #include "tools/oracle/picture.h"
 
@@ -65,6 +66,8 @@ struct Comparison {
 };
 
 // InputError for pictures of unequal size and for those that share no target.
-[[nodiscard]] Comparison compare(const Picture& reference, const Picture& candidate, const Tolerances& tolerances = {});
+// `background` is the reference's where the caller knows it (coverage.h); else it is read from the pictures.
+[[nodiscard]] Comparison compare(const Picture& reference, const Picture& candidate, const Tolerances& tolerances = {},
+                                 const Background& background = {});
 
 }  // namespace strata::oracle

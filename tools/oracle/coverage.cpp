@@ -50,15 +50,25 @@ Mask where(const Target& target, auto&& holds) {
     return mask;
 }
 
-std::optional<Masks> by_color(const Pair& pair) {
-    const auto background = commonest(*pair.reference, edge_of(*pair.reference));
+// The codes that a known background has in a target; channels that nobody knows are those of 0, and alpha 1.
+Color codes_of(const Background& known, const Target& target) {
+    Color codes;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(target.channels); ++c)
+        codes.push_back(nearest(target.code, c < known.size() ? known[c] : c == 3 ? 1.0 : 0.0));
+    return codes;
+}
+
+std::optional<Masks> by_color(const Pair& pair, const Background& known) {
+    const auto background = known.empty() ? commonest(*pair.reference, edge_of(*pair.reference))
+                                          : std::optional{codes_of(known, *pair.reference)};
     if (!background) return std::nullopt;
     Masks masks{other_than(*pair.reference, *background), {}};
     std::vector<std::size_t> empty;
     for (std::size_t i = 0; i < masks.reference.size(); ++i)
         if (!masks.reference[i]) empty.push_back(i);
-    const auto own = commonest(*pair.candidate, empty);
-    if (!own) return std::nullopt;
+    auto own = commonest(*pair.candidate, empty);
+    if (!own && known.empty()) return std::nullopt;
+    if (!own) own = codes_of(known, *pair.candidate);
     masks.candidate = other_than(*pair.candidate, *own);
     return masks;
 }
@@ -71,7 +81,10 @@ bool alpha_varies(const Target& target) {
 
 }  // namespace
 
-std::optional<Masks> drawn(std::span<const Pair> pairs) {
+std::optional<Masks> drawn(std::span<const Pair> pairs, const Background& known) {
+    for (const Pair& pair : pairs)
+        if (!known.empty() && pair.reference->meaning == Meaning::color && pair.reference->part.empty())
+            return by_color(pair, known);
     for (const Pair& pair : pairs)
         if (pair.reference->meaning == Meaning::depth && pair.reference->part.empty() &&
             pair.reference->code != Code::integer && pair.candidate->code != Code::integer) {
@@ -88,7 +101,7 @@ std::optional<Masks> drawn(std::span<const Pair> pairs) {
             };
             return Masks{is_drawn(*pair.reference), is_drawn(*pair.candidate)};
         }
-        return by_color(pair);
+        return by_color(pair, {});
     }
     return std::nullopt;
 }

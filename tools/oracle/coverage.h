@@ -2,7 +2,7 @@
 //
 // Rule     Drawn: a depth other than 1 where both pictures have depths; else an alpha above 0 where the reference's alpha varies; else a
 //          colour other than the background's, which is the commonest colour along the reference's edge if half of the edge has it.
-//          The candidate's background is its own commonest colour at those pixels.
+//          The candidate's background is its own commonest colour at those pixels. A background that the caller knows decides alone.
 //          Borders of the masks are followed along rows and columns. `moved`: both ends of the runs go the same way, by a quarter of a
 //          pixel or more; `edge_rule`: gains and losses each keep to one side, or there are gains or losses alone, at the borders;
 //          `snapping`: they mix at the borders; `surface`: most lie away from the borders.
@@ -24,8 +24,11 @@ struct Masks {
     Mask reference, candidate;
 };
 
+// The channels of the reference's background as values; empty: nobody knows.
+using Background = std::vector<double>;
+
 // Nothing if the pictures do not tell what is background.
-[[nodiscard]] std::optional<Masks> drawn(std::span<const Pair> pairs);
+[[nodiscard]] std::optional<Masks> drawn(std::span<const Pair> pairs, const Background& known = {});
 
 enum class CoverageMistake : std::uint8_t { none, moved, edge_rule, snapping, surface };
 [[nodiscard]] std::string_view name(CoverageMistake mistake) noexcept;

@@ -38,12 +38,13 @@ std::string TargetNames::of(pipeline::Target target) const {
     return id < names_.size() && !names_[id].empty() ? names_[id] : fmt::format("target.{}", target.id);
 }
 
-void observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer) {
+void observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer,
+             const pipeline::Alteration* alteration) {
     peeling::RenderOptions options = input.options;
     options.execution = pipeline::Execution::literal;
     options.audit = options.keep_layers = options.nearest_depth = false;
     peeling::Renderer renderer{input.list, input.view, input.profile, options};
-    peeling::RenderResult result = renderer.render(algorithm, {}, {.observer = &observer});
+    peeling::RenderResult result = renderer.render(algorithm, {}, {.observer = &observer, .alteration = alteration});
     if (result.outcome == peeling::Outcome::refused) throw pipeline::Refused{input.profile, *std::move(result.refusal)};
 }
 
@@ -120,13 +121,13 @@ class Collector {
 
 }  // namespace
 
-void passes(const RunInput& input, const peeling::Algorithm& algorithm,
-            const std::function<void(PassShown&&)>& on_pass) {
+void passes(const RunInput& input, const peeling::Algorithm& algorithm, const std::function<void(PassShown&&)>& on_pass,
+            const pipeline::Alteration* alteration) {
     Collector collector{on_pass, input.options.raster.depth_order == rasterizer::DepthOrder::greater};
     const pipeline::Observer observer{
         .named = [&](pipeline::Target target, std::string_view name) { collector.name(target, name); },
         .step = [&](const Region& region, const StepEvent& event) { collector.step(region, event); }};
-    observe(input, algorithm, observer);
+    observe(input, algorithm, observer, alteration);
     collector.flush();
 }
 

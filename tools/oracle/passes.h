@@ -16,6 +16,10 @@
 #include "pipeline/frame/observer.h"
 #include "tools/oracle/target_parts.h"
 
+namespace strata::pipeline {
+struct Alteration;
+}
+
 namespace strata::oracle {
 
 enum class PassKind : std::uint8_t { geometry, full_screen, published };
@@ -45,8 +49,9 @@ struct RunInput {
 };
 
 // `on_pass` is called with one pass after the other; it may keep the images. Throws Refused for what the profile lacks.
-void passes(const RunInput& input, const peeling::Algorithm& algorithm,
-            const std::function<void(PassShown&&)>& on_pass);
+// `alteration` makes a machine with a mistake of it.
+void passes(const RunInput& input, const peeling::Algorithm& algorithm, const std::function<void(PassShown&&)>& on_pass,
+            const pipeline::Alteration* alteration = nullptr);
 
 // Names of targets by their numbers, as observers hear them.
 class TargetNames {
@@ -59,6 +64,7 @@ class TargetNames {
 };
 
 // Renders literally, without an audit, for an observer. Throws Refused.
-void observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer);
+void observe(const RunInput& input, const peeling::Algorithm& algorithm, const pipeline::Observer& observer,
+             const pipeline::Alteration* alteration = nullptr);
 
 }  // namespace strata::oracle

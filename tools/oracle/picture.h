@@ -2,7 +2,7 @@
 //
 // Rule     EXR: parts with R, G, B, A (or fewer), Z and the codes that Strata writes beside them; PNG of 8 and 16 bits with grey, colour
 //          and alpha as the file has them; NPY of shape (rows, columns) or (rows, columns, channels) in C order with elements u1, u2,
-//          u4, f2 or f4, little endian; raw bytes with a stated layout. Nothing is scaled, premultiplied or decoded.
+//          u4, f2 or f4, little endian; deep EXR parts as layers (read_deep.h); raw bytes with a stated layout. Nothing is scaled, premultiplied or decoded.
 // Tests    tests/tools/oracle/read_picture_test.cpp
 #pragma once
 #include <optional>

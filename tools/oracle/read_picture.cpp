@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <iterator>
 
 #include "pipeline/formats/format.h"
 #include "rasterizer/base/input_error.h"
@@ -12,6 +13,7 @@
 #include "scenes/files/load_image_module.h"
 #include "tools/oracle/numbers_file.h"
 #include "tools/oracle/picture.h"
+#include "tools/oracle/read_deep.h"
 
 namespace strata::oracle {
 
@@ -89,10 +91,11 @@ Picture read_exr(const std::string& path) {
         const auto fail = [&](const char* expected, const char* found) {
             throw InputError(path, fmt::format("part {}", number), expected, found);
         };
-        if (part.header.is_deep) fail("a flat image", "a deep one");
         if (!part.is_whole) fail("a whole image", "a damaged one");
-        if (const std::string format = scenes::attribute(part.header, "format.depth");
-            scenes::attribute(part.header, "format.color").empty() && !format.empty())
+        if (part.header.is_deep)
+            std::ranges::move(layers_of_deep(part, path), std::back_inserter(picture.targets));
+        else if (const std::string format = scenes::attribute(part.header, "format.depth");
+                 scenes::attribute(part.header, "format.color").empty() && !format.empty())
             picture.targets.push_back(own_depth(part, format));
         else if (scenes::attribute(part.header, "format.color").empty())
             add_foreign(part, path, number, picture.targets);

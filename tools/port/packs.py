@@ -11,6 +11,9 @@ CODES = {"|u1": "B", "<u2": "H", "<f2": "H", "<u4": "I", "<i4": "I", "<f4": "I"}
 ALGORITHMS = ["front_to_back", "dual", "weighted_average", "coherent_stencil", "depth_units"]
 # The port's depth_units needs Strata's: sequential depth units, which no profile of a real driver has.
 UNITS = {"has_sequential_depth_units": True}
+# An endless peel of the port ends after so many passes, and the diagnosis is told so.
+MOST_PASSES = 200
+GIVES_UP = ["--limit", str(MOST_PASSES)]
 
 
 def read(path):
@@ -58,7 +61,7 @@ class Pack:
         return read(self.folder / described["file"])
 
     def candidate(self, folder, driver, mistakes="", algorithms=None, picture_only=False):
-        words = [self.build / "strata_port", self.folder, "-o", folder, "--driver", driver, "--algorithm", ",".join(algorithms or self.results)]
+        words = [self.build / "strata_port", self.folder, "-o", folder, "--driver", driver, "--algorithm", ",".join(algorithms or self.results), "--max-passes", str(MOST_PASSES)]
         words += ["--mistake", mistakes] if mistakes else []
         words += ["--picture-only"] if picture_only else []
         run(words)

@@ -27,7 +27,8 @@ struct CompareOptions {
     std::string reference, candidate;
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
-    std::string algorithm;  // of packs; empty: all
+    oracle::Background background{};  // empty: read from the pictures
+    std::string algorithm;            // of packs; empty: all
     std::string heat, side, junit;
     bool json = false;
 };
@@ -48,17 +49,49 @@ std::vector<oracle::PackPictures> chosen(std::vector<oracle::PackPictures> all, 
     return all;
 }
 
+const oracle::PackPictures& of_algorithm(const std::vector<oracle::PackPictures>& all, const std::string& algorithm) {
+    return *std::ranges::find(all, algorithm, &oracle::PackPictures::algorithm);
+}
+
+// "heat.png" with several algorithms: "heat.dual.png".
+std::string path_of(const std::string& path, const std::string& algorithm, bool is_only) {
+    if (path.empty() || is_only) return path;
+    const std::size_t dot = path.rfind('.');  // check_outputs has seen an ending
+    return path.substr(0, dot) + "." + algorithm + path.substr(dot);
+}
+
+// Of each algorithm that both have its picture; where that is alike, the first pass that is not.
+void draw_folders(const CompareOptions& options, const std::vector<oracle::PackPictures>& reference,
+                  const std::vector<oracle::PackPictures>& candidate,
+                  const std::vector<oracle::PackComparison>& found) {
+    const bool is_only = std::ranges::count(found, true, &oracle::PackComparison::is_there) == 1;
+    for (const oracle::PackComparison& c : found) {
+        const bool shows_pass = c.first && (!c.picture || c.picture->equal);
+        if (!c.is_there || (!c.picture && !shows_pass)) continue;
+        const auto shown = [&](const oracle::PackPictures& of) {
+            if (!shows_pass) return of.picture;
+            return std::ranges::find(of.passes, c.first->number, &oracle::PassPicture::number)->targets;
+        };
+        const oracle::Comparison& comparison = shows_pass ? c.first->comparison : *c.picture;
+        write_png(path_of(options.heat, c.algorithm, is_only), oracle::heat_map(comparison));
+        write_png(path_of(options.side, c.algorithm, is_only),
+                  oracle::side_by_side(shown(of_algorithm(reference, c.algorithm)),
+                                       shown(of_algorithm(candidate, c.algorithm)), comparison));
+    }
+}
+
 // A pack and the folder of a port: the end and the passes of every algorithm that both have.
 int compare_folders(const CompareOptions& options) {
-    if (!options.heat.empty() || !options.side.empty() || !options.junit.empty())
+    if (!options.junit.empty() || !options.background.empty())
         throw CLI::ValidationError(
-            "--heat, --side and --junit",
+            options.junit.empty() ? "--background" : "--junit",
             "expected a picture as the candidate, found a folder; compare its picture.npy alone");
     const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
     if (std::ranges::none_of(found, &oracle::PackComparison::is_there))
         throw InputError(options.candidate, "algorithms", "one that the pack has, too", "none");
+    draw_folders(options, reference, candidate, found);
     print(options.json ? oracle::to_json(found) : oracle::to_text(found));
     return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
 }
@@ -81,7 +114,7 @@ int compare(const CompareOptions& options) {
         return compare_folders(options);
     const oracle::Picture reference = reference_of(options);
     const oracle::Picture candidate = oracle::read_picture(options.candidate, options.layout);
-    const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances);
+    const oracle::Comparison found = oracle::compare(reference, candidate, options.tolerances, options.background);
     write_png(options.heat, oracle::heat_map(found));
     write_png(options.side, oracle::side_by_side(reference, candidate, found));
     if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
@@ -104,11 +137,20 @@ Command add_compare(CLI::App& root) {
         ->type_name("");
     add_layout_option(*app, options->layout);
     add_tolerance_option(*app, options->tolerances);
+    add_option(*app, options->background,
+               {"--background", "R,G,B", "the reference's background, as its values are (default: read from its edge)",
+                "three numbers such as 0.2,0.2,0.3"},
+               [](std::string_view text) -> std::optional<oracle::Background> {
+                   const auto color = to_numbers<float>(text, 3);  // as a renderer has them
+                   if (!color) return std::nullopt;
+                   return oracle::Background(color->begin(), color->end());
+               });
     add_path(*app, options->algorithm,
              {"--algorithm", "NAME", "of a pack: compare this one alone (default: all)", "an algorithm of the pack"});
     add_path(*app, options->heat, {"--heat", "FILE.png", "where which kind of difference is", "a file name"});
     add_path(*app, options->side,
-             {"--side", "FILE.png", "reference, candidate and heat map side by side", "a file name"});
+             {"--side", "FILE.png",
+              "reference, candidate and heat map side by side; of a folder NAME.ALGORITHM.png each", "a file name"});
     add_path(*app, options->junit,
              {"--junit", "FILE.xml", "a test case a kind, for continuous integration", "a file name"});
     app->add_flag("--json", options->json, "one JSON document instead of text");

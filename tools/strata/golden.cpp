@@ -6,10 +6,12 @@
 #include <memory>
 
 #include "peeling/render.h"
+#include "tools/oracle/mistakes/suite_packs.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
+#include "tools/strata/progress.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
 
@@ -21,11 +23,17 @@ namespace {
 struct GoldenOptions {
     RunOptions run;
     std::string check;
+    bool suite = false;
 };
 
 int check(const std::string& path, Simd simd) {
     check_simd(simd);
-    const std::vector<oracle::PackFault> faults = oracle::check_pack(path, simd);
+    const auto checked = [&] {
+        if (!oracle::is_suite(path)) return oracle::check_pack(path, simd);
+        Progress bar("scenes of the suite");
+        return oracle::check_suite(path, simd, [&](double share) { bar.show(share); });
+    };
+    const std::vector<oracle::PackFault> faults = checked();
     for (const oracle::PackFault& fault : faults) print(fault.file + ": " + fault.sentence + '\n');
     if (faults.empty()) print(path + ": every file is what this program derives\n");
     return faults.empty() ? 0 : 1;
@@ -54,14 +62,38 @@ oracle::Golden golden_of(RunOptions& options) {
     return golden;
 }
 
+// The whole suite, or the scene of it that is named.
+int write_suite(const GoldenOptions& options) {
+    std::vector<const oracle::SuiteScene*> scenes;
+    for (const oracle::SuiteScene& scene : oracle::suite())
+        if (options.run.scene.empty() || scene.name == options.run.scene) scenes.push_back(&scene);
+    if (scenes.empty())
+        throw CLI::ValidationError(
+            "SCENE",
+            "expected a scene of the suite (strata mistakes --suite lists them), found '" + options.run.scene + "'");
+    Progress bar("scenes of the suite");
+    oracle::write_suite(options.run.output, scenes, [&](double share) { bar.show(share); });
+    return 0;
+}
+
+// The suite's scenes bring their own options.
+void check_alone(const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options())
+        if (const std::string name = option->get_name();
+            option->count() > 0 && name != "--suite" && name != "-o" && name != "SCENE")
+            throw CLI::ValidationError("--suite", "expected a folder for it alone, found " + name);
+}
+
 int golden(GoldenOptions& options) {
     if (!options.check.empty()) {
         if (!options.run.scene.empty())
             throw CLI::ValidationError("--check", "expected a pack alone, found a scene beside it");
         return check(options.check, options.run.simd);
     }
-    if (options.run.scene.empty()) throw CLI::ValidationError("SCENE", "expected a scene, or --check PACK, found none");
+    if (options.run.scene.empty() && !options.suite)
+        throw CLI::ValidationError("SCENE", "expected a scene, or --check PACK, found none");
     if (options.run.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the pack, found none");
+    if (options.suite) return write_suite(options);
     complete(options.run);
     const oracle::Golden made = golden_of(options.run);
     if (made.algorithms.empty()) return 2;
@@ -79,17 +111,25 @@ Command add_golden(CLI::App& root) {
     app->get_option("SCENE")->required(false);
     add_path(*app, options->run.output,
              {"-o", "PACK", "the folder to write; it must not exist or be empty", "a folder's name"});
-    add_path(*app, options->check,
-             {"--check", "PACK", "derive a pack again, and name what differs in it", "a folder with a pack"});
+    add_path(
+        *app, options->check,
+        {"--check", "PACK", "derive a pack, or a suite of them, again, and name what differs", "a folder with a pack"});
+    app->add_flag(
+        "--suite", options->suite,
+        "write the standard set: small scenes in which every known mistake shows; SCENE may name one of them");
     add_choice(*app, options->run.simd, "--simd", simds,
                "instruction set; same bits (default best: what the processor has)");
     app->footer(
         "Examples:\n"
         "  strata golden teapot --size 64x48 --algorithm front_to_back,dual -o pack && strata golden --check pack\n"
         "  strata golden planes:count=3 --size 32x32 -o three && strata render three -o three.png\n"
+        "  strata golden random.dual --suite -o set && strata golden --check set\n"
         "Exit status: 0 done, 1 --check found differences, 2 bad input or usage, 3 the system failed, 130 "
         "interrupted.");
-    return {app, [options] { return golden(*options); }};
+    return {app, [app, options] {
+                if (options->suite) check_alone(*app);
+                return golden(*options);
+            }};
 }
 
 }  // namespace strata::tools

@@ -10,4 +10,6 @@ rendering: strata.Rendering = strata.render(scene, "dual", profile="geforce8", w
 pixels: npt.NDArray[Any] = rendering.color
 equal: bool = strata.compare(pixels, "reference.exr").equal
 ends: list[bool] = [layer.is_from_behind for layer in strata.layers(scene)]
+named: list[str] = strata.diagnose(scene, pixels, "dual", profile="geforce8").mistakes
+expected: npt.NDArray[Any] = strata.read("pack", "dual").arrays["color"]
 words: str = strata.explain(scene, 1, 2).text

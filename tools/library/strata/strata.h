@@ -8,6 +8,7 @@
 // Tests    tests/tools/library, tests/tools/install_test.cmake
 #pragma once
 #include "strata/compare.h"
+#include "strata/diagnose.h"
 #include "strata/names.h"
 #include "strata/picture.h"
 #include "strata/render.h"

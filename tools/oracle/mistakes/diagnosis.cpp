@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
+#include <utility>
 
 #include "rasterizer/base/parallel.h"
 #include "tools/oracle/mistakes/catalogue.h"
@@ -40,8 +42,16 @@ bool is_same(const Picture& a, const Picture& b) {
     return std::ranges::equal(a.targets, b.targets, {}, &Target::codes, &Target::codes);
 }
 
-Finding finding(std::vector<const Mistake*> mistakes, const Agreement& agrees, const Agreement& right_agrees) {
+Tolerances one_code_more(Tolerances tolerances) {
+    ++tolerances.color_codes;
+    return tolerances;
+}
+
+// `nearly` is the agreement within one code more.
+Finding finding(std::vector<const Mistake*> mistakes, const Agreement& agrees, const Agreement& nearly,
+                const Agreement& right_agrees) {
     Finding found{.mistakes = std::move(mistakes)};
+    found.nearly = static_cast<std::uint64_t>(std::ranges::count(nearly, true));
     for (std::size_t i = 0; i < agrees.size(); ++i) {
         found.agreeing += agrees[i] ? 1 : 0;
         found.explained += agrees[i] && !right_agrees[i] ? 1 : 0;
@@ -69,6 +79,11 @@ struct Lineup::Evidence {
     const Tolerances& tolerances;
     const Agreement& right_agrees;
     std::vector<Agreement> agrees;  // of each suspect that shows
+
+    [[nodiscard]] Finding of(std::vector<const Mistake*> mistakes, const Picture& picture) const {
+        return finding(std::move(mistakes), agreement(picture, candidate, tolerances),
+                       agreement(picture, candidate, one_code_more(tolerances)), right_agrees);
+    }
 };
 
 Lineup::Lineup(const Laboratory& laboratory, const ShowProgress& progress) : laboratory_{laboratory} {
@@ -97,32 +112,131 @@ bool Lineup::shows(const Mistake& mistake) const {
     return std::ranges::find(suspects_, &mistake, &Suspect::mistake)->shows;
 }
 
-Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerances, const ShowProgress& progress) const {
+namespace {
+
+// Brings the best finding that nearly explains all pixels to the front, where none explains them all to the last code.
+void take_nearly_whole(Diagnosis& d, std::uint64_t right_nearly) {
+    if (d.findings.front().agreeing == d.pixels || right_nearly == d.pixels) return;
+    const auto found = std::ranges::find_if(
+        d.findings, [&](const Finding& f) { return f.nearly == d.pixels && 2 * f.explained >= d.differing; });
+    if (found == d.findings.end()) return;
+    std::rotate(d.findings.begin(), found, found + 1);
+    d.is_nearly = true;
+}
+
+Verdict verdict_of(const Diagnosis& d) {
+    const Finding& best = d.findings.front();
+    if (best.agreeing != d.pixels && !d.is_nearly) return Verdict::none_of_mine;
+    return best.mistakes.empty()       ? Verdict::right
+           : best.mistakes.size() == 1 ? Verdict::one_mistake
+                                       : Verdict::two_mistakes;
+}
+
+}  // namespace
+
+Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerances, const ShowProgress& progress,
+                           const std::vector<PassPicture>* passes) const {
     Diagnosis result;
     const Agreement right_agrees = agreement(laboratory_.right(), candidate, tolerances);
     result.pixels = right_agrees.size();
     result.differing = static_cast<std::uint64_t>(std::ranges::count(right_agrees, false));
-    result.findings.push_back(finding({}, right_agrees, right_agrees));
     Evidence evidence{candidate, tolerances, right_agrees, std::vector<Agreement>(suspects_.size())};
+    result.findings.push_back(evidence.of({}, laboratory_.right()));
+    const std::uint64_t right_nearly = result.findings.front().nearly;
     for (std::size_t i = 0; i < suspects_.size(); ++i) {
         const Suspect& suspect = suspects_[i];
         ++(suspect.shows ? result.tried : suspect.picture ? result.hidden : result.impossible);
         if (!suspect.shows || suspect.like != i) continue;
         evidence.agrees[i] = agreement(*suspect.picture, candidate, tolerances);
-        result.findings.push_back(finding({suspect.mistake}, evidence.agrees[i], right_agrees));
+        result.findings.push_back(evidence.of({suspect.mistake}, *suspect.picture));
         for (std::size_t j = i + 1; j < suspects_.size(); ++j)
             if (suspects_[j].shows && suspects_[j].like == i)
                 result.findings.back().alike.push_back(suspects_[j].mistake);
     }
     const auto is_whole = [&](const Finding& f) { return f.agreeing == result.pixels; };
+    const auto rank = [&] {
+        std::ranges::stable_sort(result.findings, std::ranges::greater{}, &Finding::agreeing);
+        take_nearly_whole(result, right_nearly);
+        result.verdict = verdict_of(result);
+        if (passes != nullptr && result.pixels <= most_pixels_of_pairs) weigh_passes(evidence, *passes, result);
+    };
     if (std::ranges::none_of(result.findings, is_whole)) try_pairs(evidence, progress, result);
-    std::ranges::stable_sort(result.findings, std::ranges::greater{}, &Finding::agreeing);
-    const Finding& best = result.findings.front();
-    result.verdict = !is_whole(best)             ? Verdict::none_of_mine
-                     : best.mistakes.empty()     ? Verdict::right
-                     : best.mistakes.size() == 1 ? Verdict::one_mistake
-                                                 : Verdict::two_mistakes;
+    rank();
+    // Whose picture it is has other passes: two mistakes may leave this picture, too.
+    if (result.passes_contradict && result.pairs_tried == 0 && result.differing > 0) {
+        try_pairs(evidence, progress, result);
+        rank();
+    }
     return result;
+}
+
+namespace {
+
+constexpr std::size_t most_weighed = 64;  // findings whose passes are made again
+
+}  // namespace
+
+void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& d) const {
+    d.right_passes = laboratory_.compare_passes({}, passes);
+    if (!d.right_passes || d.right_passes->targets == 0 || d.verdict == Verdict::none_of_mine || d.is_nearly) return;
+    if (d.verdict == Verdict::right && d.right_passes->is_whole()) return;
+    // All who leave the candidate's picture, each by itself; of the right picture those whose mistake it hides.
+    const auto with_alike = [&](const Mistake* mistake) {
+        std::vector<const Mistake*> all{mistake};
+        const auto own = std::ranges::find(suspects_, mistake, &Suspect::mistake);
+        for (const Suspect& suspect : suspects_)
+            if (own->shows && suspect.shows && suspect.like == own->like && suspect.mistake != mistake)
+                all.push_back(suspect.mistake);
+        return all;
+    };
+    std::vector<Finding> weighed, rest;
+    for (Finding& f : d.findings) {
+        if (f.agreeing != d.pixels || weighed.size() >= most_weighed) {
+            rest.push_back(std::move(f));
+            continue;
+        }
+        f.alike.clear();
+        weighed.push_back(f);
+        if (f.mistakes.size() == 1)
+            for (const Mistake* mistake : with_alike(f.mistakes[0])) {
+                if (mistake == f.mistakes[0]) continue;
+                weighed.push_back(f);
+                weighed.back().mistakes = {mistake};
+            }
+        // Mistakes that leave one picture by themselves need not do so beside another one.
+        if (f.mistakes.size() == 2)
+            for (const Mistake* first : with_alike(f.mistakes[0]))
+                for (const Mistake* second : with_alike(f.mistakes[1])) {
+                    const std::vector<const Mistake*> both{first, second};
+                    const auto picture = both == f.mistakes ? std::nullopt : laboratory_.with(both);
+                    if (!picture) continue;
+                    if (Finding found = evidence.of(both, *picture); found.agreeing == d.pixels)
+                        weighed.push_back(std::move(found));
+                }
+    }
+    if (d.verdict == Verdict::right)
+        for (const Suspect& suspect : suspects_)
+            if (suspect.picture && !suspect.shows) {
+                weighed.push_back(weighed.front());
+                weighed.back().mistakes = {suspect.mistake};
+            }
+    for_all(weighed.size(), {},
+            [&](std::size_t i) { weighed[i].passes = laboratory_.compare_passes(weighed[i].mistakes, passes); });
+    const auto rank = [&](const Finding& f) {
+        return f.passes ? std::pair{explains_origin(*f.passes, *d.right_passes), f.passes->alike} : std::pair{false, 0};
+    };
+    std::ranges::stable_sort(weighed, std::ranges::greater{}, rank);
+    const Finding& best = weighed.front();
+    d.passes_contradict = !rank(best).first;
+    std::vector<Finding> ranked{best};
+    for (std::size_t i = 1; i < weighed.size(); ++i)
+        if (weighed[i].mistakes.size() == 1 && best.mistakes.size() == 1 && weighed[i].passes == best.passes)
+            ranked.front().alike.push_back(weighed[i].mistakes.front());
+        else
+            ranked.push_back(std::move(weighed[i]));
+    std::ranges::move(rest, std::back_inserter(ranked));
+    d.findings = std::move(ranked);
+    d.verdict = d.passes_contradict ? Verdict::none_of_mine : verdict_of(d);
 }
 
 namespace {
@@ -162,9 +276,7 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
         const bool is_finished = both[1]->place == Place::picture;
         const auto picture =
             is_finished ? std::optional{changed(*suspects_[pairs[i].first].picture, *both[1])} : laboratory_.with(both);
-        if (picture)
-            found[i] = finding({both[0], both[1]}, agreement(*picture, evidence.candidate, evidence.tolerances),
-                               evidence.right_agrees);
+        if (picture) found[i] = evidence.of({both[0], both[1]}, *picture);
     });
     for (std::optional<Finding>& one : found)
         if (one) result.findings.push_back(*std::move(one));

@@ -4,7 +4,10 @@
 //          pixels that agree. The right machine comes before all mistakes that explain no more than it does, and a mistake before
 //          those behind it in the catalogue. A mistake whose picture is the right one here is no finding. If no single one explains every
 //          pixel, pairs are tried: first all that end in a mistake of the finished picture, then those that
-//          contradict the candidate least where only one of the two shows.
+//          contradict the candidate least where only one of the two shows. Where none explains every pixel to the last code, one that
+//          explains half of them so and all within one code counts as nearly explaining them, unless the right machine does.
+//          A candidate's passes, where it has any, decide between those who leave the same picture; a machine whose passes differ
+//          from the candidate's no later than the right machine's do is not the one that made it.
 // Tests    tests/tools/oracle/mistakes/diagnosis_test.cpp
 #pragma once
 #include <functional>
@@ -19,7 +22,10 @@ struct Finding {
     std::uint64_t agreeing = 0;              // pixels that are the candidate's
     std::uint64_t explained = 0;             // of those that are not the right machine's
     std::uint64_t contradicted = 0;          // the right machine's, but not this one's
-    std::vector<const Mistake*> alike{};     // others that leave the same picture of this scene
+    std::uint64_t nearly = 0;                // pixels that are the candidate's within one code
+    std::vector<const Mistake*>
+        alike{};  // others that leave the same picture of this scene, and passes that agree as far
+    std::optional<PassAgreement> passes{};  // of those that leave the candidate's picture, and of the best
 };
 
 enum class Verdict : std::uint8_t {
@@ -32,7 +38,10 @@ enum class Verdict : std::uint8_t {
 struct Diagnosis {
     Verdict verdict{};
     std::uint64_t pixels = 0, differing = 0;  // differing: from the right picture, beyond the tolerances
-    std::vector<Finding> findings{};          // the best first; never empty
+    bool is_nearly = false;                   // what is named explains some pixels only within one code
+    bool passes_contradict = false;  // the picture is that of the first finding, but no known machine's passes are
+    std::optional<PassAgreement> right_passes{};  // of the right machine
+    std::vector<Finding> findings{};              // the best first; never empty
     int tried = 0, hidden = 0, impossible = 0, pairs_tried = 0;
 };
 
@@ -44,8 +53,10 @@ class Lineup {
     // `laboratory` must live as long.
     explicit Lineup(const Laboratory& laboratory, const ShowProgress& progress = {});
 
+    // `passes` are the candidate's; null where it has none.
     [[nodiscard]] Diagnosis diagnose(const Picture& candidate, const Tolerances& tolerances = {},
-                                     const ShowProgress& progress = {}) const;
+                                     const ShowProgress& progress = {},
+                                     const std::vector<PassPicture>* passes = nullptr) const;
 
     // Null where the mistake cannot be made on this scene.
     [[nodiscard]] const Picture* picture_of(const Mistake& mistake) const;
@@ -61,6 +72,7 @@ class Lineup {
     };
     struct Evidence;
     void try_pairs(const Evidence& evidence, const ShowProgress& progress, Diagnosis& diagnosis) const;
+    void weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& diagnosis) const;
 
     const Laboratory& laboratory_;
     std::vector<Suspect> suspects_;

@@ -32,12 +32,17 @@ std::string percent(std::uint64_t part, std::uint64_t all) {
 
 std::string first_line(const Diagnosis& d) {
     const Finding& best = d.findings.front();
+    if (d.passes_contradict)
+        return fmt::format(
+            "none of mine: the picture is that of: {}; but no known machine that leaves it has these passes\n",
+            sentence_of(best));
     if (d.verdict == Verdict::none_of_mine)
         return fmt::format(
             "none of mine: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
             "explains them all\n",
             d.differing, d.pixels);
-    return fmt::format("100 % of the pixels are those of: {}\n", sentence_of(best));
+    return fmt::format("100 % of the pixels are{} those of: {}\n", d.is_nearly ? ", within one code," : "",
+                       sentence_of(best));
 }
 
 std::string line_of(const Finding& f, const Diagnosis& d) {
@@ -47,6 +52,22 @@ std::string line_of(const Finding& f, const Diagnosis& d) {
         text += fmt::format("      {} of the {} that differ; {} that do not differ speak against it\n", f.explained,
                             d.differing, f.contradicted);
     return text;
+}
+
+// How far the candidate's passes are somebody's; "" where they were not compared.
+std::string line_of(const std::optional<PassAgreement>& passes, const std::string& whose) {
+    if (!passes) return "";
+    if (passes->is_whole())
+        return fmt::format("  all {} targets of its passes are those of {}\n", passes->targets, whose);
+    return fmt::format("  {} of {} targets of its passes are those of {}; the first that is not: pass {}\n",
+                       passes->alike, passes->targets, whose, *passes->first_unlike);
+}
+
+ordered_json as_json(const std::optional<PassAgreement>& passes) {
+    if (!passes) return nullptr;
+    ordered_json object{{"targets", passes->targets}, {"alike", passes->alike}, {"first_unlike", nullptr}};
+    if (passes->first_unlike) object["first_unlike"] = *passes->first_unlike;
+    return object;
 }
 
 ordered_json names_of(const std::vector<const Mistake*>& mistakes) {
@@ -70,8 +91,12 @@ std::string_view name(Verdict verdict) noexcept {
 std::string to_text(const Diagnosis& d, const Comparison& comparison) {
     std::string text = first_line(d);
     const Finding& best = d.findings.front();
+    if (!best.mistakes.empty()) text += line_of(best.passes, "that machine");
+    text += line_of(d.right_passes, "the right machine");
+    if (d.is_nearly) text += fmt::format("  to the last code: {} of the {} that differ\n", best.explained, d.differing);
     for (const Mistake* mistake : best.alike)
-        text += fmt::format("  the same picture of this scene: {} ({})\n", mistake->sentence, mistake->name);
+        text += fmt::format("  the same picture of this scene{}: {} ({})\n", best.passes ? ", and passes alike" : "",
+                            mistake->sentence, mistake->name);
     const bool is_none = d.verdict == Verdict::none_of_mine;
     if (d.findings.size() > 1 && d.verdict != Verdict::right) text += is_none ? "the best:\n" : "the next best:\n";
     for (std::size_t i = is_none ? 0 : 1; i < std::min(d.findings.size(), most_findings); ++i)
@@ -84,10 +109,17 @@ std::string to_text(const Diagnosis& d, const Comparison& comparison) {
 }
 
 std::string to_json(const Diagnosis& d, const Comparison& comparison) {
-    ordered_json document{{"verdict", name(d.verdict)},   {"pixels", d.pixels},
-                          {"differing", d.differing},     {"tried", d.tried},
-                          {"pairs_tried", d.pairs_tried}, {"hidden", d.hidden},
-                          {"impossible", d.impossible},   {"findings", ordered_json::array()}};
+    ordered_json document{{"verdict", name(d.verdict)},
+                          {"pixels", d.pixels},
+                          {"differing", d.differing},
+                          {"tried", d.tried},
+                          {"pairs_tried", d.pairs_tried},
+                          {"hidden", d.hidden},
+                          {"impossible", d.impossible},
+                          {"nearly", d.is_nearly},
+                          {"passes_contradict", d.passes_contradict},
+                          {"right_passes", as_json(d.right_passes)},
+                          {"findings", ordered_json::array()}};
     for (const Finding& f : d.findings) {
         ordered_json sentences = ordered_json::array();
         for (const Mistake* mistake : f.mistakes) sentences.push_back(mistake->sentence);
@@ -96,6 +128,8 @@ std::string to_json(const Diagnosis& d, const Comparison& comparison) {
                                         {"agreeing", f.agreeing},
                                         {"explained", f.explained},
                                         {"contradicted", f.contradicted},
+                                        {"nearly", f.nearly},
+                                        {"passes", as_json(f.passes)},
                                         {"alike", names_of(f.alike)}});
     }
     document["comparison"] = ordered_json::parse(to_json(comparison));

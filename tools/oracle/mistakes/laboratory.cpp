@@ -9,8 +9,22 @@
 
 namespace strata::oracle {
 
-Laboratory::Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths)
-    : input_{input}, algorithm_{algorithm}, depths_{depths} {
+namespace {
+
+// What run() makes; nothing where no machine of the mistaken kind has what it takes, or could run such a pass.
+auto made(auto&& run) -> std::optional<decltype(run())> {
+    try {
+        return run();
+    } catch (const pipeline::Refused&) {
+    } catch (const std::logic_error&) {
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Laboratory::Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths, int limit)
+    : input_{input}, algorithm_{algorithm}, depths_{depths}, limit_{limit} {
     right_ = run(experiment(), &right_run_);
     find_enough_passes();
 }
@@ -52,21 +66,35 @@ void Laboratory::find_enough_passes() {
     }
 }
 
-std::optional<Picture> Laboratory::with(std::span<const Mistake* const> mistakes) const {
+std::optional<Experiment> Laboratory::experiment(std::span<const Mistake* const> mistakes) const {
     Experiment e = experiment();
     const int given_limit = e.options.max_passes;
     for (const Mistake* mistake : mistakes)
         if (!mistake->make(e)) return std::nullopt;
     const bool is_limited =
         e.options.max_passes != given_limit || e.options.termination.rule == pipeline::TerminationRule::fixed;
-    const int limit = right_run_.is_endless ? right_run_.passes : 2 * right_run_.passes + 8;
+    const int limit = limit_ > 0 ? limit_ : right_run_.is_endless ? right_run_.passes : 2 * right_run_.passes + 8;
     if (!is_limited && given_limit == 0 && right_run_.passes > 1) e.options.max_passes = limit;
-    try {
-        return run(e);
-    } catch (const pipeline::Refused&) {  // no machine of the mistaken kind has what it takes
-    } catch (const std::logic_error&) {   // a pass that no machine could run
-    }
-    return std::nullopt;
+    return e;
+}
+
+std::optional<Picture> Laboratory::with(std::span<const Mistake* const> mistakes) const {
+    const std::optional<Experiment> e = experiment(mistakes);
+    return e ? made([&] { return run(*e); }) : std::nullopt;
+}
+
+std::optional<PassAgreement> Laboratory::compare_passes(std::span<const Mistake* const> mistakes,
+                                                        const std::vector<PassPicture>& candidate) const {
+    const std::optional<Experiment> e = experiment(mistakes);
+    if (!e) return std::nullopt;
+    const pipeline::Alteration alteration = combined(*e);
+    return made([&] {
+        PassEvidence evidence{candidate};
+        passes(
+            {*e->list, e->view, e->profile, e->options}, *e->algorithm, [&](PassShown&& pass) { evidence.add(pass); },
+            e->alterations.empty() ? nullptr : &alteration);
+        return evidence.found();
+    });
 }
 
 std::optional<Picture> Laboratory::with(const Mistake& mistake) const {

@@ -90,14 +90,43 @@ std::vector<Twins> twins(const std::vector<TableColumn>& columns) {
     return found;
 }
 
+std::vector<const SuiteScene*> named_in(const std::vector<TableColumn>& columns, std::size_t mistake) {
+    std::vector<const SuiteScene*> scenes;
+    for (const TableColumn& column : columns)
+        if (column.cells[mistake] == Cell::named) scenes.push_back(column.scene);
+    return scenes;
+}
+
 std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns) {
     std::vector<const Mistake*> found;
     const auto all = catalogue();
     for (std::size_t m = 0; m < all.size(); ++m)
-        if (std::ranges::none_of(columns, [&](const TableColumn& c) { return c.cells[m] == Cell::named; }))
-            found.push_back(&all[m]);
+        if (named_in(columns, m).empty()) found.push_back(&all[m]);
     return found;
 }
+
+namespace {
+
+// Where a mistake is named first: the first such scene, and in how many; of a declared twin, whose name is named instead.
+std::string first_scene(const std::vector<TableColumn>& columns, std::size_t mistake) {
+    const auto scenes = named_in(columns, mistake);
+    if (!scenes.empty()) return fmt::format("{} ({} in all)", scenes.front()->name, scenes.size());
+    const auto twin = std::ranges::find(declared, catalogue()[mistake].name, &DeclaredTwins::second);
+    return twin == std::end(declared) ? "nowhere" : fmt::format("named as {}, its equal", twin->first);
+}
+
+// "none", or their names with what each is equal to.
+std::string unnamed_text(const std::vector<TableColumn>& columns) {
+    std::string text;
+    for (const Mistake* mistake : unnamed(columns)) {
+        const auto twin = std::ranges::find(declared, mistake->name, &DeclaredTwins::second);
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", mistake->name);
+        if (twin != std::end(declared)) text += fmt::format(" (declared equal to {}, below)", twin->first);
+    }
+    return text.empty() ? "none" : text;
+}
+
+}  // namespace
 
 std::string to_page(const std::vector<TableColumn>& columns) {
     const auto all = catalogue();
@@ -116,7 +145,7 @@ std::string to_page(const std::vector<TableColumn>& columns) {
         "1 named first; = the same picture as a mistake above it, which is named; . does not show, and the right "
         "machine is "
         "named; blank cannot be made here.\n\n| mistake |",
-        all.size(), columns.size(), unnamed(columns).size(), twins(columns).size(), wrong);
+        all.size(), columns.size(), unnamed_text(columns), twins(columns).size(), wrong);
     for (std::size_t c = 0; c < columns.size(); ++c) page += fmt::format(" {} |", c + 1);
     page += "\n|---|";
     for (std::size_t c = 0; c < columns.size(); ++c) page += "---|";
@@ -132,8 +161,9 @@ std::string to_page(const std::vector<TableColumn>& columns) {
         if (const char* reason = reason_for(pair))
             page +=
                 fmt::format("\n{} and {} leave the same pictures. {}\n", pair.first->name, pair.second->name, reason);
-    page += "\n| mistake | a picture has this mistake if its pixels are those of |\n|---|---|\n";
-    for (const Mistake& mistake : all) page += fmt::format("| {} | {} |\n", mistake.name, mistake.sentence);
+    page += "\n| mistake | a picture has this mistake if its pixels are those of | named first in |\n|---|---|---|\n";
+    for (std::size_t m = 0; m < all.size(); ++m)
+        page += fmt::format("| {} | {} | {} |\n", all[m].name, all[m].sentence, first_scene(columns, m));
     return page;
 }
 

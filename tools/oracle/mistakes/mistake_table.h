@@ -38,6 +38,8 @@ struct Twins {
 [[nodiscard]] const char* reason_for(const Twins& pair);
 // Whether it is the second one of such a pair: always named by the first one's name.
 [[nodiscard]] bool is_declared_twin(const Mistake& mistake);
+// The scenes in which a mistake of the catalogue is named first.
+[[nodiscard]] std::vector<const SuiteScene*> named_in(const std::vector<TableColumn>& columns, std::size_t mistake);
 // Mistakes that no column names.
 [[nodiscard]] std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns);
 

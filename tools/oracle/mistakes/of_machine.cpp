@@ -27,12 +27,12 @@ bool takes_color(Experiment& e, Format format) {
     return true;
 }
 
-// Clip x and y move by so many pixels' share of w.
-bool moves(Experiment& e, double pixels) {
+// Clip x and y move by so many pixels' share of w, to the right and up.
+bool moves(Experiment& e, double right_px, double up_px) {
     for (int c = 0; c < 4; ++c) {
         auto& column = e.view.projection[c];
-        column[0] += column[3] * (2 * pixels / e.options.width);
-        column[1] += column[3] * (2 * pixels / e.options.height);
+        column[0] += column[3] * (2 * right_px / e.options.width);
+        column[1] += column[3] * (2 * up_px / e.options.height);
     }
     return true;
 }
@@ -53,6 +53,15 @@ bool snaps_to(Experiment& e, int bits) {
     return true;
 }
 
+// Nothing is left to peel.
+bool loses_transparent_surfaces(Experiment& e) {
+    pipeline::DrawList& scene = e.scene();
+    const auto is_transparent = [&](const pipeline::Instance& instance) {
+        return e.options.alpha || scene.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
+    };
+    return std::erase_if(scene.instances, is_transparent) > 0;
+}
+
 bool is_peel(const Experiment& e) { return e.right.passes > 1; }
 
 // The limit of a caller who wants so many layers alone.
@@ -64,7 +73,8 @@ int* limit_of(Experiment& e) {
 constexpr Mistake machine_mistakes[] = {
     {"one_pass_too_few", "one pass too few: the last layers are missing", Place::machine,
      [](Experiment& e) {
-         if (!is_peel(e) || e.right.enough_passes < 2) return false;
+         if (!is_peel(e) || e.right.enough_passes < 1) return false;
+         if (e.right.enough_passes == 1) return loses_transparent_surfaces(e);  // the only layer is the last one
          e.options.max_passes = e.right.enough_passes - 1;
          return true;
      }},
@@ -135,9 +145,14 @@ constexpr Mistake machine_mistakes[] = {
          return true;
      }},
     {"half_pixel_up", "everything moved right and up by half a pixel", Place::machine,
-     [](Experiment& e) { return moves(e, 0.5); }},
+     [](Experiment& e) { return moves(e, 0.5, 0.5); }},
     {"half_pixel_down", "everything moved left and down by half a pixel", Place::machine,
-     [](Experiment& e) { return moves(e, -0.5); }},
+     [](Experiment& e) { return moves(e, -0.5, -0.5); }},
+    // Where y runs down, a half pixel in both directions is one of these.
+    {"half_pixel_right", "everything moved right and down by half a pixel", Place::machine,
+     [](Experiment& e) { return moves(e, 0.5, -0.5); }},
+    {"half_pixel_left", "everything moved left and up by half a pixel", Place::machine,
+     [](Experiment& e) { return moves(e, -0.5, 0.5); }},
     {"ties_of_rows", "a centre on a horizontal edge given to the other triangle (fill rule upside down)",
      Place::machine, [](Experiment& e) { return gives_ties(e, 2); }},
     {"ties_of_columns", "a centre on an edge given to the triangle on the other side, left for right", Place::machine,

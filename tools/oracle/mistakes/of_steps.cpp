@@ -183,6 +183,14 @@ constexpr Mistake step_mistakes[] = {
              blend.alpha = blend_mode::over.alpha;
          });
      }},
+    {"premultiplied_over_for_under",
+     "premultiplied colours blended OVER what lies before them, by (ONE, 1 - alpha), instead of UNDER it", Place::steps,
+     [](Experiment& e) {
+         return in_blends(e, [](Blend& blend) {
+             if (!is(blend, blend_mode::under)) return;
+             blend.color = {BlendEquation::add, BlendFactor::one, BlendFactor::one_minus_src_alpha};
+         });
+     }},
     {"min_for_max", "MIN blending for MAX", Place::steps,
      [](Experiment& e) {
          return in_blends(e, [](Blend& blend) {

@@ -138,8 +138,8 @@ OpenScene open(const SuiteScene& of) {
     return opened;
 }
 
-std::string command_of(const SuiteScene& of) {
-    return fmt::format("strata render {} --algorithm {} --profile {} --size {}x{}{}{}", of.scene, of.algorithm,
+std::string command_of(const SuiteScene& of, std::string_view verb) {
+    return fmt::format("strata {} {} --algorithm {} --profile {} --size {}x{}{}{}", verb, of.scene, of.algorithm,
                        of.profile, of.width, of.height, of.options.empty() ? "" : " ", of.options);
 }
 

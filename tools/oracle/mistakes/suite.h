@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "scenes/scene.h"
 #include "tools/oracle/passes.h"
@@ -37,6 +38,6 @@ struct OpenScene {
 [[nodiscard]] OpenScene open(const SuiteScene& scene);
 
 // "strata render showroom --algorithm dual --size 64x64 --background 0.2,0.3,0.5"
-[[nodiscard]] std::string command_of(const SuiteScene& scene);
+[[nodiscard]] std::string command_of(const SuiteScene& scene, std::string_view verb = "render");
 
 }  // namespace strata::oracle

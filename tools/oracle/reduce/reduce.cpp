@@ -39,9 +39,12 @@ class Reducer {
         result.triangles_before = best_.triangles.size();
         result.width_before = best_.window.x1;
         result.height_before = best_.window.y1;
-        const auto found = difference(whole_);
-        if (!found) return std::nullopt;
-        find_window(*found);
+        const auto drawn = comparison_of(whole_);
+        if (!drawn) throw InputError("candidate", "picture", "one of the scene's size", "none");
+        if (drawn->equal) return std::nullopt;
+        const auto most = std::ranges::max_element(drawn->kinds, {}, &KindReport::pixels);
+        result.kind = kind_ = most->kind;
+        find_window(*drawn);
         for (bool is_smaller = true; is_smaller;) {
             is_smaller = leave_out_triangles();
             is_smaller |= cut_frame();
@@ -51,6 +54,7 @@ class Reducer {
         result.triangles = best_.triangles.size();
         result.comparison = *difference(result.scene);
         result.runs = runs_;
+        result.undrawn = undrawn_;
         return result;
     }
 
@@ -64,18 +68,26 @@ class Reducer {
         return scene;
     }
 
-    // Nothing where the candidate draws it right, or not at all.
-    [[nodiscard]] std::optional<Comparison> difference(const Golden& scene) {
+    // Nothing where the candidate does not draw it.
+    [[nodiscard]] std::optional<Comparison> comparison_of(const Golden& scene) {
         ++runs_;
         if (on_run_) on_run_(scene);
+        const Picture right = right_picture(scene);
+        const auto found = candidate_(scene);
+        const bool is_drawn = found && !found->targets.empty() && found->targets[0].width == scene.options.width &&
+                              found->targets[0].height == scene.options.height;
+        if (is_drawn) return compare(right, *found, {}, background_of(scene));
+        ++undrawn_;
+        return std::nullopt;
+    }
+
+    // Nothing where the candidate draws it right, wrong in another kind, or not at all.
+    [[nodiscard]] std::optional<Comparison> difference(const Golden& scene) {
         try {
-            const Picture right = right_picture(scene);
-            const auto found = candidate_(scene);
-            if (!found || found->targets.empty()) return std::nullopt;
-            const Target& first = found->targets[0];
-            if (first.width != scene.options.width || first.height != scene.options.height) return std::nullopt;
-            Comparison comparison = compare(right, *found);
-            if (comparison.equal) return std::nullopt;
+            auto comparison = comparison_of(scene);
+            if (!comparison ||
+                std::ranges::find(comparison->kinds, kind_, &KindReport::kind) == comparison->kinds.end())
+                return std::nullopt;
             return comparison;
         } catch (const pipeline::Refused&) {
             return std::nullopt;
@@ -103,7 +115,7 @@ class Reducer {
     void find_window(const Comparison& comparison) {
         std::vector<std::size_t> differing;
         for (std::size_t i = 0; i < comparison.kind_of.size(); ++i)
-            if (comparison.kind_of[i] != Kind::none) differing.push_back(i);
+            if (comparison.kind_of[i] == kind_) differing.push_back(i);
         const std::size_t step = std::max<std::size_t>(1, differing.size() / most_pixels);
         for (int side = 1; side <= largest_window; side *= 2)
             for (std::size_t i = step / 2; i < differing.size(); i += step) {
@@ -193,7 +205,8 @@ class Reducer {
     const Candidate& candidate_;
     const std::function<void(const Golden&)>& on_run_;
     Cut best_;
-    int runs_ = 0;
+    Kind kind_ = Kind::none;
+    int runs_ = 0, undrawn_ = 0;
 };
 
 std::string number_of(std::size_t count, const char* thing) {
@@ -211,6 +224,16 @@ Picture right_picture(const Golden& scene) {
     return {.file = "", .targets = {as_target(result.frame.color, "color")}};
 }
 
+Background background_of(const Golden& scene) {
+    Golden empty = scene;
+    empty.scene.list = cut(scene.scene.list, {});
+    empty.options.width = empty.options.height = 1;
+    const Target color = right_picture(empty).targets[0];
+    Background background;
+    for (int c = 0; c < color.channels; ++c) background.push_back(color.value_at(0, c));
+    return background;
+}
+
 std::optional<Reduction> reduce(const Golden& scene, const Candidate& candidate,
                                 const std::function<void(const Golden&)>& on_run) {
     return Reducer{scene, candidate, on_run}.run();
@@ -221,9 +244,10 @@ std::string Reduction::sentence() const {
                                    number_of(triangles, "triangle"), scene.options.width, scene.options.height,
                                    triangles == 1 ? "s" : "", number_of(comparison.differing, "pixel"), triangles,
                                    triangles_before, width_before, height_before, runs);
-    if (!comparison.kinds.empty())
-        text += fmt::format("; the first at {},{} ({})", comparison.kinds[0].first_x, comparison.kinds[0].first_y,
-                            name(comparison.kinds[0].kind));
+    const auto first = std::ranges::find(comparison.kinds, kind, &KindReport::kind);
+    if (first != comparison.kinds.end())
+        text += fmt::format("; the first at {},{} ({})", first->first_x, first->first_y, name(kind));
+    if (undrawn > 0) text += "; " + number_of(static_cast<std::size_t>(undrawn), "run") + " drew nothing";
     if (!defaults.empty()) text += "; not needed: " + fmt::format("{}", fmt::join(defaults, ", "));
     return text;
 }

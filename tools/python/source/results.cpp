@@ -161,11 +161,12 @@ void bind_compare(py::module_& module) {
     module.def("_picture", &picture_of_array);
     module.def(
         "read",
-        [](const std::string& path) {
+        [](const std::string& path, const std::string& algorithm) {
             py::gil_scoped_release without_lock;
-            return read_picture(path);
+            return Reference{path, algorithm}.picture();
         },
-        py::arg("path"), "An .exr, .png or .npy file, without changing a bit.");
+        py::arg("path"), py::arg("algorithm") = "",
+        "An .exr, .png or .npy file, or what a golden pack expects of one of its algorithms, without changing a bit.");
     using Held = std::shared_ptr<Comparison>;
     py::class_<Comparison, Held>(module, "Comparison", "How a candidate differs from a reference.")
         .def_readonly("equal", &Comparison::equal)
@@ -195,10 +196,28 @@ void bind_compare(py::module_& module) {
              py::kw_only(), py::arg("color") = 0, py::arg("depth") = 0, py::arg("coverage") = 0);
 }
 
+void bind_diagnosis(py::module_& module) {
+    py::class_<Diagnosed>(module, "Diagnosis", "Which known mistake made a picture.")
+        .def_property_readonly("is_right", &Diagnosed::is_right)
+        .def_property_readonly("verdict", &Diagnosed::verdict)
+        .def_property_readonly("mistakes", &Diagnosed::mistakes)
+        .def_property_readonly("alike", &Diagnosed::alike)
+        .def_property_readonly("differing", [](const Diagnosed& d) { return d.comparison.differing; })
+        .def_property_readonly("text", &Diagnosed::text)
+        .def_property_readonly("json_text", &Diagnosed::json);
+    module.def("_diagnose", [](const Scene& scene, const Picture& candidate, const std::string& algorithm,
+                               const std::string& profile, const Tolerances& tolerances, const py::kwargs& keywords) {
+        const Asked asked{algorithm, profile, keywords};
+        py::gil_scoped_release without_lock;
+        return diagnose(scene, candidate, asked.algorithm, asked.profile, asked.options, tolerances);
+    });
+}
+
 }  // namespace
 
 void bind_results(py::module_& module) {
     bind_compare(module);
+    bind_diagnosis(module);
     bind_rendering(module);
     bind_layers(module);
     bind_fragments(module);

@@ -7,6 +7,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
+#include "tools/oracle/pack/pack_pictures.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/progress.h"
@@ -23,6 +24,7 @@ struct DiagnoseOptions {
     std::string candidate;
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
+    int limit = 0;  // geometry passes after which the candidate gives up
     bool json = false;
 };
 
@@ -50,6 +52,16 @@ oracle::Picture read_candidate(const DiagnoseOptions& options, const std::string
                      "none");
 }
 
+// The passes in a candidate's folder, or another pack's: empty unless the scene is a pack.
+std::vector<oracle::PassPicture> read_passes(const DiagnoseOptions& options, const std::string& algorithm) {
+    if (!std::filesystem::is_directory(options.candidate) || scenes::is_procedural(options.run.scene) ||
+        !scenes::is_pack(options.run.scene))
+        return {};
+    for (oracle::PackPictures& pictures : oracle::candidate_pictures(options.run.scene, options.candidate))
+        if (pictures.algorithm == algorithm) return std::move(pictures.passes);
+    return {};
+}
+
 // Right: 0. Whatever else made the picture, known or not: 1.
 int diagnose(DiagnoseOptions& options) {
     choose_algorithm(options.run);
@@ -63,12 +75,15 @@ int diagnose(DiagnoseOptions& options) {
     const Session session = open_session(options.run);
     const oracle::Laboratory laboratory{{session.scene.list, session.view, session.profile, options.run.render},
                                         *options.run.algorithms[0],
-                                        has_depth(candidate) ? oracle::Depths::made : oracle::Depths::left_out};
+                                        has_depth(candidate) ? oracle::Depths::made : oracle::Depths::left_out,
+                                        options.limit};
     const auto shown_by = [](Progress& bar) { return [&bar](double share) { bar.show(share); }; };
     Progress machines("wrong machines");
     const oracle::Lineup lineup{laboratory, shown_by(machines)};
     Progress pairs("pairs of mistakes");
-    const oracle::Diagnosis found = lineup.diagnose(candidate, options.tolerances, shown_by(pairs));
+    const std::vector<oracle::PassPicture> passes = read_passes(options, options.run.algorithms[0]->name);
+    const oracle::Diagnosis found =
+        lineup.diagnose(candidate, options.tolerances, shown_by(pairs), passes.empty() ? nullptr : &passes);
     const oracle::Comparison comparison = oracle::compare(laboratory.right(), candidate, options.tolerances);
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));
     return found.verdict == oracle::Verdict::right ? 0 : 1;
@@ -86,6 +101,13 @@ Command add_diagnose(CLI::App& root) {
         ->type_name("");
     add_layout_option(*app, options->layout);
     add_tolerance_option(*app, options->tolerances);
+    add_option(*app, options->limit,
+               {"--limit", "PASSES", "geometry passes after which the candidate gives up, of mistakes that never end",
+                "a whole number, at least 1"},
+               [](std::string_view text) {
+                   const auto number = to_int<int>(text);
+                   return number && *number >= 1 ? number : std::nullopt;
+               });
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
         "The scene is drawn at the candidate's size, whatever --size says; strata mistakes lists what is tried.\n"

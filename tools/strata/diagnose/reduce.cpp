@@ -10,7 +10,9 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
+#include "rasterizer/base/input_error.h"
 #include "scenes/files/system_error.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
@@ -54,7 +56,7 @@ std::string with(std::string text, const std::string& word, const std::string& v
     return text;
 }
 
-// Runs the command on a pack of the scene. A command that fails has drawn nothing.
+// Runs the command on a pack of the scene. A command that fails has drawn nothing, whatever it left; of the user's own pack that is an error.
 class Runner {
   public:
     explicit Runner(const ReduceOptions& options) : options_{options} {}
@@ -69,12 +71,17 @@ class Runner {
             std::filesystem::remove_all(pack);
             oracle::write_pack(scene, pack);
         }
-        given_.clear();
+        const bool is_first = !std::exchange(given_, {}).empty();
         std::filesystem::remove(picture);
         const std::string line = with(with(options_.command, "{pack}", pack), "{picture}", picture.string());
         const int status = std::system((line + " >/dev/null 2>&1").c_str());
         if (status == -1) throw SystemError(line, "start the command", std::strerror(errno));
-        if (!WIFEXITED(status) || !std::filesystem::exists(picture)) return std::nullopt;
+        const std::string fault = !WIFEXITED(status)         ? fmt::format("signal {}", WTERMSIG(status))
+                                  : WEXITSTATUS(status) != 0 ? fmt::format("exit status {}", WEXITSTATUS(status))
+                                  : !std::filesystem::exists(picture) ? "exit status 0 and no picture"
+                                                                      : "";
+        if (!fault.empty() && is_first) throw InputError(line, "end", "exit status 0 and a picture", fault);
+        if (!fault.empty()) return std::nullopt;
         return oracle::read_picture(picture.string(), options_.layout);
     }
 
@@ -136,7 +143,9 @@ Command add_reduce(CLI::App& root) {
               "an ending"});
     add_layout_option(*app, options->layout);
     app->footer(
-        "A command that leaves no picture counts as one that is right, whatever its exit status.\n"
+        "A command that ends with another exit status than 0, or leaves no picture, is an error on PACK itself; a "
+        "smaller\n"
+        "scene on which it does so is not taken. The kind of the failure (strata compare) stays.\n"
         "Examples:\n"
         "  strata golden showroom --size 32x32 --algorithm front_to_back -o room\n"
         "  strata reduce room \"strata render {pack} --algorithm front_to_back --mistake one_pass_too_few -o "

@@ -18,11 +18,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _strata
-from ._strata import (Comparison, FileError, History, InputError, Picture, Refused, Rendering, Tolerances, __version__, algorithms,
+from ._strata import (Comparison, Diagnosis, FileError, History, InputError, Picture, Refused, Rendering, Tolerances, __version__, algorithms,
                       profiles, read)
 
-__all__ = ["Comparison", "FileError", "History", "InputError", "Layer", "Picture", "Refused", "Rendering", "Scene", "Tolerances",
-           "__version__", "algorithms", "assert_matches", "compare", "explain", "fragments", "history_json", "layers", "passes", "picture",
+__all__ = ["Comparison", "Diagnosis", "FileError", "History", "InputError", "Layer", "Picture", "Refused", "Rendering", "Scene", "Tolerances",
+           "__version__", "algorithms", "assert_matches", "compare", "diagnose", "explain", "fragments", "history_json", "layers", "passes", "picture",
            "profiles", "read", "render"]
 
 Array = npt.NDArray[Any]
@@ -114,6 +114,12 @@ def compare(reference: Comparable, candidate: Comparable, *, color: int = 0, dep
     """Exact, unless codes or pixels are to be forgiven: text, json_text, heat, distance tell the difference."""
     tolerances = Tolerances(color=color, depth=depth, coverage=coverage)
     return _strata._compare(_picture_of(reference), _picture_of(candidate), tolerances)
+
+
+def diagnose(scene: _strata.Scene, candidate: Comparable, algorithm: str = "dual", *, profile: str = "ideal",
+             tolerances: Optional[Tolerances] = None, **options: Any) -> Diagnosis:
+    """Which known mistake, or which two, made a picture of the scene: verdict, mistakes, alike, text. The candidate says the size."""
+    return _strata._diagnose(scene, _picture_of(candidate), algorithm, profile, tolerances or Tolerances(), **options)
 
 
 def assert_matches(candidate: Comparable, reference: Comparable, *, name: str = "", color: int = 0, depth: int = 0,

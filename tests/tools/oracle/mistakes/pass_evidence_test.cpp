@@ -1,0 +1,138 @@
+// Model: the candidate's passes are those of a machine whose mistake is known, and targets changed by hand.
+#include "tools/oracle/mistakes/pass_evidence.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/tools/oracle/mistakes/scenes_of_test.h"
+#include "tools/oracle/pack/pack_pictures.h"
+
+using namespace strata;
+using namespace strata::oracle;
+using strata::test::Bench;
+
+namespace {
+
+constexpr int limit = 60;  // passes after which an endless machine gives up
+
+// The passes that a port with this mistake would write; of the right machine for nullptr.
+std::vector<PassPicture> passes_with(const OpenScene& opened, const char* mistake) {
+    Experiment e{.list = &opened.scene.list, .view = opened.view, .profile = opened.profile, .options = opened.options};
+    e.algorithm = opened.algorithm;
+    e.options.max_passes = limit;
+    e.right = {.passes = 9, .enough_passes = 9};
+    if (mistake != nullptr) REQUIRE(find_mistake(mistake)->make(e));
+    const pipeline::Alteration alteration = combined(e);
+    std::vector<PassPicture> all;
+    passes(
+        {*e.list, e.view, e.profile, e.options}, *e.algorithm,
+        [&](PassShown&& pass) {
+            if (pass.kind == PassKind::published) return;
+            all.push_back({.number = pass.number, .iteration = pass.iteration, .has_own = true});
+            for (const NamedImage& target : pass.targets)
+                all.back().targets.targets.push_back(as_target(target.image, target.name));
+        },
+        e.alterations.empty() ? nullptr : &alteration);
+    return all;
+}
+
+Diagnosis diagnosed(const Lineup& lineup, const Picture& picture, const std::vector<PassPicture>& passes) {
+    return lineup.diagnose(picture, {}, {}, &passes);
+}
+
+const Finding& first_of(const Diagnosis& diagnosis) { return diagnosis.findings.front(); }
+
+}  // namespace
+
+TEST_CASE("passes that are alike are counted, and the first that is not is named") {
+    const Bench bench{"random.dual"};
+    std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
+    const auto whole = bench.laboratory.compare_passes({}, passes);
+    REQUIRE(whole);
+    CHECK(whole->is_whole());
+    CHECK(whole->alike == whole->targets);
+    CHECK(whole->targets > static_cast<int>(passes.size()));
+    passes[3].targets.targets.back().codes[5] ^= 1;
+    passes.erase(passes.begin() + 1);  // what the candidate has not is not compared
+    const auto one_less = bench.laboratory.compare_passes({}, passes);
+    REQUIRE(one_less);
+    CHECK(one_less->first_unlike == 3);
+    CHECK(one_less->alike == one_less->targets - 1);
+    CHECK(one_less->targets < whole->targets);
+}
+
+TEST_CASE("of mistakes that leave one picture the passes name the one that was made") {
+    const Bench bench{"random.dual"};
+    const Laboratory laboratory{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
+    const Lineup lineup{laboratory};
+    // One picture: nothing is ever peeled.
+    for (const char* name : {"min_for_max", "add_for_max"}) {
+        const Picture picture = laboratory.with(*find_mistake(name)).value();
+        INFO(name);
+        CHECK(lineup.diagnose(picture).findings.front().mistakes[0]->name == "min_for_max");
+        const Diagnosis found = diagnosed(lineup, picture, passes_with(bench.opened, name));
+        CHECK(found.verdict == Verdict::one_mistake);
+        CHECK(first_of(found).mistakes[0]->name == name);
+        CHECK(first_of(found).passes->is_whole());
+    }
+}
+
+TEST_CASE("of two mistakes the passes name the one among those that leave one picture") {
+    const Bench bench{"random.dual"};
+    const Laboratory laboratory{bench.opened.input(), *bench.opened.algorithm, Depths::left_out, limit};
+    const Lineup lineup{laboratory};
+    const Mistake* const both[] = {find_mistake("add_for_max"), find_mistake("red_for_blue")};
+    const Picture picture = laboratory.with(both).value();
+    const auto passes = passes_with(bench.opened, "add_for_max");
+    const Diagnosis found = diagnosed(lineup, picture, passes);
+    CHECK(found.verdict == Verdict::two_mistakes);
+    CHECK(first_of(found).mistakes[0]->name == "add_for_max");
+    CHECK(first_of(found).mistakes.size() == 2);
+}
+
+TEST_CASE("a picture that hides a mistake is right, but passes that show it are not") {
+    const Bench bench{"random.front_to_back"};
+    const Lineup lineup{bench.laboratory};
+    const Mistake& hidden = *find_mistake("depth_24");
+    REQUIRE_FALSE(lineup.shows(hidden));
+    const Diagnosis right = diagnosed(lineup, bench.laboratory.right(), passes_with(bench.opened, nullptr));
+    CHECK(right.verdict == Verdict::right);
+    CHECK(right.right_passes->is_whole());
+    const Diagnosis found = diagnosed(lineup, bench.laboratory.right(), passes_with(bench.opened, "depth_24"));
+    CHECK(found.verdict == Verdict::one_mistake);
+    CHECK(first_of(found).mistakes[0]->name == "depth_24");
+}
+
+TEST_CASE(
+    "a machine whose picture is the candidate's, but whose passes go wrong as early as the right one's, is not named") {
+    const Bench bench{"random.front_to_back"};
+    const Lineup lineup{bench.laboratory};
+    std::vector<PassPicture> passes = passes_with(bench.opened, nullptr);
+    for (PassPicture& pass : passes)
+        for (Target& target : pass.targets.targets)
+            if (target.meaning == Meaning::color) target.codes[0] ^= 0xff;
+    const Diagnosis found = diagnosed(lineup, bench.with("red_for_blue"), passes);
+    CHECK(found.verdict == Verdict::none_of_mine);
+    CHECK(found.passes_contradict);
+    CHECK(first_of(found).agreeing == found.pixels);
+}
+
+TEST_CASE("a mistake that explains half of the pixels to the last code and all within one is named as nearly") {
+    const Bench bench{"showroom.weighted_sum"};
+    const Lineup lineup{bench.laboratory};
+    Picture rounded = bench.with("red_for_blue");
+    auto& codes = rounded.targets[0].codes;
+    for (std::size_t i = 0; i < codes.size(); i += 40) codes[i] = codes[i] < 255 ? codes[i] + 1 : 254;
+    const Diagnosis found = lineup.diagnose(rounded);
+    CHECK(found.verdict == Verdict::one_mistake);
+    CHECK(found.is_nearly);
+    CHECK(first_of(found).mistakes[0]->name == "red_for_blue");
+    CHECK(first_of(found).nearly == found.pixels);
+    CHECK(first_of(found).agreeing < found.pixels);
+    // Colours one code from the right ones are nobody's mistake.
+    Picture off = bench.laboratory.right();
+    for (std::size_t i = 0; i < off.targets[0].codes.size(); i += 40)
+        off.targets[0].codes[i] = off.targets[0].codes[i] < 255 ? off.targets[0].codes[i] + 1 : 254;
+    const Diagnosis none = lineup.diagnose(off);
+    CHECK(none.verdict == Verdict::none_of_mine);
+    CHECK_FALSE(none.is_nearly);
+}

@@ -1,0 +1,85 @@
+// Model: the packs that `golden` makes of the listed commands, and what `diagnose` says of a mistake drawn by `render --mistake`.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+using Catch::Contains;
+using nlohmann::json;
+
+namespace {
+
+json json_in(const std::string& path) { return json::parse(content_of(path)); }
+
+bool names(const json& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+}  // namespace
+
+TEST_CASE("a suite holds the packs of its commands, says which mistake shows where, and checks") {
+    const Folder folder;
+    const std::string scene = "planes.front_to_back";
+    REQUIRE(run_strata(folder, {"golden", scene, "--suite", "-o", "set"}).status == 0);
+    const json list = json_in(folder / "set/suite.json");
+    REQUIRE(list["scenes"].size() == 1);
+    const std::string command = list["scenes"][0]["command"];
+    REQUIRE(shell(folder, command + " -o right.exr && strata golden" + command.substr(command.find(' ', 7)) + " -o own")
+                .status == 0);
+    const json in_set = json_in(folder / ("set/" + scene + "/manifest.json")),
+               own = json_in(folder / "own/manifest.json");
+    for (const char* key : {"scene", "view", "state", "draws", "results", "files"}) CHECK(in_set[key] == own[key]);
+    CHECK(run_strata(folder, {"compare", "set/" + scene, "right.exr"}).status == 0);
+    int shown = 0, hidden = 0;
+    for (const json& mistake : list["mistakes"]) {
+        const std::string name = mistake["name"];
+        const bool is_first = names(mistake["named_first"], scene), is_hidden = names(mistake["does_not_show"], scene);
+        CHECK(mistake["named_otherwise"].empty());
+        if ((!is_first || shown == 1) && (!is_hidden || hidden == 1)) continue;
+        ++(is_first ? shown : hidden);
+        INFO(name);
+        REQUIRE(shell(folder, command + " --mistake " + name + " -o wrong.exr").status == 0);
+        const Ended said = run_strata(folder, {"diagnose", "set/" + scene, "wrong.exr"});
+        CHECK(said.status == (is_first ? 1 : 0));
+        CHECK_THAT(said.out, Catch::StartsWith("100 % of the pixels are those of: ") &&
+                                 Contains(is_first ? "(" + name + ")\n" : "the right machine\n"));
+    }
+    CHECK(shown + hidden == 2);
+    const Ended check = run_strata(folder, {"golden", "--check", "set", "--simd", "scalar"});
+    CHECK(check.status == 0);
+    CHECK(check.out == "set: every file is what this program derives\n");
+
+    REQUIRE(shell(folder, "printf '\\007' | dd of=set/" + scene +
+                              "/expected/front_to_back/picture.npy bs=1 seek=200 conv=notrunc && "
+                              "sed -i 's/eight planes/nine planes/' set/suite.json")
+                .status == 0);
+    const Ended spoiled = run_strata(folder, {"golden", "--check", "set/suite.json"});
+    CHECK(spoiled.status == 1);
+    CHECK_THAT(
+        spoiled.out,
+        Contains(scene + "/expected/front_to_back/picture.npy: byte 200, row 0, column 18, channel 0: expected "));
+    CHECK_THAT(spoiled.out, Contains("suite.json: line 7: expected what is derived again, found something else\n"));
+}
+
+TEST_CASE("a suite takes no options of other packs, and lists scenes that there are") {
+    const Folder folder;
+    const auto fails = [&](const std::vector<std::string>& words, const std::string& sentence) {
+        const Ended ended = run_strata(folder, words);
+        CHECK(ended.status == 2);
+        CHECK(ended.err == "strata: " + sentence + "\n");
+    };
+    fails({"golden", "--suite", "-o", "set", "--algorithm", "dual"},
+          "--suite: expected a folder for it alone, found --algorithm");
+    fails({"golden", "teapot", "--suite", "-o", "set"},
+          "SCENE: expected a scene of the suite (strata mistakes --suite lists them), found 'teapot'");
+    fails({"golden", "--suite"}, "-o: expected a folder for the pack, found none");
+    CHECK(folder.files().empty());
+    std::ofstream{folder / "suite.json"} << R"({"format":"strata-suite","version":1,"scenes":[{"name":"moon.dual"}]})";
+    fails({"golden", "--check", "suite.json"},
+          "./suite.json: /scenes/0/name: expected a scene of the suite (strata mistakes --suite lists them), found "
+          "'moon.dual'");
+    std::ofstream{folder / "suite.json"} << R"({"format":"strata-suite","version":2,"scenes":[]})";
+    fails({"golden", "--check", "suite.json"}, "./suite.json: /version: expected 1, found something else");
+}

@@ -1,0 +1,71 @@
+#include "tools/oracle/mistakes/pass_evidence.h"
+
+#include <algorithm>
+
+#include "tools/oracle/pack/pack_pictures.h"
+#include "tools/oracle/passes.h"
+
+namespace strata::oracle {
+
+namespace {
+
+// Codes that rounding explains.
+std::uint32_t rounding_of(Code code) noexcept {
+    switch (code) {
+        case Code::single: return 64;
+        case Code::unorm24: return 16;
+        case Code::half: return 2;
+        case Code::unorm8:
+        case Code::unorm16:
+        case Code::integer: break;
+    }
+    return 1;
+}
+
+bool has_one_shape(const Target& a, const Target& b) {
+    return a.width == b.width && a.height == b.height && a.channels == b.channels;
+}
+
+// The greatest distance of two codes.
+std::uint32_t greatest_distance(const Target& a, const Target& b) {
+    if (a.code == b.code && a.codes == b.codes) return 0;
+    std::uint32_t greatest = 0;
+    for (std::size_t i = 0; i < a.codes.size(); ++i)
+        greatest = std::max(greatest, distance({a.code, a.codes[i]}, {b.code, b.codes[i]}));
+    return greatest;
+}
+
+// Whether the first difference comes behind that of the right machine, which has one.
+bool is_later(const std::optional<int>& machine, const std::optional<int>& right) {
+    return right && (!machine || *machine > *right);
+}
+
+}  // namespace
+
+bool explains_origin(const PassAgreement& machine, const PassAgreement& right) {
+    return machine.is_whole() || is_later(machine.first_unlike, right.first_unlike) ||
+           is_later(machine.first_far, right.first_far);
+}
+
+void PassEvidence::add(const PassShown& pass) {
+    if (pass.kind == PassKind::published) return;
+    const auto other = std::ranges::find(candidate_, pass.number, &PassPicture::number);
+    if (other == candidate_.end()) return;
+    for (const NamedImage& target : pass.targets) {
+        const auto& all = other->targets.targets;
+        const auto theirs = std::ranges::find(all, target.name, &Target::name);
+        if (theirs == all.end()) continue;
+        ++found_.targets;
+        const Target ours = as_target(target.image, target.name);
+        const bool fits = has_one_shape(ours, *theirs);
+        const std::uint32_t apart = fits ? greatest_distance(ours, *theirs) : 0;
+        if (fits && apart == 0) {
+            ++found_.alike;
+            continue;
+        }
+        if (!found_.first_unlike) found_.first_unlike = pass.number;
+        if (!found_.first_far && (!fits || apart > rounding_of(ours.code))) found_.first_far = pass.number;
+    }
+}
+
+}  // namespace strata::oracle
