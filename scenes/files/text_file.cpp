@@ -4,10 +4,24 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 
 #include "rasterizer/base/input_error.h"
 
 namespace strata::scenes {
+
+std::string read_standard_input() {
+    constexpr std::size_t most = std::size_t{1} << 30, step = std::size_t{1} << 16;
+    std::string text;
+    while (text.size() <= most) {
+        const std::size_t begin = text.size();
+        text.resize(begin + step);
+        std::cin.read(text.data() + begin, static_cast<std::streamsize>(step));
+        text.resize(begin + static_cast<std::size_t>(std::cin.gcount()));
+        if (text.size() < begin + step) return text;
+    }
+    throw InputError("standard input", "size", "at most 1 GiB", "more");
+}
 
 std::string read_text_file(const std::string& path, std::size_t max_bytes) {
     std::error_code error;

@@ -15,6 +15,16 @@ bool is_implemented(const std::string& name) {
     return std::find(implemented.begin(), implemented.end(), name) != implemented.end();
 }
 
+// How a user gets rid of an extension that a file needs; "" where we know of no way.
+std::string way_out_of(const std::string& extension) {
+    if (extension == "KHR_draco_mesh_compression" || extension == "EXT_meshopt_compression")
+        return " (gltf-transform copy IN.glb OUT.glb unpacks it)";
+    if (extension == "KHR_texture_basisu") return " (gltf-transform ktxdecompress IN.glb OUT.glb unpacks it)";
+    if (extension == "KHR_materials_transmission")
+        return " (make the material alphaMode BLEND in its editor: transmission is not alpha)";
+    return "";
+}
+
 struct Version {
     std::uint64_t major = 0, minor = 0;
 };
@@ -70,7 +80,8 @@ void check_extensions(const JsonAt& root, Warnings& warnings) {
         if (!is_implemented(required.string()))
             required.fail(
                 "UNSUPPORTED_EXTENSION",
-                "no required extension but KHR_materials_unlit, KHR_mesh_quantization and KHR_texture_transform");
+                "no required extension but KHR_materials_unlit, KHR_mesh_quantization and KHR_texture_transform" +
+                    way_out_of(required.string()));
     for (const JsonAt& used : root.elements("extensionsUsed"))
         if (!is_implemented(used.string()))
             warnings.add(used.place().pointer, "extension " + one_line(used.string()) + " is ignored");

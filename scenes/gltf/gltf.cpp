@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <span>
 
 #include "rasterizer/base/float_environment.h"
 #include "scenes/bounds.h"
+#include "scenes/files/text_file.h"
 #include "scenes/gltf/check.h"
 #include "scenes/gltf/document/uri.h"
 #include "scenes/gltf/mesh.h"
@@ -181,6 +183,10 @@ Scene load_gltf_bytes(std::span<const std::byte> bytes, const std::string& name,
 }
 
 Scene load_gltf(const std::string& path, const SceneOptions& options) {
+    if (path == "-") {
+        const std::string bytes = read_standard_input();
+        return load_gltf_bytes(std::as_bytes(std::span{bytes}), "standard input", options);
+    }
     const std::filesystem::path file{path};
     const std::vector<std::byte> bytes = read_file(file, {path, "the file"});
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";

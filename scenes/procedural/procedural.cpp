@@ -143,7 +143,7 @@ Scene load_scene(const std::string& spec, const SceneOptions& options) {
     // The name decides first: "teapot:x.gltf" is the teapot with a wrong parameter, "./teapot:x.gltf" is a
     // file.
     if (is_procedural(spec)) return make_procedural(spec, options);
-    if (is_gltf_path(spec)) return load_gltf(spec, options);
+    if (spec == "-" || is_gltf_path(spec)) return load_gltf(spec, options);
     if (is_pack(spec)) return load_pack(spec, options);
     if (is_plain_triangles(spec)) return load_plain_triangles(spec, options);
     throw InputError(spec, "scene",

@@ -31,3 +31,13 @@ TEST_CASE("a scene in which nothing is transparent is told, with what to type") 
                               "--alpha 0.5 draws everything as half transparent\n"));
     CHECK(run_strata(folder, {"render", "a.gltf", "--size", "16x16", "--alpha", "0.5"}).err.empty());
 }
+
+TEST_CASE("a scene without triangles is told, with what to do") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"render", "random:triangles=0", "--size", "16x16"});
+    CHECK(ended.status == 0);
+    CHECK(ended.err ==
+          "strata: warning: random:triangles=0: nothing is drawn, for the scene has no triangles; strata scene tells "
+          "what "
+          "it holds, and --scene chooses another one of the file\n");
+}

@@ -36,6 +36,10 @@ struct Command {
 [[nodiscard]] Command add_algorithms(CLI::App& root);
 [[nodiscard]] Command add_profiles(CLI::App& root);
 [[nodiscard]] Command add_scenes(CLI::App& root);
+[[nodiscard]] Command add_info(CLI::App& root);
+[[nodiscard]] Command add_help(CLI::App& root);
+[[nodiscard]] Command add_man(CLI::App& root);
+[[nodiscard]] Command add_completions(CLI::App& root);
 
 // The end of a --help: examples that run as printed, one a line, then the exit statuses.
 [[nodiscard]] inline std::string footer(const std::string& examples) {

@@ -2,6 +2,7 @@
 //
 // Rule     One line "strata: ..." on standard error and the exit status: 2 bad input or usage, 3 the system failed, 130
 //          interrupted. Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <ios>
@@ -12,8 +13,10 @@
 #include "rasterizer/base/parallel.h"
 #include "scenes/files/unfinished_files.h"
 #include "tools/strata/command.h"
+#include "tools/strata/manual/manual.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/printable.h"
+#include "tools/strata/recorded_command.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -52,13 +55,13 @@ std::vector<std::string> options_of(const CLI::App& app) {
 }
 
 // The subcommand that was named, or the root if none was.
-const CLI::App& parsed_app(const CLI::App& root) {
+CLI::App& parsed_app(CLI::App& root) {
     const auto subcommands = root.get_subcommands();
     return subcommands.empty() ? root : *subcommands.front();
 }
 
 // CLI11's own words, in the house's form. What our validators say has that form already.
-std::string sentence(const CLI::ParseError& error, const CLI::App& root) {
+std::string sentence(const CLI::ParseError& error, CLI::App& root) {
     const CLI::App& app = parsed_app(root);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         const std::string extra = root.remaining(true).front();
@@ -90,6 +93,23 @@ std::string short_help(const std::vector<Command>& commands) {
            "More about a command: strata COMMAND --help\n";
 }
 
+// `--help all` asks for the rare options, too: the word behind it would be a scene.
+Shown take_amount_of_help(std::vector<std::string>& words) {
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+        if ((words[i] != "--help" && words[i] != "-h") || words[i + 1] != "all") continue;
+        words.erase(words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+        return Shown::all;
+    }
+    return Shown::usual;
+}
+
+// CLI11 wants the last word first. The name of a command behind help or man is an argument: "--" keeps it from being run.
+void parse(CLI::App& root, std::vector<std::string> words) {
+    const bool is_about = words.front() == "help" || words.front() == "man";
+    if (is_about && words.size() > 1 && !words[1].starts_with('-')) words.insert(words.begin() + 1, "--");
+    root.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+}
+
 // CLI11 would take --json=-1 for the contrary of --json.
 void refuse_values_of_flags(const std::vector<Command>& commands) {
     for (const Command& command : commands)
@@ -98,24 +118,30 @@ void refuse_values_of_flags(const std::vector<Command>& commands) {
 }
 
 // The first word is checked here: CLI11 would call a misspelt command an extra argument.
-int parse_and_run(CLI::App& root, const std::vector<Command>& commands, int count, char** words) {
+int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vector<std::string> words) {
     const auto names = names_of(commands);
-    if (count < 2) {
+    if (words.empty()) {
         print(short_help(commands));
         return 0;
     }
-    const std::string first = words[1];
+    const std::string first = words.front();
     if (!first.starts_with('-') && std::find(names.begin(), names.end(), first) == names.end()) {
         return fail("expected a command (" + one_of(names) + "), found " + found_but_near(first, names), bad_input);
     }
+    if (words == std::vector<std::string>{"help"}) {
+        print(short_help(commands));
+        return 0;
+    }
+    expand_from(words);
+    const Shown shown = take_amount_of_help(words);
     try {
-        root.parse(count, words);
+        parse(root, words);
         for (const Command& command : commands) {
             if (command.app->parsed()) return command.run();
         }
         return fail("expected a command (" + one_of(names) + "), found none", bad_input);
     } catch (const CLI::CallForHelp&) {
-        print(parsed_app(root).help(&parsed_app(root) == &root ? "" : "strata") + '\n');
+        print(help_of(parsed_app(root), shown));
     } catch (const CLI::CallForVersion& version) {
         print(std::string(version.what()) + '\n');
     } catch (const CLI::ParseError& error) {
@@ -131,14 +157,15 @@ int run(int count, char** words) {
     root.set_version_flag("--version", "strata " STRATA_VERSION);
     root.footer("strata COMMAND --help says more about a command, with examples.");
     const std::vector<Command> commands{
-        add_render(root),     add_layers(root),         add_passes(root),   add_explain(root),    add_report(root),
-        add_bench(root),      add_effects(root),        add_cost(root),     add_invariance(root), add_reproduce(root),
-        add_hard_cases(root), add_hardware_check(root), add_scene(root),    add_digest(root),     add_compare(root),
-        add_golden(root),     add_diagnose(root),       add_mistakes(root), add_reduce(root),     add_algorithms(root),
-        add_profiles(root),   add_scenes(root),
+        add_render(root),      add_layers(root),         add_passes(root),   add_explain(root),    add_report(root),
+        add_bench(root),       add_effects(root),        add_cost(root),     add_invariance(root), add_reproduce(root),
+        add_hard_cases(root),  add_hardware_check(root), add_scene(root),    add_digest(root),     add_compare(root),
+        add_golden(root),      add_diagnose(root),       add_mistakes(root), add_reduce(root),     add_algorithms(root),
+        add_profiles(root),    add_scenes(root),         add_info(root),     add_help(root),       add_man(root),
+        add_completions(root),
     };
     refuse_values_of_flags(commands);
-    return parse_and_run(root, commands, count, words);
+    return parse_and_run(root, commands, {words + std::min(count, 1), words + count});
 }
 
 }  // namespace

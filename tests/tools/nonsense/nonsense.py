@@ -32,7 +32,8 @@ NEEDS = {
     "effects": SMALL + ["--repeat", "1"], "cost": SMALL + ["--dry-run"], "invariance": SMALL + ["--dry-run"],
     "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "hardware-check": ["."], "scene": SMALL[:1],
     "digest": ["none.png"], "compare": ["a.png", "b.png"], "report": SMALL + OUT, "golden": SMALL + OUT,
-    "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"], "algorithms": [], "scenes": [],
+    "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"], "algorithms": [], "scenes": [], "info": ["none.png"],
+    "help": [], "man": [], "completions": ["bash"],
 }
 
 # (command or *, option, value): why it is no nonsense. Options that take a file or folder of any name are left out of all
@@ -53,9 +54,9 @@ ANY_NAME = ("PACK", "FILE", "FILE|-", "FOLDER", "DIR", "FILE.svg", "FILE.png", "
 def options_of(program, command):
     """(option, type) as --help lists them; the type of a flag is empty."""
     found, inside = [], False
-    for line in output_of(program, [command, "--help"]).splitlines():
+    for line in output_of(program, [command, "--help", "all"]).splitlines():
         if not line.startswith(" "):
-            inside = line == "Options:"
+            inside = line.endswith(":") and line not in ("Positionals:", "Examples:")
         elif inside and line.startswith("  -"):
             words = line.split()
             name = words[0].split(",")[-1]

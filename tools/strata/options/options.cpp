@@ -145,8 +145,9 @@ void add_algorithm_option(CLI::App& app, RunOptions& options) {
 }
 
 void add_scene(CLI::App& app, const std::function<void(const std::string&)>& take) {
-    app.add_option_function<std::string>("SCENE", take,
-                                         "a .gltf or .glb file, a pack, or a built-in scene (strata scenes)")
+    app.add_option_function<std::string>(
+           "SCENE", take,
+           "a .gltf or .glb file, - for one from standard input, a pack, or a built-in scene (strata scenes)")
         ->required()
         ->type_name("");
 }

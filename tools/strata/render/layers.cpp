@@ -10,6 +10,7 @@
 #include "scenes/files/image_io.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
 
 namespace strata::tools {
@@ -101,6 +102,7 @@ Command add_layers(CLI::App& root) {
     const auto options = std::make_shared<LayersOptions>();
     options->run.default_algorithm = "front_to_back";  // whose layers are in the order in which they are peeled
     add_picture_options(*app, options->run);
+    add_from_option(*app);
     add_execution_options(*app, options->run);
     add_output_options(*app, options->run,
                        "the layers, .exr: part layer.000 is the nearest; of a dual peel front.000 and back.000");

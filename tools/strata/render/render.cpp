@@ -8,6 +8,7 @@
 #include "tools/oracle/mistakes/laboratory.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/recorded_command.h"
 #include "tools/strata/render/run.h"
 
 namespace strata::tools {
@@ -83,6 +84,7 @@ Command add_render(CLI::App& root) {
         "render", "render a scene by one or more algorithms and compare each with the exact A-buffer");
     const auto options = std::make_shared<RenderCommand>();
     add_picture_options(*app, options->run);
+    add_from_option(*app);
     add_execution_options(*app, options->run);
     add_output_options(*app, options->run, "the picture, .exr or .png; with several algorithms out.NAME.png");
     app->add_option_function<std::string>(

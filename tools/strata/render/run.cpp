@@ -11,6 +11,7 @@
 #include "scenes/files/profile_json.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/strata/options/names.h"
+#include "tools/strata/options/printable.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/stats.h"
 #include "tools/strata/table.h"
@@ -57,8 +58,19 @@ void check_sorted(const RunOptions& options, const scenes::Scene& scene) {
                                            found_but_near(name, names));
 }
 
-// An algorithm that peels nothing is no news; a scene in which it never can is.
+// An algorithm that peels nothing is no news; a scene in which it never can is, and an empty one.
 void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
+    const auto has_triangles = [&](const pipeline::Instance& instance) {
+        return !scene.list.meshes[instance.mesh].indices.empty();
+    };
+    if (std::none_of(scene.list.instances.begin(), scene.list.instances.end(), has_triangles)) {
+        std::fprintf(
+            stderr,
+            "strata: warning: %s: nothing is drawn, for the scene has no triangles; strata scene tells what it "
+            "holds, and --scene chooses another one of the file\n",
+            printable(options.scene).c_str());
+        return;
+    }
     if (options.render.alpha) return;
     const auto is_transparent = [&](const pipeline::Instance& instance) {
         return scene.list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
@@ -118,6 +130,9 @@ RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, 
     return summarize(algorithm, std::move(result));
 }
 
+// A file of that name would be written beside it and renamed onto it.
+bool is_standard_output(const std::string& path) { return path == "-" || path == "/dev/stdout"; }
+
 // Tells the statistics once all algorithms have run: as JSON, as a table, or both.
 void report(const RunOptions& options, const std::vector<RunSummary>& runs, const std::string& profile) {
     const std::chrono::duration<double> total = std::chrono::steady_clock::now() - options.started;
@@ -129,7 +144,7 @@ void report(const RunOptions& options, const std::vector<RunSummary>& runs, cons
                              .fragment_memory = options.render.fragment_memory,
                              .audited = options.render.audit,
                              .total_seconds = total.count()};
-    if (options.stats == "-") return print(to_json(runs, context));
+    if (is_standard_output(options.stats)) return print(to_json(runs, context));
     if (!options.stats.empty()) scenes::write_file(options.stats, to_json(runs, context));
     print(to_table(runs, context));
 }
@@ -151,7 +166,7 @@ int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfi
 
 int run_algorithms(RunOptions& options, const Writer& write) {
     complete(options);
-    check_outputs({{"--stats", options.stats == "-" ? "" : options.stats, {".json"}}});
+    check_outputs({{"--stats", is_standard_output(options.stats) ? "" : options.stats, {".json"}}});
     const Session session = open_session(options);
     // One renderer serves all algorithms: geometry is transformed and set up once.
     peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);

@@ -1,0 +1,205 @@
+// Model: what the program parses with is what is written about it: every option of every command stands in its help, its page and each
+// shell's completions. bash itself completes; man's own formatter reads the pages.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "tests/tools/program.h"
+
+using namespace strata::test;
+
+namespace {
+
+// The long options that --help all lists.
+std::set<std::string> listed_options(const Folder& folder, const std::string& verb) {
+    std::set<std::string> names;
+    for (const std::string& line : lines_of(run_strata(folder, {verb, "--help", "all"}).out)) {
+        const std::size_t at = line.find("--");
+        if (line.starts_with("  -") && at < 8) names.insert(line.substr(at, line.find_first_of(" ,", at) - at));
+    }
+    return names;
+}
+
+bool is_there(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("help of a command is its --help, and all adds the rare options") {
+    const Folder folder;
+    const Ended usual = run_strata(folder, {"help", "render"}), all = run_strata(folder, {"help", "render", "all"});
+    CHECK(usual.status == 0);
+    CHECK(usual.out == run_strata(folder, {"render", "--help"}).out);
+    CHECK(all.out == run_strata(folder, {"render", "--help", "all"}).out);
+    for (const std::string rare : {"--depth-path", "--termination", "--simd"}) {
+        CHECK(usual.out.find("  " + rare) == std::string::npos);
+        CHECK(all.out.find("  " + rare) != std::string::npos);
+    }
+    CHECK(usual.out.find("strata render --help all") != std::string::npos);
+    CHECK(all.out.find("left out") == std::string::npos);
+    CHECK(run_strata(folder, {"help", "rendr"}).err.find("did you mean 'render'") != std::string::npos);
+    CHECK(run_strata(folder, {"help", "render", "everything"}).status == 2);
+}
+
+TEST_CASE("the page of every command names each of its options, and man finds no fault in it") {
+    const Folder folder;
+    REQUIRE(run_strata(folder, {"man", "-o", "man1"}).status == 0);
+    const std::string root = content_of(folder / "man1/strata.1");
+    if (!is_there("groff")) WARN("SKIPPED: groff was not found: pages are not formatted");
+    for (const std::string& verb : commands()) {
+        INFO(verb);
+        const std::string page = content_of(folder / ("man1/strata-" + verb + ".1"));
+        CHECK(page == run_strata(folder, {"man", verb}).out);
+        const auto in_troff = [](std::string text) {
+            for (std::size_t at = text.find('-'); at != text.npos; at = text.find('-', at + 2)) text.insert(at, "\\");
+            return text;
+        };
+        CHECK(root.find(in_troff("strata-" + verb)) != std::string::npos);
+        for (const std::string& option : listed_options(folder, verb))
+            CHECK(page.find(in_troff(option)) != std::string::npos);
+        if (!is_there("groff")) continue;
+        const Ended formatted = shell(folder, "groff -man -Tutf8 -P-cbou -ww man1/strata-" + verb + ".1");
+        CHECK(formatted.err.empty());
+        CHECK(formatted.out.find("EXAMPLES") != std::string::npos);
+    }
+}
+
+TEST_CASE("completions of every shell have every command and every option") {
+    const Folder folder;
+    for (const std::string name : {"bash", "zsh", "fish"}) {
+        const std::string text = run_strata(folder, {"completions", name}).out;
+        for (const std::string& verb : commands()) {
+            INFO(name << " " << verb);
+            CHECK(text.find(verb) != std::string::npos);
+            for (const std::string& option : listed_options(folder, verb))
+                CHECK(text.find(name == "fish" ? " -l " + option.substr(2) + " " : option) != std::string::npos);
+        }
+        if (!is_there(name)) {
+            WARN("SKIPPED: " << name << " was not found: its completions are not read");
+            continue;
+        }
+        CHECK(shell(folder, "strata completions " + name + " > file && " + name + " -n file").err.empty());
+    }
+}
+
+TEST_CASE("bash completes commands, options, choices and scenes") {
+    const Folder folder;
+    const auto completed = [&](const std::string& line) {
+        const Ended ended =
+            shell(folder, "bash -c 'source <(strata completions bash); COMP_WORDS=(" + line +
+                              "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _strata; echo \"${COMPREPLY[@]}\"'");
+        INFO(ended.err);
+        CHECK(ended.err.empty());
+        return ended.out;
+    };
+    CHECK(completed("strata rend") == "render\n");
+    CHECK(completed("strata render --depth-p") == "--depth-path\n");
+    CHECK(completed("strata render --depth d2") == "d24 d24f\n");
+    CHECK(completed("strata render --algorithm dual_") == "dual_independent\n");
+    CHECK(completed("strata render tea") == "teapot\n");
+}
+
+TEST_CASE("a picture tells the command that made it, and that command makes the same file again") {
+    const Folder folder;
+    const std::string ending = GENERATE("png", "exr");
+    const std::string file = "a." + ending, copy = "b." + ending;
+    REQUIRE(run_strata(folder, {"render", "planes:count=3", "--size", "24x16", "--alpha", "0.25", "-o", file}).status ==
+            0);
+    const Ended told = run_strata(folder, {"info", file});
+    CHECK(told.status == 0);
+    CHECK(lines_of(told.out).at(0).starts_with("strata render planes:count=3 "));
+    CHECK(lines_of(told.out).at(0).find("--alpha 0.25") != std::string::npos);
+    REQUIRE(run_strata(folder, {"render", "--from", file, "-o", copy}).status == 0);
+    CHECK(content_of(folder / file) == content_of(folder / copy));
+    CHECK(run_strata(folder, {"layers", "--from=" + file, "-o", "c.exr"}).err.find("one of strata render") !=
+          std::string::npos);
+    CHECK(run_strata(folder, {"render", "--from"}).status == 2);
+}
+
+TEST_CASE("a picture of another program has no command to tell") {
+    const Folder folder;
+    // A black pixel, written by hand: IHDR, IDAT and IEND.
+    const unsigned char png[] = {0x89, 'P',  'N',  'G',  13,   10,  26,  10,  0,   0,    0,    13,   'I',  'H',
+                                 'D',  'R',  0,    0,    0,    1,   0,   0,   0,   1,    8,    2,    0,    0,
+                                 0,    0x90, 0x77, 0x53, 0xde, 0,   0,   0,   12,  'I',  'D',  'A',  'T',  0x78,
+                                 0x9c, 0x63, 0x60, 0x60, 0x60, 0,   0,   0,   4,   0,    1,    0xf6, 0x17, 0x38,
+                                 0x55, 0,    0,    0,    0,    'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    std::ofstream(folder / "other.png", std::ios::binary).write(reinterpret_cast<const char*>(png), sizeof png);
+    const Ended ended = run_strata(folder, {"info", "other.png"});
+    CHECK(ended.status == 2);
+    CHECK(ended.err.find("other.png: strata:command: expected a picture that strata wrote") != std::string::npos);
+}
+
+TEST_CASE("an expected digest that no file has ends with status 1") {
+    const Folder folder;
+    REQUIRE(run_strata(folder, {"render", "planes:count=2", "--size", "8x8", "-o", "a.png"}).status == 0);
+    const std::string digest = lines_of(run_strata(folder, {"digest", "a.png"}).out).at(1).substr(0, 32);
+    CHECK(run_strata(folder, {"digest", "--expect", digest, "a.png"}).status == 0);
+    const std::string other = (digest[0] == '0' ? "1" : "0") + digest.substr(1);
+    const Ended ended = run_strata(folder, {"digest", "--expect", other, "a.png"});
+    CHECK(ended.status == 1);
+    CHECK(ended.err == "strata: --expect: expected " + other + ", found no such digest\n");
+    CHECK(run_strata(folder, {"digest", "--expect", "zz", "a.png"}).status == 2);
+}
+
+TEST_CASE("channels have digests of their own, which tell where two pictures differ") {
+    const Folder folder;
+    REQUIRE(run_strata(folder, {"render", "planes:count=1", "--background", "0,0,0", "--size", "8x8", "-o", "a.exr"})
+                .status == 0);
+    REQUIRE(run_strata(folder, {"render", "planes:count=1", "--background", "0,0,1", "--size", "8x8", "-o", "b.exr"})
+                .status == 0);
+    const auto of = [&](const std::string& file) {
+        return lines_of(run_strata(folder, {"digest", "--channels", file}).out);
+    };
+    const auto a = of("a.exr"), b = of("b.exr");
+    REQUIRE(a.size() == b.size());
+    REQUIRE(a.size() >= 5);
+    CHECK(a.at(1).substr(0, 32) == b.at(1).substr(0, 32));  // red
+    CHECK(a.at(3).substr(0, 32) != b.at(3).substr(0, 32));  // blue
+}
+
+TEST_CASE("statistics to /dev/stdout are those to -") {
+    const Folder folder;
+    const std::vector<std::string> words{"render", "planes:count=1", "--size", "8x8", "--no-audit", "--stats"};
+    auto to_dash = words, to_device = words;
+    to_dash.emplace_back("-");
+    to_device.emplace_back("/dev/stdout");
+    const auto digests = [&](const std::vector<std::string>& command) {
+        const std::string out = run_strata(folder, command).out;
+        return out.substr(out.find("\"digest\""), 100);
+    };
+    CHECK(digests(to_dash) == digests(to_device));
+}
+
+TEST_CASE("a scene may come from standard input") {
+    const Folder folder;
+    std::ofstream(folder / "scene.gltf") << R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    const std::string rest = " --size 16x16 --alpha 0.5 --no-audit --stats - 2>&1 | grep -A2 digest";
+    const Ended file = shell(folder, "strata render scene.gltf" + rest);
+    const Ended piped = shell(folder, "strata render - < scene.gltf" + rest);
+    CHECK(file.out.find("color") != std::string::npos);
+    CHECK(piped.out == file.out);
+    CHECK(shell(folder, "strata render - < /dev/null").status == 2);
+}
+
+TEST_CASE("an extension that a file needs and we lack is refused with the way out") {
+    const Folder folder;
+    for (const auto& [extension, way] :
+         {std::pair<std::string, std::string>{"KHR_draco_mesh_compression", "gltf-transform copy"},
+          {"EXT_meshopt_compression", "gltf-transform copy"},
+          {"KHR_texture_basisu", "gltf-transform ktxdecompress"},
+          {"KHR_materials_transmission", "alphaMode BLEND"}}) {
+        std::ofstream(folder / "x.gltf") << R"({"asset":{"version":"2.0"},"extensionsUsed":[")" << extension
+                                         << R"("],"extensionsRequired":[")" << extension << R"("]})";
+        const Ended ended = run_strata(folder, {"scene", "x.gltf"});
+        INFO(ended.err);
+        CHECK(ended.status == 2);
+        CHECK(ended.err.find(way) != std::string::npos);
+    }
+}

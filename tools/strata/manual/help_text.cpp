@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "tools/strata/manual/manual.h"
+
+namespace strata::tools {
+
+namespace {
+
+struct Group {
+    std::string title;
+    Shown shown;
+    std::vector<std::string> names;
+};
+
+// An option of no group stands under "Options". Titles are in the order in which --help has them.
+const std::vector<Group>& groups() {
+    static const std::vector<Group> all{
+        {"What is drawn", Shown::usual, {"scene", "colour", "no-light", "algorithm", "profile", "depth", "from"}},
+        {"The view", Shown::usual, {"size", "camera", "orbit", "alpha", "background"}},
+        {"Results", Shown::usual, {"output", "stats", "no-audit", "json", "csv", "expect", "channels"}},
+        {"Depths and positions, rarely needed",
+         Shown::all,
+         {"depth-path", "reference-path", "compare-epsilon", "no-quantize-reference", "vertex-path", "polygon-offset",
+          "depth-order", "clip-depth", "depth-range"}},
+        {"Algorithms, rarely needed",
+         Shown::all,
+         {"color-format", "average-count", "termination", "max-passes", "formulation", "sorted", "sort", "mistake"}},
+        {"How it is run, to the same bits",
+         Shown::all,
+         {"execution", "simd", "effects", "fragment-memory", "tile", "threads"}},
+    };
+    return all;
+}
+
+const Group* group_of(const CLI::Option& option) {
+    for (const Group& group : groups())
+        for (const std::string& name : group.names)
+            if (option.check_lname(name)) return &group;
+    return nullptr;
+}
+
+}  // namespace
+
+std::string typed_name(const CLI::Option& option) {
+    if (!option.get_lnames().empty()) return "--" + option.get_lnames().front();
+    return option.get_snames().empty() ? "" : "-" + option.get_snames().front();
+}
+
+std::vector<CLI::App*> commands_of(CLI::App& root) {
+    return root.get_subcommands([](CLI::App*) { return true; });
+}
+
+std::string help_of(CLI::App& command, Shown shown) {
+    std::size_t hidden = 0;
+    for (CLI::Option* option : command.get_options()) {
+        if (option->get_positional() || option->get_group().empty()) continue;
+        const Group* group = group_of(*option);
+        if (group == nullptr) continue;
+        const bool is_hidden = group->shown == Shown::all && shown == Shown::usual;
+        option->group(is_hidden ? "" : group->title);
+        hidden += is_hidden ? 1 : 0;
+    }
+    const bool is_root = command.get_parent() == nullptr;
+    std::string text = command.help(is_root ? "" : "strata") + '\n';
+    if (hidden > 0)
+        text += fmt::format("{} rare options are left out here: strata {} --help all\n", hidden, command.get_name());
+    return text;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,39 @@
+// tools/web/header_libraries.cpp - what the packages keep in libraries, and a browser's build has as headers alone: tinygltf's reader,
+// without images and files, and the few functions of Highway that one instruction set needs. And in place of the image module a sentence.
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_INCLUDE_JSON
+#include <tiny_gltf.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "hwy/highway.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/load_image_module.h"
+
+namespace tinygltf {
+
+// Its writer's, which nobody calls.
+bool WriteImageData(const std::string*, const std::string*, const Image*, bool, std::string*, void*) { return false; }
+
+}  // namespace tinygltf
+
+namespace hwy {
+
+std::int64_t SupportedTargets() { return HWY_STATIC_TARGET; }
+
+void Abort(const char*, int, const char*, ...) { std::abort(); }
+
+}  // namespace hwy
+
+namespace strata::scenes {
+
+const ImageModule& image_module() {
+    throw InputError("page", "texture", "a model without textures; the command reads them", "a picture to decode");
+}
+
+}  // namespace strata::scenes

@@ -1,0 +1,16 @@
+# debian_headers(TARGET HEADER...): an imported library of headers alone, those HEADERs of /usr/include. They are linked into a folder of
+# their own: /usr/include itself holds the C library of another machine.
+function(debian_headers target)
+  set(folder ${CMAKE_BINARY_DIR}/headers)
+  file(MAKE_DIRECTORY ${folder})
+  foreach(header IN LISTS ARGN)
+    if(NOT EXISTS /usr/include/${header})
+      message(FATAL_ERROR "/usr/include/${header}: expected a header of Debian's (tools/setup.sh installs it), found none")
+    endif()
+    file(CREATE_LINK /usr/include/${header} ${folder}/${header} SYMBOLIC)
+  endforeach()
+  if(NOT TARGET ${target})
+    add_library(${target} INTERFACE IMPORTED GLOBAL)
+    set_target_properties(${target} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${folder} INTERFACE_INCLUDE_DIRECTORIES ${folder})
+  endif()
+endfunction()

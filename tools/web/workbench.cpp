@@ -1,0 +1,237 @@
+// tools/web/workbench.cpp - what the page asks of the renderer: scenes, pictures, layers and histories, in JSON and plain arrays.
+//
+// Rule     A question is an object with "do"; its other fields have the names and meaning of the command's options, so that `strata render`
+//          with the same gives the same digest. The answer is an object, too; one with "error" is a sentence for people. Arrays that
+//          belong to an answer stay where they are until the next question of the same kind.
+// Tests    tools/web/test.sh
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "peeling/registry.h"
+#include "peeling/render.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/camera.h"
+#include "scenes/files/image_io.h"
+#include "scenes/files/profile_json.h"
+#include "scenes/gltf/gltf.h"
+#include "scenes/numbers/srgb_encode.h"
+#include "scenes/scene.h"
+#include "tools/oracle/history_report.h"
+#include "tools/strata/report/survey.h"
+
+namespace strata::web {
+
+class Workbench {
+  public:
+    // A .glb or .gltf that questions name as "scene".
+    void keep_file(const std::string& name, std::vector<std::byte> bytes) { files_[name] = std::move(bytes); }
+
+    // Throws nothing but std::bad_alloc.
+    [[nodiscard]] std::string answer(const std::string& question);
+
+  private:
+    using Json = nlohmann::ordered_json;
+
+    [[nodiscard]] Json answer_of(const Json& question);
+    void open(const Json& question);
+    [[nodiscard]] Json render(const Json& question);
+    [[nodiscard]] Json layers(const Json& question);
+    [[nodiscard]] Json explain(const Json& question);
+    [[nodiscard]] scenes::Scene load(const std::string& name, const scenes::SceneOptions& options) const;
+
+    std::map<std::string, std::vector<std::byte>> files_;
+    std::string scene_key_;
+    std::optional<scenes::Scene> scene_;
+    pipeline::View view_;
+    pipeline::DeviceProfile profile_;
+    peeling::RenderOptions options_;
+    pipeline::ColorSpace space_ = pipeline::ColorSpace::encoded;
+    std::vector<std::uint8_t> picture_;  // r, g, b, a, straight
+    std::vector<std::uint32_t> codes_;
+    tools::Columns columns_;
+    std::vector<std::uint32_t> numbers_[3];  // depth code, triangle, arrival
+    std::vector<float> values_[5];           // depth, red, green, blue, alpha
+};
+
+namespace {
+
+using nlohmann::ordered_json;
+
+// Larger pictures have no room beside their fragments in what a browser gives one page.
+constexpr int most_side = 2048;
+
+const peeling::Algorithm& algorithm_of(const ordered_json& question) {
+    const auto name = question.at("algorithm").get<std::string>();
+    const peeling::Algorithm* algorithm = peeling::find_algorithm(name);
+    if (algorithm == nullptr) throw InputError("page", "algorithm", "one of the list", name);
+    return *algorithm;
+}
+
+// Where an array lies in the memory that the page sees, and how many elements it has.
+template <class T>
+ordered_json place_of(const std::vector<T>& values) {
+    return {reinterpret_cast<std::uintptr_t>(values.data()), values.size()};
+}
+
+ordered_json lists() {
+    ordered_json document{
+        {"algorithms", ordered_json::array()}, {"profiles", ordered_json::array()}, {"scenes", ordered_json::array()}};
+    for (const peeling::Algorithm& a : peeling::algorithms())
+        document["algorithms"].push_back({{"name", a.name}, {"summary", a.summary}, {"paper", a.paper}});
+    for (const pipeline::DeviceProfile& p : pipeline::builtin_profiles())
+        document["profiles"].push_back({{"name", p.name}, {"description", p.description}});
+    for (const scenes::ProceduralScene& s : scenes::procedural_scenes())
+        document["scenes"].push_back({{"name", s.name}, {"parameters", s.parameters}, {"description", s.description}});
+    return document;
+}
+
+ordered_json diagnostics_of(const peeling::RenderResult& result) {
+    ordered_json list = ordered_json::array();
+    for (const pipeline::Diagnostic& d : result.frame.diagnostics)
+        list.push_back({{"fault", pipeline::name(d.fault)}, {"pixels", d.pixels}, {"detail", d.detail}});
+    return list;
+}
+
+}  // namespace
+
+scenes::Scene Workbench::load(const std::string& name, const scenes::SceneOptions& options) const {
+    if (const auto file = files_.find(name); file != files_.end())
+        return scenes::load_gltf_bytes(file->second, name, options);
+    return scenes::make_procedural(name, options);
+}
+
+// Fields that are absent keep the command's defaults.
+void Workbench::open(const Json& question) {
+    const auto scene = question.at("scene").get<std::string>();
+    space_ =
+        question.value("colour", "encoded") == "linear" ? pipeline::ColorSpace::linear : pipeline::ColorSpace::encoded;
+    const std::string key = scene + (space_ == pipeline::ColorSpace::linear ? " linear" : " encoded");
+    if (key != scene_key_) {
+        scene_key_.clear();
+        scene_ = load(scene, {.color_space = space_});
+        scene_key_ = key;
+    }
+    profile_ = scenes::load_profile(question.value("profile", "geforce8"));
+    options_ = {};
+    const auto [width, height] = question.at("size").get<std::array<int, 2>>();
+    if (width < 1 || height < 1 || width > most_side || height > most_side)
+        throw InputError("page", "size", fmt::format("1 to {} pixels a side", most_side),
+                         fmt::format("{}x{}", width, height));
+    options_.width = width, options_.height = height, options_.threads = 1;
+    if (question.contains("alpha")) options_.alpha = question["alpha"].get<float>();
+    if (question.contains("background")) {
+        const auto b = question["background"].get<std::array<float, 3>>();
+        options_.background = {b[0], b[1], b[2], 1};
+    }
+    options_.background = scenes::from_encoded(options_.background, space_);
+    options_.audit = question.value("audit", false);
+    if (scene_->own_view && !question.contains("orbit")) {
+        view_ = *scene_->own_view;
+    } else {
+        const auto orbit = question.value("orbit", std::array<double, 2>{30, 20});
+        view_ = scenes::orbit_view(scene_->bounds, orbit[0], orbit[1], double(width) / height);
+    }
+}
+
+Workbench::Json Workbench::render(const Json& question) {
+    open(question);
+    const peeling::Algorithm& algorithm = algorithm_of(question);
+    peeling::Renderer renderer{scene_->list, view_, profile_, options_};
+    peeling::RenderResult result = renderer.render(algorithm);
+    if (result.outcome == peeling::Outcome::refused) return {{"refusal", result.refusal->sentence(profile_)}};
+    const scenes::OutputColor color{.color = result.frame.color, .premultiplied = true, .space = space_};
+    const pipeline::Image straight = scenes::as_straight_rgba8(color);
+    picture_.assign(straight.codes.begin(), straight.codes.end());
+    codes_.assign(result.frame.color.codes.begin(), result.frame.color.codes.end());
+    Json answer{{"refusal", nullptr},
+                {"digest", pipeline::digest(result.frame.color)},
+                {"depth_digest", result.frame.depth.codes.empty() ? "" : pipeline::digest(result.frame.depth)},
+                {"format", pipeline::info(result.frame.color.format).name},
+                {"passes", result.frame.passes.geometry},
+                {"full_screen", result.frame.passes.full_screen},
+                {"picture", place_of(picture_)},
+                {"codes", place_of(codes_)},
+                {"diagnostics", diagnostics_of(result)},
+                {"has_own_view", scene_->own_view.has_value()},
+                {"warnings", scene_->warnings}};
+    return answer;
+}
+
+// Fragments near to far, as the report has them: by the A-buffer, which every device runs.
+Workbench::Json Workbench::layers(const Json& question) {
+    open(question);
+    peeling::Renderer renderer{scene_->list, view_, profile_, options_};
+    columns_ = tools::columns_of(renderer.fragments(*peeling::find_algorithm("a_buffer")).all,
+                                 static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height));
+    for (auto& numbers : numbers_) numbers.clear();
+    for (auto& values : values_) values.clear();
+    for (std::size_t f = 0; f < columns_.fragments.size(); ++f) {
+        const pipeline::CapturedFragment& fragment = columns_.fragments[f];
+        numbers_[0].push_back(fragment.code);
+        numbers_[1].push_back(fragment.primitive);
+        numbers_[2].push_back(columns_.arrival[f]);
+        values_[0].push_back(fragment.shader_z);
+        for (std::size_t c = 0; c < 4; ++c) values_[c + 1].push_back(fragment.color[c]);
+    }
+    return {{"first", place_of(columns_.first)}, {"code", place_of(numbers_[0])}, {"primitive", place_of(numbers_[1])},
+            {"arrival", place_of(numbers_[2])},  {"z", place_of(values_[0])},     {"red", place_of(values_[1])},
+            {"green", place_of(values_[2])},     {"blue", place_of(values_[3])},  {"alpha", place_of(values_[4])}};
+}
+
+Workbench::Json Workbench::explain(const Json& question) {
+    open(question);
+    const auto [x, y] = question.at("pixel").get<std::array<int, 2>>();
+    const oracle::RunInput input{scene_->list, view_, profile_, options_};
+    return {{"text", oracle::to_text(oracle::explain(input, algorithm_of(question), {x, y, x + 1, y + 1}).at(0))}};
+}
+
+Workbench::Json Workbench::answer_of(const Json& question) {
+    const auto kind = question.at("do").get<std::string>();
+    if (kind == "render") return render(question);
+    if (kind == "layers") return layers(question);
+    if (kind == "explain") return explain(question);
+    return lists();
+}
+
+std::string Workbench::answer(const std::string& question) {
+    Json answer;
+    try {
+        answer = answer_of(Json::parse(question));
+    } catch (const std::exception& error) {
+        answer = {{"error", error.what()}};
+    }
+    return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace strata::web
+
+namespace {
+
+strata::web::Workbench& workbench() {
+    static strata::web::Workbench one;
+    return one;
+}
+
+}  // namespace
+
+extern "C" {
+
+// JSON in, JSON out; the answer stays until the next question.
+const char* strata_ask(const char* question) {
+    static std::string answer;
+    answer = workbench().answer(question);
+    return answer.c_str();
+}
+
+void strata_keep_file(const char* name, const unsigned char* bytes, std::size_t size) {
+    const auto* begin = reinterpret_cast<const std::byte*>(bytes);
+    workbench().keep_file(name, {begin, begin + size});
+}
+}
