@@ -1,12 +1,10 @@
 #include "tools/oracle/pack/golden.h"
 
-#include <filesystem>
-
 #include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
-#include "scenes/files/atomic_file.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/files/text_file.h"
+#include "scenes/packs/new_folder.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/pack/draw_json.h"
 #include "tools/oracle/pack/result_json.h"
@@ -18,28 +16,6 @@ namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
-
-// The folder goes again unless all of it was written.
-class NewFolder {
-  public:
-    explicit NewFolder(const std::string& path) : path_{path} {
-        std::error_code error;
-        if (std::filesystem::exists(path_, error) && !std::filesystem::is_empty(path_, error))
-            throw InputError(path, "folder", "one that does not exist or is empty", "something");
-        std::filesystem::create_directories(path_);
-    }
-    NewFolder(const NewFolder&) = delete;
-    NewFolder& operator=(const NewFolder&) = delete;
-    ~NewFolder() {
-        std::error_code ignored;
-        if (!keep_) std::filesystem::remove_all(path_, ignored);
-    }
-    void keep() noexcept { keep_ = true; }
-
-  private:
-    std::filesystem::path path_;
-    bool keep_ = false;
-};
 
 }  // namespace
 
@@ -59,12 +35,8 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink) {
 }
 
 void write_pack(const Golden& golden, const std::string& folder) {
-    NewFolder place{folder};
-    derive(golden, [&](const std::string& name, const std::string& bytes) {
-        const std::filesystem::path path = std::filesystem::path(folder) / name;
-        std::filesystem::create_directories(path.parent_path());
-        scenes::write_file(path.string(), bytes);
-    });
+    scenes::NewFolder place{folder};
+    derive(golden, [&](const std::string& name, const std::string& bytes) { place.write(name, bytes); });
     place.keep();
 }
 
