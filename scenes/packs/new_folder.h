@@ -1,6 +1,6 @@
 // scenes/packs/new_folder.h - a folder of files that is kept only if all of them were written.
 //
-// Tests    tests/scenes/packs/new_folder_test.cpp
+// Tests    tests/tools/probe/pack_test.cpp
 #pragma once
 #include <filesystem>
 #include <string>

@@ -2,7 +2,7 @@
 //
 // Rule     One region, one pass a draw, by the profile's own depth path. An item that the device lacks something for is refused
 //          with a sentence.
-// Tests    tests/tools/probe/draw_item_test.cpp
+// Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include "pipeline/device/profile.h"
 #include "tools/probe/item.h"

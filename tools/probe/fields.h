@@ -3,7 +3,7 @@
 //
 // Rule     A field that does not matter under the other fields keeps its value and is not searched. Groups are searched in
 //          order: the scenes of a group depend on its own fields and on those of the groups before it.
-// Tests    tests/tools/probe/fields_test.cpp
+// Tests    tests/tools/probe/kit_test.cpp
 #pragma once
 #include <span>
 #include <string_view>
