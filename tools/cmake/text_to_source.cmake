@@ -1,6 +1,8 @@
-# cmake -D OUT=FILE.cpp -D FOLDER=page -P text_to_source.cmake: the page's files as functions that answer their text.
-set(source "#include \"tools/strata/report/page_parts.h\"\n\nnamespace strata::tools {\n")
-foreach(part page.html:page_html style.css:page_css page.js:page_js)
+# cmake -D OUT=FILE.cpp -D FOLDER=page -D HEADER=parts.h -D NAMESPACE=a::b -D "PARTS=page.html:page_html ..." -P text_to_source.cmake:
+# files as functions that answer their text.
+set(source "#include \"${HEADER}\"\n\nnamespace ${NAMESPACE} {\n")
+string(REPLACE " " ";" PARTS "${PARTS}")
+foreach(part ${PARTS})
   string(REPLACE ":" ";" part ${part})
   list(GET part 0 file)
   list(GET part 1 name)
@@ -10,5 +12,5 @@ foreach(part page.html:page_html style.css:page_css page.js:page_js)
   string(APPEND source "static constexpr unsigned char ${name}_bytes[] = {${bytes}};\n"
     "std::string_view ${name}() { return {reinterpret_cast<const char*>(${name}_bytes), sizeof ${name}_bytes}; }\n")
 endforeach()
-string(APPEND source "}  // namespace strata::tools\n")
+string(APPEND source "}  // namespace ${NAMESPACE}\n")
 file(WRITE ${OUT} "${source}")

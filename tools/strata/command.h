@@ -22,6 +22,8 @@ struct Command {
 [[nodiscard]] Command add_diagnose(CLI::App& root);
 [[nodiscard]] Command add_mistakes(CLI::App& root);
 [[nodiscard]] Command add_reduce(CLI::App& root);
+[[nodiscard]] Command add_probe(CLI::App& root);
+[[nodiscard]] Command add_infer(CLI::App& root);
 [[nodiscard]] Command add_bench(CLI::App& root);
 [[nodiscard]] Command add_effects(CLI::App& root);
 [[nodiscard]] Command add_cost(CLI::App& root);

@@ -157,12 +157,13 @@ int run(int count, char** words) {
     root.set_version_flag("--version", "strata " STRATA_VERSION);
     root.footer("strata COMMAND --help says more about a command, with examples.");
     const std::vector<Command> commands{
-        add_render(root),      add_layers(root),         add_passes(root),   add_explain(root),    add_report(root),
-        add_bench(root),       add_effects(root),        add_cost(root),     add_invariance(root), add_reproduce(root),
-        add_hard_cases(root),  add_hardware_check(root), add_scene(root),    add_digest(root),     add_compare(root),
-        add_golden(root),      add_diagnose(root),       add_mistakes(root), add_reduce(root),     add_algorithms(root),
-        add_profiles(root),    add_scenes(root),         add_info(root),     add_help(root),       add_man(root),
-        add_completions(root),
+        add_render(root),     add_layers(root),     add_passes(root),     add_explain(root),
+        add_report(root),     add_bench(root),      add_effects(root),    add_cost(root),
+        add_invariance(root), add_reproduce(root),  add_hard_cases(root), add_hardware_check(root),
+        add_scene(root),      add_digest(root),     add_compare(root),    add_golden(root),
+        add_diagnose(root),   add_mistakes(root),   add_reduce(root),     add_probe(root),
+        add_infer(root),      add_algorithms(root), add_profiles(root),   add_scenes(root),
+        add_info(root),       add_help(root),       add_man(root),        add_completions(root),
     };
     refuse_values_of_flags(commands);
     return parse_and_run(root, commands, {words + std::min(count, 1), words + count});

@@ -6,9 +6,9 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/text_file.h"
+#include "scenes/packs/new_folder.h"
 #include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/mistake_table.h"
-#include "tools/oracle/pack/new_folder.h"
 
 namespace strata::oracle {
 
@@ -115,7 +115,7 @@ Golden golden_of(const SuiteScene& of) {
 }
 
 void write_suite(const std::string& folder, std::span<const SuiteScene* const> scenes, const ShowProgress& progress) {
-    NewFolder place{folder};
+    scenes::NewFolder place{folder};
     std::size_t written = 0;
     for (const SuiteScene* scene : scenes) {
         write_pack(golden_of(*scene), folder + "/" + scene->name);

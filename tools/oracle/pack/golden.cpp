@@ -1,14 +1,11 @@
 #include "tools/oracle/pack/golden.h"
 
-#include <filesystem>
-
 #include "peeling/registry.h"
-#include "scenes/files/atomic_file.h"
 #include "scenes/files/profile_json.h"
 #include "scenes/files/text_file.h"
+#include "scenes/packs/new_folder.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/pack/draw_json.h"
-#include "tools/oracle/pack/new_folder.h"
 #include "tools/oracle/pack/result_json.h"
 #include "tools/oracle/pack/state_json.h"
 
@@ -33,12 +30,8 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink) {
 }
 
 void write_pack(const Golden& golden, const std::string& folder) {
-    NewFolder place{folder};
-    derive(golden, [&](const std::string& name, const std::string& bytes) {
-        const std::filesystem::path path = std::filesystem::path(folder) / name;
-        std::filesystem::create_directories(path.parent_path());
-        scenes::write_file(path.string(), bytes);
-    });
+    scenes::NewFolder place{folder};
+    derive(golden, [&](const std::string& name, const std::string& bytes) { place.write(name, bytes); });
     place.keep();
 }
 

@@ -1,0 +1,29 @@
+// scenes/packs/new_folder.h - a folder of files that is kept only if all of them were written.
+//
+// Tests    tests/tools/probe/pack_test.cpp
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace strata::scenes {
+
+class NewFolder {
+  public:
+    // InputError if something is there already.
+    explicit NewFolder(const std::string& path);
+    NewFolder(const NewFolder&) = delete;
+    NewFolder& operator=(const NewFolder&) = delete;
+    // Removes the folder with everything in it unless it is to be kept.
+    ~NewFolder();
+
+    // `name` is a path within the folder, with slashes.
+    void write(const std::string& name, std::string_view bytes) const;
+    void keep() noexcept { keep_ = true; }
+
+  private:
+    std::filesystem::path path_;
+    bool keep_ = false;
+};
+
+}  // namespace strata::scenes

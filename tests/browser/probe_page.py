@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Measures headless Chromium with the page of a kit, by keyboard alone: probe_page.py STRATA
+
+The page must draw without an error on the console, load nothing, say what it cannot draw, and offer an archive that `strata infer` reads. The
+profile that comes out must draw the coverage of ten unseen scenes as the browser did. With STRATA_KEEP=FOLDER the answers and what was
+inferred stay there. Exit status 77, said aloud, without Chromium, its driver or Selenium (Debian: chromium, chromium-driver, python3-selenium).
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+# The fields that coverage rests on.
+COVERAGE = ["raster.subpixel_bits", "raster.snap", "raster.coverage", "raster.tie_rule"]
+
+
+def browser(downloads):
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    options = Options()
+    for argument in ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=900,900"]:
+        options.add_argument(argument)
+    options.add_experimental_option("prefs", {"download.default_directory": downloads})
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+
+
+def answers(driver, folder, downloads):
+    """Opens the kit's page, presses Enter twice, and gives back the archive."""
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import WebDriverWait
+    driver.get("file://" + os.path.join(folder, "probe.html"))
+    active = lambda: driver.switch_to.active_element
+    active().send_keys(Keys.TAB)
+    assert active().get_attribute("id") == "start", "the first key leads to the button"
+    active().send_keys(Keys.ENTER)
+    WebDriverWait(driver, 500).until(lambda d: d.execute_script("return document.body.dataset.ready"))
+    status = driver.find_element("id", "status").text
+    assert driver.execute_script("return document.body.dataset.ready") == "yes", status
+    assert active().get_attribute("id") == "download", "the keyboard stands on the archive"
+    active().send_keys(Keys.ENTER)
+    path = os.path.join(downloads, "answers.tar")
+    WebDriverWait(driver, 60).until(lambda d: os.path.exists(path))
+    if "STRATA_SCREENSHOTS" in os.environ:
+        driver.save_screenshot(os.path.join(os.environ["STRATA_SCREENSHOTS"], "probe.png"))
+    kept = os.path.join(folder, "answers.tar")
+    os.rename(path, kept)
+    bars = driver.execute_script("const p = document.getElementById('progress'); return [p.value, p.max]")
+    assert bars[0] == bars[1], "all scenes are counted"
+    return kept, status
+
+
+def check_quiet(driver):
+    errors = [e["message"] for e in driver.get_log("browser") if e["level"] in ("SEVERE", "WARNING")
+              and "ReadPixels" not in e["message"]]  # that reading back takes time is no error
+    loaded = driver.execute_script("return performance.getEntriesByType('resource').map((e) => e.name)")
+    return [f"the console says {errors}"] * bool(errors) + [f"the page loaded {loaded}"] * bool(loaded)
+
+
+def infer(strata, archive, profile):
+    ended = subprocess.run([strata, "infer", archive, "--y", "down", "-o", profile, "--json"], capture_output=True, text=True, check=True)
+    return json.loads(ended.stdout)
+
+
+def compared(strata, archive, profile, count):
+    """Pixels of every unseen scene, and how many differ."""
+    ended = subprocess.run([strata, "probe", "--unseen", str(count), "--y", "down", "--profile", profile, "--compare", archive, "--json"],
+                           capture_output=True, text=True)
+    return json.loads(ended.stdout)["scenes"]
+
+
+def main():
+    strata = os.path.abspath(sys.argv[1])
+    try:
+        import selenium  # noqa: F401
+    except ImportError:
+        print("SKIPPED: python3-selenium was not found")
+        return 77
+    if not shutil.which("chromedriver") or not shutil.which("chromium"):
+        print("SKIPPED: chromium or chromium-driver was not found")
+        return 77
+    wrong = []
+    with tempfile.TemporaryDirectory() as work:
+        folder = os.environ.get("STRATA_KEEP", work)
+        downloads = os.path.join(work, "downloads")
+        os.makedirs(downloads)
+        kit, unseen, profile = os.path.join(folder, "kit"), os.path.join(folder, "unseen"), os.path.join(folder, "profile.json")
+        subprocess.run([strata, "probe", "-o", kit], check=True)
+        subprocess.run([strata, "probe", "--unseen", "10", "-o", unseen], check=True)
+        driver = browser(downloads)
+        try:
+            archive, status = answers(driver, kit, downloads)
+            wrong += check_quiet(driver)
+            print(status)
+            beside, _ = answers(driver, unseen, downloads)
+            wrong += check_quiet(driver)
+        finally:
+            driver.quit()
+        found = infer(strata, archive, profile)
+        with open(os.path.join(folder, "inferred.json"), "w", encoding="utf-8") as file:
+            json.dump(found, file, indent=1)
+        states = {f["field"]: f["state"] for f in found["fields"]}
+        wrong += [f"{key} is {states[key]}" for key in COVERAGE if states[key] != "inferred"]
+        for scene in compared(strata, beside, profile, 10):
+            print(json.dumps(scene))
+            # Up to 3 of 5,888 pixels are not explained yet (tools/probe/README.md).
+            if scene["coverage_differ"] > 3:
+                wrong.append(f"{scene['name']}: the coverage of {scene['coverage_differ']} pixels differs")
+        print(json.dumps({"fields": {s: list(states.values()).count(s) for s in set(states.values())},
+                          "pixels": found["pixels"], "agree": found["agree"]}))
+    print("\n".join(wrong))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+// Model: bits of hexadecimal digits; rules of a kit by their words.
+#include "tools/probe/kit.h"
+
+#include <algorithm>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tools/probe/draw_item.h"
+#include "tools/probe/fields.h"
+#include "tools/probe/shapes.h"
+
+using namespace strata;
+using namespace strata::probe;
+
+TEST_CASE("every field that the kit probes is decided by a scene of the kit, and by fields' own keys") {
+    std::set<std::string> decided;
+    for (const Item& item : kit())
+        for (const std::string& key : item.decides) {
+            CHECK(field(key).key == key);
+            decided.insert(key);
+        }
+    for (const ProfileField* f : probed_fields()) {
+        INFO(f->key);
+        CHECK(decided.contains(std::string{f->key}));
+    }
+}
+
+TEST_CASE("every field that the kit probes stands in a group, or is the guard band, which has a search of its own") {
+    std::set<std::string_view> grouped{"raster.guard_band_px"};
+    for (const FieldGroup& group : field_groups()) {
+        grouped.insert(group.joint.begin(), group.joint.end());
+        grouped.insert(group.refined.begin(), group.refined.end());
+    }
+    for (const ProfileField* f : probed_fields()) {
+        INFO(f->key);
+        CHECK(grouped.contains(f->key));
+    }
+}
+
+TEST_CASE("scenes of the kit have names of their own, whole triangles, and sides of 8 to 256 pixels") {
+    std::set<std::string> names;
+    for (const Item& item : kit()) {
+        INFO(item.name);
+        CHECK(names.insert(item.name).second);
+        CHECK(std::min(item.width, item.height) >= 8);
+        CHECK(std::max(item.width, item.height) <= 256);
+        for (const Draw& draw : item.draws) {
+            CHECK(!draw.corners.empty());
+            CHECK(draw.corners.size() % 3 == 0);
+        }
+    }
+}
+
+TEST_CASE("the JSON of a kit holds the bits of every corner in the order of a vertex's attributes") {
+    const nlohmann::json document = nlohmann::json::parse(to_json(kit()));
+    REQUIRE(document["items"].size() == kit().size());
+    int wrong = 0;
+    for (std::size_t i = 0; i < kit().size(); ++i)
+        for (std::size_t d = 0; d < kit()[i].draws.size(); ++d) {
+            const std::string digits = document["items"][i]["draws"][d]["corners"];
+            const std::vector<ClipVertex>& corners = kit()[i].draws[d].corners;
+            REQUIRE(digits.size() == corners.size() * 64);
+            for (std::size_t c = 0; c < corners.size(); ++c) {
+                const ClipVertex& v = corners[c];
+                const float values[]{v.x, v.y, v.z, v.w, v.front[0], v.front[1], v.front[2], v.front[3]};
+                for (std::size_t k = 0; k < 8; ++k) {
+                    const auto bits = std::stoul(digits.substr((c * 8 + k) * 8, 8), nullptr, 16);
+                    if (bits != std::bit_cast<std::uint32_t>(values[k])) ++wrong;
+                }
+            }
+        }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a scene that is turned over is the same scene with its rows in the other order, but for ties") {
+    const DeviceProfile& device = *pipeline::find_profile("ideal");
+    Item item{.name = "box", .width = 16, .height = 8};
+    Draw draw;
+    add_box(item, draw, 2.25f, 1.25f, 9.75f, 5.75f, white);
+    item.draws = {draw};
+    const pipeline::Image down = draw_item(device, item, YDirection::down).answer->color;
+    const pipeline::Image up = draw_item(device, item, YDirection::up).answer->color;
+    for (int y = 0; y < item.height; ++y)
+        for (int x = 0; x < item.width; ++x) {
+            // Rows 1 to 5 and columns 2 to 9 have their centres within.
+            const bool inside = x >= 2 && x <= 9 && y >= 1 && y <= 5;
+            CHECK((down.codes[down.index(x, y)] == 255) == inside);
+            CHECK(up.codes[up.index(x, item.height - 1 - y)] == down.codes[down.index(x, y)]);
+        }
+}
+
+TEST_CASE("a device refuses what it lacks with a sentence") {
+    const DeviceProfile& device = *pipeline::find_profile("geforce3");
+    Item item{.name = "float", .color = pipeline::Format::rgba32f};
+    CHECK(draw_item(device, item, YDirection::up).refusal.starts_with("profile geforce3 has no float render targets"));
+    item.color = pipeline::Format::rgba8;
+    item.depth = DepthFormat::d32f;
+    CHECK(draw_item(device, item, YDirection::up).refusal.starts_with("profile geforce3 has no float depth buffers"));
+}

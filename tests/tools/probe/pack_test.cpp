@@ -1,0 +1,121 @@
+// Model: a tar archive written block by block from POSIX's table; files changed by hand.
+#include "tools/probe/pack.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/packs/npy.h"
+#include "tests/support/own_folder.h"
+#include "tools/probe/archive.h"
+#include "tools/probe/kit.h"
+
+using namespace strata;
+using namespace strata::probe;
+
+namespace {
+
+// Some scenes of the kit: all formats, with depth and without.
+std::vector<Item> some_items() {
+    std::vector<Item> items;
+    for (const Item& item : kit())
+        if (item.name == "coverage.ties" || item.name == "depth.d24" || item.name == "depth.d16" ||
+            item.name == "color.halves" || item.name == "offset.d32f")
+            items.push_back(item);
+    return items;
+}
+
+// A file's header and content in blocks of 512 bytes.
+std::string tar_entry(const std::string& name, const std::string& content) {
+    std::string header(512, '\0');
+    header.replace(0, name.size(), name);
+    std::string size(11, '0');
+    std::size_t rest = content.size();
+    for (std::size_t i = 11; i-- > 0; rest /= 8) size[i] = static_cast<char>('0' + rest % 8);
+    header.replace(124, 11, size);
+    header[156] = '0';
+    header.replace(257, 5, "ustar");
+    std::string padded = content;
+    padded.resize((content.size() + 511) / 512 * 512, '\0');
+    return header + padded;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream{path, std::ios::binary} << text;
+}
+
+}  // namespace
+
+TEST_CASE("a pack that is written and read again has the same answers, refusals and features") {
+    const strata::test::OwnFolder folder;
+    const std::vector<Item> items = some_items();
+    const ProbePack written = answer(*pipeline::find_profile("geforce3"), items, {YDirection::up, YDirection::down});
+    const std::string path = folder.path() + "/pack";
+    write_pack(written, items, path);
+    const ProbePack read = read_pack(path, items);
+    CHECK(read.made_by == written.made_by);
+    CHECK(nlohmann::json::parse(read.device.dump()) == nlohmann::json::parse(written.device.dump()));
+    for (const auto& [y, answers] : written.answers)
+        for (const auto& [name, reply] : answers) {
+            INFO(name);
+            const Reply& other = read.answers.at(y).at(name);
+            CHECK(other.answer == reply.answer);
+            CHECK(other.refusal == reply.refusal);
+        }
+}
+
+TEST_CASE("an archive of a pack is read as the folder is, with its first folder and without") {
+    const strata::test::OwnFolder folder;
+    for (const std::string prefix : {"", "answers/"}) {
+        const std::string bytes = tar_entry(prefix + "candidate.json", "{}") +
+                                  tar_entry(prefix + "probe/up/a/color.npy", std::string(700, 'x')) +
+                                  std::string(1024, '\0');
+        write_text(folder.path() + "/pack.tar", bytes);
+        const auto files = read_files(folder.path() + "/pack.tar");
+        REQUIRE(files.size() == 2);
+        CHECK(files.at("candidate.json") == "{}");
+        CHECK(files.at("probe/up/a/color.npy") == std::string(700, 'x'));
+    }
+}
+
+TEST_CASE("an archive that is cut or no archive is refused by its first wrong byte") {
+    const strata::test::OwnFolder folder;
+    const std::string path = folder.path() + "/pack.tar";
+    write_text(path, tar_entry("a", std::string(700, 'x')).substr(0, 1024));
+    CHECK_THROWS_WITH(read_files(path),
+                      path + ": byte 124: expected a file that ends within the archive, found 700 bytes");
+    write_text(path, std::string(600, 'q'));
+    CHECK_THROWS_WITH(read_files(path),
+                      path + ": byte 0: expected a header of a tar archive (ustar), found another text");
+}
+
+TEST_CASE("depths that a shader read become the nearest codes") {
+    const strata::test::OwnFolder folder;
+    const std::vector<Item> items = some_items();
+    const ProbePack written = answer(*pipeline::find_profile("ideal"), items, {YDirection::up});
+    const std::string path = folder.path() + "/pack";
+    write_pack(written, items, path);
+    for (const std::string name : {"depth.d24", "depth.d16"}) {
+        const pipeline::Image& codes = *written.answers.at(YDirection::up).at(name).answer->depth;
+        const double greatest = name == "depth.d24" ? 16777215.0 : 65535.0;
+        scenes::NumberArray texels{
+            .element = scenes::Element::f4,
+            .shape = {static_cast<std::size_t>(codes.height), static_cast<std::size_t>(codes.width)}};
+        for (const std::uint32_t code : codes.codes)
+            texels.append(std::bit_cast<std::uint32_t>(static_cast<float>(code / greatest)));
+        write_text(folder.path() + "/pack/probe/up/" + name + "/depth.npy", scenes::to_npy(texels));
+    }
+    const ProbePack read = read_pack(path, items);
+    for (const std::string name : {"depth.d24", "depth.d16"})
+        CHECK(read.answers.at(YDirection::up).at(name).answer == written.answers.at(YDirection::up).at(name).answer);
+}
+
+TEST_CASE("answers to another kit are refused by its digest") {
+    const strata::test::OwnFolder folder;
+    std::vector<Item> items = some_items();
+    const std::string path = folder.path() + "/pack";
+    write_pack(answer(*pipeline::find_profile("ideal"), items, {YDirection::up}), items, path);
+    items.pop_back();
+    CHECK_THROWS_AS(read_pack(path, items), InputError);
+}

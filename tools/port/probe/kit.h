@@ -1,0 +1,44 @@
+// tools/port/probe/kit.h - a kit of scenes as `strata probe -o KIT` writes it, by a reader of the port's own.
+//
+// Rule     KIT/kit.json (../../probe/README.md): floats are the 8 hexadecimal digits of their bits, so that no decimal is read.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/port/objects.h"
+
+namespace strata::port {
+
+struct KitBlend {
+    GLenum equation = GL_FUNC_ADD, source = GL_ONE, destination = GL_ZERO;
+};
+
+struct KitDraw {
+    // x y z w in clip space, then r g b a: 8 words a corner, bits of binary32.
+    std::vector<std::uint32_t> words;
+    std::optional<KitBlend> blend;
+    // Factor and units.
+    std::optional<std::array<float, 2>> polygon_offset;
+    bool has_alpha_test = false;
+};
+
+struct KitItem {
+    std::string name;
+    Size size;
+    Format color;
+    std::optional<Format> depth;
+    std::array<float, 2> depth_range{0, 1};
+    std::vector<KitDraw> draws;
+};
+
+struct Kit {
+    std::string digest;
+    std::vector<KitItem> items;
+};
+
+// Throws std::runtime_error with file and place.
+[[nodiscard]] Kit read_kit(const std::string& folder);
+
+}  // namespace strata::port

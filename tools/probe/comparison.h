@@ -1,0 +1,69 @@
+// tools/probe/comparison.h - a device's answers held against what a profile would have answered, pixel by pixel.
+//
+// Rule     A pixel agrees if all codes of its colour do, and a depth if its code does; both count, each as a pixel. NaNs of
+//          float targets are all alike: which payload an operation leaves is no rule of a profile.
+// Tests    tests/tools/probe/infer_test.cpp
+#pragma once
+#include <string_view>
+#include <vector>
+
+#include "tools/probe/fields.h"
+#include "tools/probe/pack.h"
+
+namespace strata::probe {
+
+struct Tally {
+    std::uint64_t equal = 0, all = 0;
+    friend bool operator==(const Tally&, const Tally&) = default;
+    Tally& operator+=(const Tally& o) noexcept {
+        equal += o.equal;
+        all += o.all;
+        return *this;
+    }
+};
+
+// Every pixel's colour, then every depth: 1 where the two answers have the same bits.
+[[nodiscard]] std::vector<bool> equal_places(const Answer& a, const Answer& b);
+
+// Pixels of two answers that differ. A pixel is covered if its depth is not the cleared one, or, without a depth buffer, its colour.
+struct Difference {
+    std::uint64_t pixels = 0, coverage = 0, depth = 0, color = 0;
+    Difference& operator+=(const Difference& o) noexcept {
+        pixels += o.pixels;
+        coverage += o.coverage;
+        depth += o.depth;
+        color += o.color;
+        return *this;
+    }
+    [[nodiscard]] bool is_none() const noexcept { return coverage + depth + color == 0; }
+};
+[[nodiscard]] Difference difference(const Answer& a, const Answer& b);
+
+class Comparison {
+  public:
+    // The pack and the items outlive it.
+    Comparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y);
+
+    // Answered items whose names begin with one of these, in the kit's order.
+    [[nodiscard]] std::vector<std::size_t> items_of(const std::vector<std::string_view>& beginnings) const;
+    [[nodiscard]] const Answer& answer(std::size_t number) const noexcept { return *items_[number].answer; }
+    [[nodiscard]] const Item& item(std::size_t number) const noexcept { return *items_[number].item; }
+    [[nodiscard]] std::size_t count() const noexcept { return items_.size(); }
+
+    // What a device that is the profile draws; the second form: where that is what the device drew. All false where the
+    // profile refuses what the device drew.
+    [[nodiscard]] Reply drawn(const DeviceProfile& profile, std::size_t number) const;
+    [[nodiscard]] std::vector<bool> equal(const Reply& drawn, std::size_t number) const;
+    [[nodiscard]] Tally tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const;
+    [[nodiscard]] YDirection orientation() const noexcept { return y_; }
+
+  private:
+    struct Answered {
+        const Item* item;
+        const Answer* answer;
+    };
+    std::vector<Answered> items_{};
+    YDirection y_;
+};
+
+}  // namespace strata::probe

@@ -1,0 +1,143 @@
+#include "tools/probe/fields.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace strata::probe {
+
+namespace {
+
+using rasterizer::ClipVolume;
+using rasterizer::ColorInterpolation;
+using rasterizer::CoverageRule;
+using rasterizer::DepthPath;
+using rasterizer::PerspectiveColor;
+using rasterizer::PlaneRule;
+using rasterizer::RasterRules;
+using rasterizer::WeightRule;
+using rasterizer::WindowZ;
+using rasterizer::WindowZRule;
+
+bool is_chip_depth(const RasterRules& r) {
+    return r.depth_path == DepthPath::window_z && r.hypothesis.window_z == WindowZRule::chip;
+}
+bool has_color_weights(const RasterRules& r) {
+    return r.color == ColorInterpolation::weights_8bit && r.plane_rule == PlaneRule::exact;
+}
+bool has_weights(const RasterRules& r) { return is_chip_depth(r) || has_color_weights(r); }
+bool has_cut_reciprocal(const RasterRules& r) {
+    return (has_weights(r) && r.hypothesis.weights == WeightRule::cut_edges) ||
+           (has_color_weights(r) && r.interpolation.perspective_color == PerspectiveColor::cut_products);
+}
+
+// Fields that matter only together with others.
+struct Dependence {
+    std::string_view key;
+    bool (*matters)(const RasterRules&);
+};
+constexpr Dependence dependences[]{
+    {"raster.tie_rule", [](const RasterRules& r) { return r.coverage == CoverageRule::snapped_edges; }},
+    {"raster.guard_band_px", [](const RasterRules& r) { return r.clip == ClipVolume::guard_band; }},
+    {"raster.perspective", [](const RasterRules& r) { return r.plane_rule != PlaneRule::exact; }},
+    {"raster.offset_rule", [](const RasterRules& r) { return r.depth_path == DepthPath::window_z; }},
+    {"raster.window_z_rule", [](const RasterRules& r) { return r.depth_path == DepthPath::window_z; }},
+    {"raster.plane_anchor", [](const RasterRules& r) { return r.depth_path == DepthPath::float32_plane; }},
+    {"raster.interpolant_bits", [](const RasterRules& r) { return r.depth_path == DepthPath::perspective_rq; }},
+    {"raster.divide", [](const RasterRules& r) { return r.depth_path == DepthPath::perspective_rq; }},
+    {"raster.weights", has_weights},
+    {"raster.reciprocal_bits", has_weights},
+    {"raster.reciprocal_deficit", has_cut_reciprocal},
+    {"raster.sum_bits", is_chip_depth},
+    {"raster.vertex_color_bits", has_color_weights},
+    {"raster.perspective_color", has_color_weights},
+    {"raster.color", [](const RasterRules& r) { return r.plane_rule == PlaneRule::exact; }},
+};
+
+constexpr Unprobed unprobed[]{
+    {"raster.w_signs", "of window positions, which no client of the kit can give"},
+    {"raster.w_slope", "of a w buffer, which OpenGL has not"},
+    {"raster.quantize_reference", "of a program's comparison, which no scene makes"},
+    {"raster.texture_coordinates", "no scene has a texture"},
+    {"raster.perspective_coordinates", "no scene has a texture"},
+    {"texture_filter", "no scene has a texture"},
+};
+
+}  // namespace
+
+const ProfileField& field(std::string_view key) {
+    const auto fields = pipeline::profile_fields();
+    const auto found = std::ranges::find(fields, key, &ProfileField::key);
+    assert(found != fields.end() && "a key of profile_fields()");
+    return *found;
+}
+
+bool matters(std::string_view key, const DeviceProfile& profile) {
+    const auto* const found = std::ranges::find(dependences, key, &Dependence::key);
+    return found == std::end(dependences) || found->matters(profile.raster);
+}
+
+std::span<const Unprobed> unprobed_fields() { return unprobed; }
+
+std::vector<const ProfileField*> probed_fields() {
+    std::vector<const ProfileField*> fields;
+    for (const ProfileField& f : pipeline::profile_fields()) {
+        const bool is_feature = f.key.starts_with("has_") || f.key.starts_with("max_");
+        const bool is_unprobed = std::ranges::find(unprobed, f.key, &Unprobed::key) != std::end(unprobed);
+        if (!is_feature && !is_unprobed) fields.push_back(&f);
+    }
+    return fields;
+}
+
+// A guard band has too many values for a list: search.cpp has a search of its own.
+std::vector<int> searched_values(const ProfileField& f, int current) {
+    std::vector<int> values{current};
+    if (f.key == "raster.guard_band_px") return values;
+    for (int value = f.lowest; value <= f.highest; value += f.step)
+        if (value != current) values.push_back(value);
+    return values;
+}
+
+// No frame of the kit is larger than 256 pixels, and no guard band is within the frame. Paths that need a texture shader or a
+// w buffer cannot draw a kit. The chip's weights are made of edge values, which are negative where spans in binary32 cover a
+// centre that exact edges leave out.
+bool is_valid(const DeviceProfile& profile) {
+    const RasterRules& r = profile.raster;
+    if (r.depth_path == DepthPath::depth_replace || r.depth_path == DepthPath::w_buffer) return false;
+    if (r.depth_path == DepthPath::window_z && r.window_z != WindowZ::buffer_units) return false;
+    if (r.coverage == CoverageRule::float_spans &&
+        (r.color == ColorInterpolation::weights_8bit || r.depth_path == DepthPath::window_z))
+        return false;
+    if (r.depth_path == DepthPath::perspective_rq && !profile.has_fragment_programs) return false;
+    return r.guard_band_px >= 256;
+}
+
+const std::vector<FieldGroup>& field_groups() {
+    static const std::vector<FieldGroup> groups{
+        {"coverage", {"coverage."}, {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule"}},
+        {"positions", {"positions.edges"}, {"raster.w_divide", "raster.viewport"}},
+        {"depth",
+         {"depth."},
+         {"raster.depth_path", "raster.window_z_rule", "raster.plane_rule", "raster.plane_origin", "raster.window_z",
+          "raster.depth_rounding", "raster.plane_anchor"},
+         {"raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.sum_bits",
+          "raster.interpolant_bits", "raster.divide"}},
+        // Float depths show the last bit of a position, once it is known how they are made.
+        {"positions in depth", {"positions.", "depth."}, {"raster.w_divide", "raster.viewport"}},
+        {"colours",
+         {"color.", "depth.d32f", "depth.d24"},
+         {"raster.plane_rule", "raster.color", "raster.plane_origin", "raster.perspective", "unorm_rounding",
+          "raster.perspective_color"},
+         {"raster.vertex_color_bits", "raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit"}},
+        {"clip", {"clip.", "positions."}, {"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"}},
+        {"offset", {"offset."}, {"raster.offset_unit", "raster.offset_rule"}},
+        {"blending", {"blend.products", "blend.over"}, {"blend_rounding"}},
+        {"halves", {"color.halves"}, {"half_rounding"}},
+        {"extremes", {"blend.max", "blend.min"}, {"min_max_nan"}},
+        {"denormals", {"blend.small"}, {"denormals"}},
+        {"alpha", {"alpha."}, {"alpha_test"}},
+    };
+    return groups;
+}
+
+}  // namespace strata::probe

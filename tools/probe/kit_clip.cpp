@@ -1,0 +1,83 @@
+// tools/probe/kit_clip.cpp - triangles that leave the view volume: where they are cut, and by which arithmetic.
+#include "tools/probe/kit.h"
+#include "tools/probe/shapes.h"
+
+namespace strata::probe {
+
+namespace {
+
+const std::vector<std::string> clip_fields{"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"};
+
+Item plain_item(const std::string& name, const std::vector<std::string>& decides) {
+    return {.name = name, .decides = decides, .width = 61, .height = 47};
+}
+
+// One corner beyond: left or right, up or down, near or far, behind the eye.
+enum class Beyond : std::uint8_t { side, near_far, eye, all };
+
+Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const std::string& name) {
+    Item item = plain_item(name, clip_fields);
+    item.depth = format;
+    Draw draw;
+    Dice dice{seed};
+    for (int i = 0; i < 24; ++i) {
+        std::array<Place, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const bool leaves = k == 0 || (beyond == Beyond::all && dice.below(2) == 0);
+            p[k] = random_place(dice, item, leaves && beyond != Beyond::near_far ? 90.0f : 0.0f);
+            if (leaves && (beyond == Beyond::near_far || beyond == Beyond::all))
+                p[k].z = dice.between(1.0f, 3.0f) * (dice.below(2) == 0 ? 1.0f : -1.0f);
+            p[k].w = dice.between(0.5f, 4.0f);
+        }
+        // The corner is written in clip space: w < 0 with x and y of its size.
+        const Color color = code_color(i);
+        add_triangle(item, draw, p, {color, color, color});
+        if (beyond == Beyond::eye) draw.corners[draw.corners.size() - 3].w = -dice.between(0.1f, 2.0f);
+    }
+    item.draws = {draw};
+    return item;
+}
+
+// Row y holds a triangle that reaches so far out of the frame on both sides. A guard band that is nearer cuts it, and the
+// rounding of the new corners shows in the frame's middle, which is as far from the one as from the other.
+Item guard_item(DepthFormat format, const std::string& name) {
+    Item item = plain_item(name, {"raster.guard_band_px"});
+    const std::vector<int> all = guard_reaches();
+    item.width = 8;
+    item.height = static_cast<int>(all.size());
+    item.depth = format;
+    Draw draw;
+    Dice dice{53};
+    for (std::size_t row = 0; row < all.size(); ++row) {
+        const float reach = static_cast<float>(all[row]) + 0.75f, top = static_cast<float>(row);
+        std::array<Place, 3> p{Place{-reach, top}, {reach, top}, {reach, top + 2.0f}};
+        for (Place& place : p) place.z = dice.between(-0.9f, 0.9f);
+        const Color color = code_color(static_cast<int>(row));
+        add_triangle(item, draw, p, {color, color, color});
+    }
+    item.draws = {draw};
+    return item;
+}
+
+}  // namespace
+
+std::vector<int> guard_reaches() {
+    std::vector<int> all;
+    for (int reach = 256; reach < 32700; reach += reach / 24) all.push_back(reach);
+    return all;
+}
+
+void add_clip(std::vector<Item>& items) {
+    items.push_back(beyond_item(Beyond::side, DepthFormat::d32f, 40, "clip.sides"));
+    items.push_back(beyond_item(Beyond::side, DepthFormat::d24, 41, "clip.sides-d24"));
+    items.push_back(beyond_item(Beyond::near_far, DepthFormat::d32f, 42, "clip.near-far"));
+    items.push_back(beyond_item(Beyond::near_far, DepthFormat::d24, 43, "clip.near-far-d24"));
+    items.push_back(beyond_item(Beyond::eye, DepthFormat::d32f, 44, "clip.eye"));
+    items.push_back(beyond_item(Beyond::eye, DepthFormat::d24, 45, "clip.eye-d24"));
+    items.push_back(beyond_item(Beyond::all, DepthFormat::d32f, 46, "clip.all"));
+    items.push_back(beyond_item(Beyond::all, DepthFormat::d24, 47, "clip.all-d24"));
+    items.push_back(guard_item(DepthFormat::d32f, "clip.guard-band"));
+    items.push_back(guard_item(DepthFormat::d24, "clip.guard-band-d24"));
+}
+
+}  // namespace strata::probe

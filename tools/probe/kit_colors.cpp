@@ -1,0 +1,89 @@
+// tools/probe/kit_colors.cpp - interpolated colours and their conversion to a target's codes.
+#include <cmath>
+
+#include "tools/probe/kit.h"
+#include "tools/probe/shapes.h"
+
+namespace strata::probe {
+
+namespace {
+
+using pipeline::Format;
+
+const std::vector<std::string> color_fields{
+    "raster.color",       "raster.perspective",     "raster.vertex_color_bits",  "raster.perspective_color",
+    "raster.weights",     "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.plane_rule",
+    "raster.plane_origin"};
+
+// Colours at every corner; w is 1 or differs.
+Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = color_fields, .width = 61, .height = 47, .color = format};
+    Draw draw;
+    Dice dice{seed};
+    for (int i = 0; i < 30; ++i) {
+        std::array<Place, 3> p;
+        std::array<Color, 3> c;
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[k] = random_place(dice, item, 0.0f);
+            if (in_perspective) p[k].w = dice.between(0.5f, 4.0f);
+            c[k] = random_color(dice);
+        }
+        add_triangle(item, draw, p, c);
+    }
+    item.draws = {draw};
+    return item;
+}
+
+// Flat colours a hair from the middle between two codes of 8 bits, and all tenths that people write.
+Item codes_item() {
+    Item item{.name = "color.codes", .decides = {"unorm_rounding", "raster.color", "raster.vertex_color_bits"}};
+    Draw draw;
+    Dice dice{62};
+    for (int y = 0; y < item.height; y += 2)
+        for (int x = 0; x < item.width; x += 2) {
+            Color c;
+            for (float& channel : c) {
+                const double half = (dice.below(255) + 0.5) / 255.0;
+                channel = static_cast<float>(half);
+                const int ulps = dice.below(5) - 2;
+                for (int i = 0; i < std::abs(ulps); ++i) channel = std::nextafter(channel, ulps < 0 ? 0.0f : 1.0f);
+                if (dice.below(4) == 0) channel = static_cast<float>(dice.below(11)) / 10.0f;
+            }
+            const auto left = static_cast<float>(x), top = static_cast<float>(y);
+            add_box(item, draw, left, top, left + 2, top + 2, c);
+        }
+    item.draws = {draw};
+    return item;
+}
+
+// Flat values of many exponents, on and beside the middle between two halves.
+Item halves_item() {
+    Item item{.name = "color.halves", .decides = {"half_rounding"}, .color = Format::rgba16f};
+    Draw draw;
+    Dice dice{63};
+    for (int y = 0; y < item.height; y += 2)
+        for (int x = 0; x < item.width; x += 2) {
+            Color c;
+            for (float& channel : c) {
+                const double mantissa = 1.0 + dice.below(2048) / 2048.0 + 0x1p-20 * (dice.below(3) - 1);
+                const double scaled = std::ldexp(mantissa, dice.below(34) - 18);
+                channel = static_cast<float>(dice.below(2) == 0 ? scaled : -scaled);
+            }
+            const auto left = static_cast<float>(x), top = static_cast<float>(y);
+            add_box(item, draw, left, top, left + 2, top + 2, c);
+        }
+    item.draws = {draw};
+    return item;
+}
+
+}  // namespace
+
+void add_colors(std::vector<Item>& items) {
+    items.push_back(slopes_item(Format::rgba32f, true, 60, "color.perspective-float"));
+    items.push_back(slopes_item(Format::rgba8, false, 64, "color.flat-w"));
+    items.push_back(slopes_item(Format::rgba8, true, 61, "color.perspective"));
+    items.push_back(codes_item());
+    items.push_back(halves_item());
+}
+
+}  // namespace strata::probe

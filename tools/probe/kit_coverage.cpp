@@ -1,0 +1,87 @@
+// tools/probe/kit_coverage.cpp - which pixels a triangle covers: subpixel bits, their rounding, and the side of ties.
+#include <algorithm>
+
+#include "tools/probe/kit.h"
+#include "tools/probe/shapes.h"
+
+namespace strata::probe {
+
+namespace {
+
+const std::vector<std::string> coverage_fields{"raster.subpixel_bits", "raster.snap", "raster.coverage",
+                                               "raster.tie_rule"};
+
+// By how much an edge misses a pixel's centre: a hair on either side of every place where rounding to 4, 8 or 12 bits, cut or
+// nearest, decides whether it still does; and 0. The hair is 2^-16 pixel.
+float near_miss(Dice& dice) {
+    constexpr int bits[]{4, 8, 12};
+    const int n = bits[dice.below(3)];
+    const float step = 1.0f / static_cast<float>(1 << n);
+    const float threshold = step * 0.5f * static_cast<float>(dice.below(5) - 2);
+    return threshold + 0x1p-16f * static_cast<float>(dice.below(3) - 1);
+}
+
+// Cells of 2 x 2 pixels, whose boxes end near the centres.
+Item snap_item(std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = coverage_fields};
+    Draw draw;
+    Dice dice{seed};
+    for (int y = 0; y < item.height; y += 2)
+        for (int x = 0; x < item.width; x += 2) {
+            const float left = static_cast<float>(x) + 0.5f, top = static_cast<float>(y) + 0.5f;
+            const float x0 = left + near_miss(dice), y0 = top + near_miss(dice);
+            const float x1 = left + 1.0f + near_miss(dice), y1 = top + 1.0f + near_miss(dice);
+            add_box(item, draw, x0, y0, x1, y1, white);
+        }
+    item.draws = {draw};
+    return item;
+}
+
+// Triangles whose corners are multiples of half a pixel: edges of many slopes through centres.
+Item ties_item() {
+    Item item{.name = "coverage.ties", .decides = {"raster.tie_rule", "raster.coverage"}};
+    Draw draw;
+    Dice dice{3};
+    for (int y = 0; y < item.height; y += 8)
+        for (int x = 0; x < item.width; x += 8) {
+            std::array<Place, 3> p;
+            for (Place& place : p) {
+                place.x = static_cast<float>(x) + 0.5f * static_cast<float>(dice.below(16));
+                place.y = static_cast<float>(y) + 0.5f * static_cast<float>(dice.below(16));
+            }
+            add_triangle(item, draw, p, {white, white, white});
+        }
+    item.draws = {draw};
+    return item;
+}
+
+// Triangles of all sizes over each other, each of a colour of its own, some reaching out of the frame by its guard band.
+Item random_item(int count, float size, std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = coverage_fields};
+    Draw draw;
+    Dice dice{seed};
+    for (int i = 0; i < count; ++i) {
+        const float x = dice.between(0, 64), y = dice.between(0, 64);
+        std::array<Place, 3> p;
+        for (Place& place : p) {
+            place.x = std::clamp(x + dice.between(-size, size), 0.0f, 64.0f);
+            place.y = std::clamp(y + dice.between(-size, size), 0.0f, 64.0f);
+        }
+        const Color color = code_color(i);
+        add_triangle(item, draw, p, {color, color, color});
+    }
+    item.draws = {draw};
+    return item;
+}
+
+}  // namespace
+
+void add_coverage(std::vector<Item>& items) {
+    items.push_back(snap_item(1, "coverage.snap"));
+    items.push_back(snap_item(2, "coverage.snap-again"));
+    items.push_back(ties_item());
+    items.push_back(random_item(60, 40.0f, 4, "coverage.large"));
+    items.push_back(random_item(600, 5.0f, 5, "coverage.small"));
+}
+
+}  // namespace strata::probe

@@ -1,0 +1,107 @@
+// tools/probe/kit_depth.cpp - a fragment's depth: its plane, its conversion to a code, and polygon offset.
+#include "tools/probe/kit.h"
+#include "tools/probe/shapes.h"
+
+namespace strata::probe {
+
+namespace {
+
+const std::vector<std::string> depth_fields{
+    "raster.depth_path",      "raster.plane_rule",         "raster.plane_origin", "raster.window_z",
+    "raster.depth_rounding",  "raster.window_z_rule",      "raster.plane_anchor", "raster.weights",
+    "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.sum_bits",     "raster.interpolant_bits",
+    "raster.divide"};
+
+void add_slopes(const Item& item, Draw& draw, Dice& dice, int count) {
+    for (int i = 0; i < count; ++i) {
+        std::array<Place, 3> p;
+        for (Place& place : p) {
+            place = random_place(dice, item, 0.0f);
+            place.w = dice.between(0.5f, 4.0f);
+        }
+        const Color color = code_color(i);
+        add_triangle(item, draw, p, {color, color, color});
+    }
+}
+
+// The sides are odd: a rule that is anchored at the frame's middle differs from one at its corner.
+Item slopes_item(DepthFormat format, int count, std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = depth_fields, .width = 61, .height = 47};
+    item.depth = format;
+    Draw draw;
+    Dice dice{seed};
+    add_slopes(item, draw, dice, count);
+    item.draws = {draw};
+    return item;
+}
+
+// Flat depths that lie a hair from the middle between two codes, and from a code.
+Item codes_item(DepthFormat format, const std::string& name) {
+    Item item{.name = name, .decides = {"raster.depth_rounding", "raster.depth_path", "raster.window_z"}};
+    item.depth = format;
+    Draw draw;
+    Dice dice{22};
+    const int bits = format == DepthFormat::d16 ? 16 : 24;
+    const double greatest = (1 << bits) - 1;
+    for (int y = 0; y < item.height; y += 2)
+        for (int x = 0; x < item.width; x += 2) {
+            const auto code = static_cast<double>(dice.next() >> (32 - bits));
+            const double part = 0.25 * dice.below(4), hair = 0x1p-12 * (dice.below(3) - 1);
+            const double depth = (code + part + hair) / greatest;
+            const auto left = static_cast<float>(x), top = static_cast<float>(y);
+            add_box(item, draw, left, top, left + 2, top + 2, white, static_cast<float>(depth * 2.0 - 1.0));
+        }
+    item.draws = {draw};
+    return item;
+}
+
+Item offset_item(DepthFormat format, const std::string& name) {
+    Item item{.name = name, .decides = {"raster.offset_unit", "raster.offset_rule"}, .width = 61, .height = 47};
+    item.depth = format;
+    Dice dice{31};
+    constexpr rasterizer::PolygonOffset offsets[]{{true, 0, 1},      {true, 0, -3},   {true, 1.5f, 0},
+                                                  {true, -2.25f, 2}, {true, 0, 1000}, {true, 1, 1}};
+    for (const rasterizer::PolygonOffset& offset : offsets) {
+        Draw draw{.offset = offset};
+        add_slopes(item, draw, dice, 3);
+        item.draws.push_back(draw);
+    }
+    return item;
+}
+
+// Far and near the eye, where a unit that follows the exponent of z changes with it.
+Item offset_flat_item(DepthFormat format, const std::string& name) {
+    Item item{.name = name, .decides = {"raster.offset_unit", "raster.offset_rule"}};
+    item.depth = format;
+    Dice dice{32};
+    for (int y = 0; y < item.height; y += 8) {
+        Draw draw{.offset = {true, 0, static_cast<float>(y + 1)}};
+        for (int x = 0; x < item.width; x += 8) {
+            // Window depths of 2^-1 to 2^-8.
+            const float depth = dice.between(0.5f, 0.9f) / static_cast<float>(1 << (x / 8));
+            const auto left = static_cast<float>(x), top = static_cast<float>(y);
+            add_box(item, draw, left, top, left + 8, top + 8, white, depth * 2.0f - 1.0f);
+        }
+        item.draws.push_back(draw);
+    }
+    return item;
+}
+
+}  // namespace
+
+void add_depth(std::vector<Item>& items) {
+    items.push_back(slopes_item(DepthFormat::d24, 24, 20, "depth.d24"));
+    items.push_back(slopes_item(DepthFormat::d32f, 24, 21, "depth.d32f"));
+    items.push_back(slopes_item(DepthFormat::d16, 24, 23, "depth.d16"));
+    items.push_back(slopes_item(DepthFormat::d24, 60, 24, "depth.d24-again"));
+    items.push_back(slopes_item(DepthFormat::d32f, 60, 25, "depth.d32f-again"));
+    items.push_back(codes_item(DepthFormat::d24, "depth.codes-d24"));
+    items.push_back(codes_item(DepthFormat::d16, "depth.codes-d16"));
+    items.push_back(offset_item(DepthFormat::d24, "offset.d24"));
+    items.push_back(offset_item(DepthFormat::d16, "offset.d16"));
+    items.push_back(offset_item(DepthFormat::d32f, "offset.d32f"));
+    items.push_back(offset_flat_item(DepthFormat::d24, "offset.flat-d24"));
+    items.push_back(offset_flat_item(DepthFormat::d32f, "offset.flat-d32f"));
+}
+
+}  // namespace strata::probe

@@ -1,0 +1,115 @@
+// tools/probe/kit_positions.cpp - the way from clip space to the window: the divide by w, and how the viewport rounds.
+//
+// Rule     Two ways of computing a position differ in its last bit. A flat depth under a depth range that is no power of two
+//          shows that bit; where there is no float depth buffer, an edge shows it that lies so near the place where snapping
+//          or coverage changes its mind that the two ways end on different sides.
+#include <bit>
+#include <cmath>
+
+#include "rasterizer/set_up/window.h"
+#include "tools/probe/kit.h"
+#include "tools/probe/shapes.h"
+
+namespace strata::probe {
+
+namespace {
+
+using rasterizer::RasterRules;
+using rasterizer::ViewportArithmetic;
+using rasterizer::WDivide;
+using rasterizer::WindowTransform;
+
+const std::vector<std::string> position_fields{"raster.w_divide", "raster.viewport"};
+
+struct Way {
+    WDivide divide;
+    ViewportArithmetic viewport;
+};
+constexpr Way ways[]{{WDivide::quotient, ViewportArithmetic::separate},
+                     {WDivide::quotient, ViewportArithmetic::fused},
+                     {WDivide::reciprocal, ViewportArithmetic::separate},
+                     {WDivide::reciprocal, ViewportArithmetic::fused},
+                     {WDivide::nv20, ViewportArithmetic::separate}};
+
+WindowTransform transform(const Item& item, const Way& way) {
+    rasterizer::RasterState state;
+    state.viewport = {0, 0, item.width, item.height};
+    state.y_direction = YDirection::down;
+    RasterRules rules;
+    rules.w_divide = way.divide;
+    rules.viewport = way.viewport;
+    return {state, rules};
+}
+
+// A clip x and w that the two ways put on different sides of window x `target`; w is 0 if none was found.
+ClipVertex split(Dice& dice, const Item& item, const Way& a, const Way& b, float target) {
+    const WindowTransform first = transform(item, a), second = transform(item, b);
+    for (int attempt = 0; attempt < 400; ++attempt) {
+        ClipVertex v = corner(item, {target, 0, 0, dice.between(0.5f, 4.0f)}, white);
+        for (int ulps = dice.below(7) - 3; ulps != 0; ulps += ulps < 0 ? 1 : -1)
+            v.x = std::nextafter(v.x, ulps < 0 ? -8.0f : 8.0f);
+        if ((first.project(v).x < target) != (second.project(v).x < target)) return v;
+    }
+    ClipVertex none;
+    none.w = 0.0f;
+    return none;
+}
+
+// A box of 3 x 3 pixels whose left or right side is at `x` and w of `at`; its other sides are far from all centres.
+void add_split_box(const Item& item, Draw& draw, const ClipVertex& at, float left, float top, bool is_left) {
+    const float other = is_left ? left + 2.0f : left;
+    const auto place = [&](float x, float y, bool delicate) {
+        ClipVertex v = corner(item, {x, y, 0, at.w}, white);
+        if (delicate) v.x = at.x;
+        return v;
+    };
+    const ClipVertex a = place(0, top, true), b = place(other, top, false), c = place(other, top + 2.0f, false),
+                     d = place(0, top + 2.0f, true);
+    for (const ClipVertex& v : {a, b, c, a, c, d}) draw.corners.push_back(v);
+}
+
+Item edges_item() {
+    Item item{.name = "positions.edges", .decides = position_fields, .width = 91, .height = 61};
+    Draw draw;
+    Dice dice{11};
+    constexpr float thresholds[]{0, 0x1p-5f, -0x1p-5f, 0x1p-9f, -0x1p-9f, 0x1p-13f, -0x1p-13f};
+    int number = 0;
+    for (int y = 0; y + 3 <= item.height; y += 3)
+        for (int x = 0; x + 3 <= item.width; x += 3, ++number) {
+            const auto a = static_cast<std::size_t>(number % 5);
+            const std::size_t b = (a + 1 + static_cast<std::size_t>(number / 5 % 4)) % 5;
+            const float threshold = thresholds[number / 20 % 7];
+            const bool is_left = number / 140 % 2 == 0;
+            const float left = static_cast<float>(x);
+            const ClipVertex at = split(dice, item, ways[a], ways[b], left + (is_left ? 0.5f : 1.5f) + threshold);
+            if (at.w > 0) add_split_box(item, draw, at, left, static_cast<float>(y), is_left);
+        }
+    item.draws = {draw};
+    return item;
+}
+
+Item flat_item(DepthFormat format, const std::string& name) {
+    Item item{.name = name, .decides = position_fields};
+    item.depth = format;
+    item.depth_near = 0.1f;
+    item.depth_far = 0.9f;
+    Draw draw;
+    Dice dice{12};
+    for (int y = 0; y < item.height; y += 4)
+        for (int x = 0; x < item.width; x += 4) {
+            const float z = dice.between(-1, 1), w = dice.between(0.25f, 8.0f);
+            const auto left = static_cast<float>(x), top = static_cast<float>(y);
+            add_box(item, draw, left, top, left + 4.0f, top + 4.0f, white, z, w);
+        }
+    item.draws = {draw};
+    return item;
+}
+
+}  // namespace
+
+void add_positions(std::vector<Item>& items) {
+    items.push_back(edges_item());
+    items.push_back(flat_item(DepthFormat::d32f, "positions.depth"));
+}
+
+}  // namespace strata::probe

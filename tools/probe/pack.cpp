@@ -1,0 +1,155 @@
+#include "tools/probe/pack.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "pipeline/device/profile_fields.h"
+#include "rasterizer/base/enum_values.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/strict_json.h"
+#include "scenes/packs/new_folder.h"
+#include "tools/oracle/pack/target_json.h"
+#include "tools/probe/archive.h"
+#include "tools/probe/draw_item.h"
+#include "tools/probe/kit.h"
+
+namespace strata::probe {
+
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+using pipeline::Image;
+using scenes::NumberArray;
+
+using Files = std::map<std::string, std::string>;
+
+std::string file_name(YDirection y, const Item& item, std::string_view target) {
+    return fmt::format("probe/{}/{}/{}.npy", name(y), item.name, target);
+}
+
+// Codes of a depth that a shader read: the nearest to the float, whose own rounding is far less than half a code.
+Image from_texels(const NumberArray& array, pipeline::Format format, int width, int height) {
+    Image image{format, width, height};
+    const double greatest = rasterizer::buffer_units(pipeline::depth_format(format));
+    for (std::size_t i = 0; i < image.codes.size(); ++i) {
+        const double depth = double{std::bit_cast<float>(array.word(i))};
+        image.codes[i] = static_cast<std::uint32_t>(std::clamp(std::floor(depth * greatest + 0.5), 0.0, greatest));
+    }
+    return image;
+}
+
+Image read_image(const std::string& bytes, const std::string& file, const Item& item, pipeline::Format format) {
+    const NumberArray array = scenes::parse_npy(bytes, file);
+    const std::vector<std::size_t> sides{static_cast<std::size_t>(item.height), static_cast<std::size_t>(item.width)};
+    if (pipeline::is_depth(format) && array.element == scenes::Element::f4 && array.shape == sides &&
+        format != pipeline::Format::d32f)
+        return from_texels(array, format, item.width, item.height);
+    std::optional<Image> image = oracle::as_image(array, format, 1);
+    if (!image || image->width != item.width || image->height != item.height)
+        throw InputError(file, "shape",
+                         fmt::format("{} of {} x {} pixels", pipeline::info(format).name, item.width, item.height),
+                         "another array");
+    return *std::move(image);
+}
+
+// Null: the client did not draw it.
+std::optional<Answer> read_answer(const Files& files, YDirection y, const Item& item, const std::string& path) {
+    const std::string color = file_name(y, item, "color"), depth = file_name(y, item, "depth");
+    if (!files.contains(color) || (item.depth && !files.contains(depth))) return std::nullopt;
+    Answer answer{.color = read_image(files.at(color), path + "/" + color, item, item.color)};
+    if (item.depth)
+        answer.depth = read_image(files.at(depth), path + "/" + depth, item, pipeline::target_format(*item.depth));
+    return answer;
+}
+
+// Features and limits are what the driver says, not what a picture shows.
+bool is_feature(const pipeline::ProfileField& field) {
+    return field.key.starts_with("has_") || field.key.starts_with("max_");
+}
+
+ordered_json features_of(const pipeline::DeviceProfile& profile) {
+    ordered_json device = ordered_json::object();
+    for (const pipeline::ProfileField& field : pipeline::profile_fields()) {
+        if (!is_feature(field)) continue;
+        const int value = field.value(profile);
+        ordered_json& entry = device[std::string{field.key}];
+        if (field.kind == pipeline::FieldKind::boolean)
+            entry = value != 0;
+        else
+            entry = value;
+    }
+    return device;
+}
+
+ordered_json refusals(const ProbePack& pack) {
+    ordered_json all = ordered_json::object();
+    for (const auto& [y, answers] : pack.answers)
+        for (const auto& [item, reply] : answers)
+            if (!reply.answer) all[fmt::format("{}/{}", name(y), item)] = reply.refusal;
+    return all;
+}
+
+}  // namespace
+
+std::string_view name(YDirection y) noexcept { return enum_names<YDirection>[static_cast<std::size_t>(y)]; }
+
+ProbePack answer(const pipeline::DeviceProfile& profile, const std::vector<Item>& items,
+                 const std::vector<YDirection>& orientations) {
+    ProbePack pack{.made_by = "strata probe, profile " + profile.name,
+                   .kit_digest = digest(items),
+                   .device = features_of(profile)};
+    for (const YDirection y : orientations)
+        for (const Item& item : items) pack.answers[y][item.name] = draw_item(profile, item, y);
+    return pack;
+}
+
+void write_pack(const ProbePack& pack, const std::vector<Item>& items, const std::string& folder) {
+    scenes::NewFolder place{folder};
+    for (const auto& [y, answers] : pack.answers)
+        for (const Item& item : items) {
+            const auto found = answers.find(item.name);
+            if (found == answers.end() || !found->second.answer) continue;
+            const Answer& answer = *found->second.answer;
+            place.write(file_name(y, item, "color"), scenes::to_npy(oracle::as_array(answer.color)));
+            if (answer.depth) place.write(file_name(y, item, "depth"), scenes::to_npy(oracle::as_array(*answer.depth)));
+        }
+    const ordered_json document{
+        {"format", "strata-candidate"},
+        {"version", 1},
+        {"made_by", pack.made_by},
+        {"probe", {{"kit", pack.kit_digest}, {"device", pack.device}, {"missing", refusals(pack)}}}};
+    place.write("candidate.json", document.dump(1) + "\n");
+    place.keep();
+}
+
+ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
+    const Files files = read_files(path);
+    const std::string file = path + "/candidate.json";
+    if (!files.contains("candidate.json"))
+        throw InputError(path, "candidate.json", "a candidate that answers a kit", "no such file");
+    const json document = scenes::parse_strict_json(files.at("candidate.json"), file, "a candidate in JSON");
+    if (!document.is_object() || !document.contains("probe") || !document["probe"].is_object())
+        throw InputError(file, "/probe", "an object that says which kit was answered", "none");
+    const json& probe = document["probe"];
+    ProbePack pack{.made_by = document.value("made_by", ""), .kit_digest = probe.value("kit", "")};
+    if (const std::string expected = digest(items); pack.kit_digest != expected)
+        throw InputError(file, "/probe/kit", "the kit of this program, " + expected, pack.kit_digest);
+    if (probe.contains("device")) pack.device = ordered_json::parse(probe["device"].dump());
+    const json missing = probe.value("missing", json::object());
+    for (const YDirection y : enum_values<YDirection>)
+        for (const Item& item : items) {
+            const std::string key = fmt::format("{}/{}", name(y), item.name);
+            std::optional<Answer> read = read_answer(files, y, item, path);
+            if (read)
+                pack.answers[y][item.name] = {.answer = std::move(read)};
+            else if (missing.contains(key) && missing[key].is_string())
+                pack.answers[y][item.name] = {.answer = std::nullopt, .refusal = missing[key].get<std::string>()};
+        }
+    return pack;
+}
+
+}  // namespace strata::probe

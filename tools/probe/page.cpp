@@ -1,0 +1,23 @@
+#include "tools/probe/kit.h"
+#include "tools/probe/page_parts.h"
+
+namespace strata::probe {
+
+namespace {
+
+// The page has each mark once.
+void put(std::string& page, std::string_view mark, std::string_view text) {
+    page.replace(page.find(mark), mark.size(), text);
+}
+
+}  // namespace
+
+// A kit has no '<' that could end the element that holds it.
+std::string page_of(const std::vector<Item>& items) {
+    std::string page{probe_html()};
+    put(page, "/*SCRIPT*/", probe_js());
+    put(page, "/*KIT*/", to_json(items));
+    return page;
+}
+
+}  // namespace strata::probe

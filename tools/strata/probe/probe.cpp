@@ -1,0 +1,117 @@
+// tools/strata/probe/probe.cpp - strata probe: the kit that measures a device, and its answers by a device that is a profile.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "rasterizer/base/enum_values.h"
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/profile_json.h"
+#include "scenes/packs/new_folder.h"
+#include "tools/probe/comparison.h"
+#include "tools/probe/kit.h"
+#include "tools/strata/command.h"
+#include "tools/strata/options/choices.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/probe/items.h"
+#include "tools/strata/table.h"
+
+namespace strata::tools {
+
+namespace {
+
+// The command line.
+struct ProbeOptions {
+    std::string output, profile, compare;
+    probe::YDirection orientation = probe::YDirection::up;
+    int unseen = 0;
+    bool json = false;
+};
+
+std::vector<std::string> row(const std::string& name, const probe::Difference& d) {
+    return {name, std::to_string(d.pixels), std::to_string(d.coverage), std::to_string(d.depth),
+            std::to_string(d.color)};
+}
+
+// Items that a device drew beside what the profile draws.
+int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) {
+    const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
+    const probe::ProbePack pack = probe::read_pack(options.compare, items);
+    const probe::Comparison device{pack, items, options.orientation};
+    if (device.count() == 0)
+        throw InputError(options.compare, "probe/" + std::string{probe::name(options.orientation)},
+                         "answers of that orientation", "none");
+    Table table{{{"scene"},
+                 {"pixels", Align::right},
+                 {"coverage", Align::right},
+                 {"depth", Align::right},
+                 {"color", Align::right}},
+                {}};
+    nlohmann::ordered_json document{{"profile", profile.name}, {"made_by", pack.made_by}, {"scenes", {}}};
+    probe::Difference sum;
+    for (std::size_t i = 0; i < device.count(); ++i) {
+        const probe::Reply drawn = device.drawn(profile, i);
+        if (!drawn.answer)
+            throw InputError(options.profile, device.item(i).name, "a device that can draw it", drawn.refusal);
+        const probe::Difference one = difference(device.answer(i), *drawn.answer);
+        sum += one;
+        table.rows.push_back(row(device.item(i).name, one));
+        document["scenes"].push_back({{"name", device.item(i).name},
+                                      {"pixels", one.pixels},
+                                      {"coverage_differ", one.coverage},
+                                      {"depth_differ", one.depth},
+                                      {"color_differ", one.color}});
+    }
+    table.rows.push_back(row("all", sum));
+    print(options.json ? document.dump(1) + "\n" : to_text(table));
+    return sum.is_none() ? 0 : 1;
+}
+
+void write_kit(const std::vector<probe::Item>& items, const std::string& folder) {
+    scenes::NewFolder place{folder};
+    place.write("kit.json", probe::to_json(items));
+    place.write("probe.html", probe::page_of(items));
+    place.keep();
+}
+
+int run(const ProbeOptions& options) {
+    const std::vector<probe::Item> items = items_of(options.unseen);
+    if (!options.compare.empty()) {
+        if (options.profile.empty()) throw CLI::ValidationError("--compare", "expected --profile with it, found none");
+        return compare(options, items);
+    }
+    if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder, found none");
+    if (options.profile.empty()) {
+        write_kit(items, options.output);
+    } else {
+        const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
+        const auto& both = enum_values<probe::YDirection>;
+        write_pack(answer(profile, items, {both.begin(), both.end()}), items, options.output);
+    }
+    return 0;
+}
+
+}  // namespace
+
+Command add_probe(CLI::App& root) {
+    auto* app = root.add_subcommand("probe", "write scenes that measure a device, or answer them as a profile would");
+    const auto options = std::make_shared<ProbeOptions>();
+    add_path(*app, options->output,
+             {"-o", "FOLDER", "the kit; with --profile the answers, a candidate pack", "a folder's name"});
+    add_path(*app, options->profile, {"--profile", "NAME|FILE", "the device that answers", "a profile"});
+    add_path(*app, options->compare,
+             {"--compare", "PACK", "hold the profile's answers against a device's", "a folder or a tar archive"});
+    add_orientation(*app, options->orientation, "which answers --compare looks at (default up)");
+    add_unseen(*app, options->unseen);
+    app->add_flag("--json", options->json, "--compare prints one JSON object");
+    app->footer(
+        "Examples:\n"
+        "  strata probe -o kit\n"
+        "  strata probe --profile llvmpipe --unseen 2 -o answers && strata probe --profile llvmpipe --unseen 2 "
+        "--compare "
+        "answers\n"
+        "Exit status: 0 done, 1 --compare found differences, 2 bad input or usage, 3 the system failed, 130 "
+        "interrupted.");
+    return {app, [options] { return run(*options); }};
+}
+
+}  // namespace strata::tools
