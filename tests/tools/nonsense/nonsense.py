@@ -32,7 +32,8 @@ NEEDS = {
     "effects": SMALL + ["--repeat", "1"], "cost": SMALL + ["--dry-run"], "invariance": SMALL + ["--dry-run"],
     "reproduce": ["everitt2001"] + OUT, "hard-cases": ["--list"], "hardware-check": ["."], "scene": SMALL[:1],
     "digest": ["none.png"], "compare": ["a.png", "b.png"], "report": SMALL + OUT, "golden": SMALL + OUT,
-    "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"], "algorithms": [], "scenes": [], "info": ["none.png"],
+    "diagnose": SMALL + ["none.png"], "mistakes": ["--suite"], "reduce": ["none", "true"] + OUT, "profiles": ["ideal"],
+    "probe": OUT, "infer": ["none"], "algorithms": [], "scenes": [], "info": ["none.png"],
     "help": [], "man": [], "completions": ["bash"],
 }
 
