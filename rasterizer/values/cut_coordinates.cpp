@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "rasterizer/base/nv20_arithmetic.h"
 #include "rasterizer/chip/perspective_weights.h"
@@ -36,7 +37,8 @@ struct CutSum {
         const int k = std::max(
             {exponent_of(middle), exponent_of(b.b0) + exponent_of(first), exponent_of(b.b2) + exponent_of(last)});
         // The unit would leave binary64's exponents. Binary32 corners lead here only as zeros, infinities or NaN.
-        if (k < -400 || k > 400) return (middle + p0) + p2;  // 0, infinities and NaN
+        // 0, infinities and NaN: an infinite weight times 0 has small exponents and is NaN all the same.
+        if (k < -400 || k > 400 || !std::isfinite(p0 + p2)) return (middle + p0) + p2;
         const double unit = power_of_two(k - 23), units = power_of_two(23 - k);
         const auto cut = [units](double v) { return static_cast<double>(static_cast<std::int64_t>(v * units)); };
         return ((cut(middle) + cut(p0)) + cut(p2)) * unit;
