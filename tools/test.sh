@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
-#   tools/test.sh               unit and golden tests; the fast ones under sanitizers; one minute of fuzzing
-#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too
+#   tools/test.sh               unit and golden tests; the fast ones under sanitizers; half a minute of fuzzing
+#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too; the loader is fuzzed
 #   tools/test.sh --instrumented  the core's golden scenes under the thread and the memory sanitizer, and 2,000 frames under the first
 #   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
 #   tools/test.sh --exhaustive  the tests that try every value
@@ -42,16 +42,25 @@ sanitizers() {
     local preset
     preset=$(sanitizer_preset)
     step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
-    build "$preset" rasterizer_test pipeline_test peeling_test scenes_test hardware_check_test core_digests
+    local targets=(rasterizer_test pipeline_test peeling_test scenes_test hardware_check_test core_digests)
+    [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz)
+    build "$preset" "${targets[@]}"
     ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    if [ "$preset" = asan ]; then
+        step "no clang++: fuzzing left out"
+        return
+    fi
+    step "fuzzing the loader with glTF bytes"
+    ctest --test-dir build/fuzz -R '^fuzz-(corpus|load-render)' --output-on-failure
 }
 
-# The fast tests of the core under the sanitizers, and a minute of fuzzing, which takes the loader through what its tests would.
+# The fast tests of the core under the sanitizers, and half a minute of fuzzing: scenes and images, which take as long to compile
+# again as the core does, are left to --sanitizers.
 sanitized() {
     local preset targets=(rasterizer_test pipeline_test peeling_test core_digests)
     preset=$(sanitizer_preset)
     if [ "$preset" = fuzz ]; then
-        targets+=(make_corpus load_render_fuzz differential_seeds differential_fuzz)
+        targets+=(differential_seeds differential_fuzz)
     fi
     step "the fast tests of the core under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
@@ -61,8 +70,8 @@ sanitized() {
         step "no clang++: fuzzing left out"
         return
     fi
-    step "fuzzing for a minute: the loader with glTF bytes, the ways of running a frame against each other"
-    quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure -j "$(nproc)"
+    step "fuzzing for half a minute: the ways of running a frame against each other"
+    quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-differential' --output-on-failure
 }
 
 # Is a race found, and a number that nobody wrote? Then the core's own frames: on four threads, and on one by the scalar twins,

@@ -99,7 +99,7 @@ TEST_CASE("batches of objects whose depths overlap, boundaries included, show wh
     }
 }
 
-TEST_CASE("a limit that counts passes across loops ends a frame of tiles where it ends the whole frame") {
+TEST_CASE("a limit that counts passes across loops ends a frame of tiles where it ends the whole frame", "[slow]") {
     Random random{20241108};
     FragmentScene all{16, 16};
     const auto list = objects(random, 11, 0.5f, all);

@@ -166,7 +166,7 @@ TEST_CASE("front_to_back stopped by max_passes shows exactly the nearest layers 
     }
 }
 
-TEST_CASE("no algorithm takes more geometry passes than max_passes, however many an iteration has") {
+TEST_CASE("no algorithm takes more geometry passes than max_passes, however many an iteration has", "[slow]") {
     const FragmentScene scene = stairs(14);
     for (const strata::peeling::Algorithm& algorithm : strata::peeling::algorithms())
         for (const char* const profile : {"geforce3", "geforce8", "ideal"}) {

@@ -94,7 +94,7 @@ DrawList two_walls(float distance, float gap) {
 
 }  // namespace
 
-TEST_CASE("under GREATER every algorithm composites what it does under LESS, and its depths are 1 - d") {
+TEST_CASE("under GREATER every algorithm composites what it does under LESS, and its depths are 1 - d", "[slow]") {
     int ran = 0, refused = 0;
     for (const unsigned seed : {1u, 2u}) {
         const FragmentScene scene = mixed_scene(seed);

@@ -77,7 +77,7 @@ constexpr FragmentNeeds chip_needs{false, true, false, true, true, false, false,
 
 }  // namespace
 
-TEST_CASE("codes, colours and coordinates of the chip's kernels are its definitions' on every set, to the bit") {
+TEST_CASE("codes, colours and coordinates of the chip's kernels are its definitions' on every set, to the bit", "[slow]") {
     std::uint64_t compared = 0;
     int wrong = 0;
     constexpr std::array<std::array<int, 2>, 4> triangles{{{3, 120}, {9, 60}, {40, 30}, {20000, 18}}};
@@ -102,7 +102,7 @@ TEST_CASE("codes, colours and coordinates of the chip's kernels are its definiti
     CHECK(compared > 5'000'000);
 }
 
-TEST_CASE("what the chip's kernels do not know goes by the definitions: other weights, products and planes") {
+TEST_CASE("what the chip's kernels do not know goes by the definitions: other weights, products and planes", "[slow]") {
     std::uint64_t compared = 0;
     int wrong = 0;
     for (const int kind : {0, 1, 2, 3, 4}) {

@@ -86,7 +86,7 @@ TEST_CASE("with w = 1 the quotient is left out and nothing changes", "[slow]") {
     CHECK(found.wrong == 0);
 }
 
-TEST_CASE("the quotient is taken where any vertex has another w than 1, whichever vertices have 1") {
+TEST_CASE("the quotient is taken where any vertex has another w than 1, whichever vertices have 1", "[slow]") {
     Random random{73};
     Compared found;
     for (SetupTriangle t : random_triangles(random, 6, 12, 8))
