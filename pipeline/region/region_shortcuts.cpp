@@ -97,6 +97,15 @@ void RegionShortcuts::store_pixel(Target target, std::uint32_t pixel, const Rgba
     to.scatter(index, s.alive, 1, 0, 0xfu, s.codes);
 }
 
+std::uint64_t RegionShortcuts::target_words() const {
+    std::uint64_t words = 0;
+    for (const TargetStorage& storage : region_.storages_) {
+        const std::size_t stencil = storage.format() == Format::d24s8 ? 1 : 0;
+        words += static_cast<std::uint64_t>(storage.samples()) * (storage.texels(0).words() + stencil);
+    }
+    return words;
+}
+
 Arena& RegionShortcuts::arena() noexcept { return region_.scratch_->arena; }
 
 // Geometry passes also count for limit_reached, as the passes that are replaced would have.

@@ -49,6 +49,8 @@ class RegionShortcuts {
     // 1 everywhere, as before the first opaque triangle.
     [[nodiscard]] bool opaque_depth_is_cleared() const noexcept { return region_.opaque_depth_is_cleared_; }
 
+    // Words a pixel that the region's targets have by now, samples and all.
+    [[nodiscard]] std::uint64_t target_words() const;
     [[nodiscard]] Arena& arena() noexcept;                         // free again when the region is gone
     void book(const Counters& counters, const PassCount& passes);  // what a pass would have counted
     [[nodiscard]] static Count query_of(std::uint64_t own) noexcept { return Count{own}; }

@@ -345,6 +345,11 @@ void add_output_options(CLI::App& app, RunOptions& options, const std::string& o
     app.add_flag_callback(
         "--no-audit", [&options] { options.render.audit = false; },
         "do not compare with the exact A-buffer: faster, and those statistics are null");
+    add_option(
+        app, options.max_memory,
+        {"--max-memory", "SIZE", "refuse a picture that would take more, in bytes (default: what the machine has free)",
+         "bytes such as 65536, 64M or 1G"},
+        to_bytes);
 }
 
 void complete(RunOptions& options) {

@@ -30,6 +30,7 @@ struct RunOptions {
     scenes::ClipConvention view_convention;  // of a view that comes with the scene
     peeling::RenderOptions render;
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
+    std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; none: what the machine has free
     Simd simd = Simd::best;
     std::string stats;   // --stats; empty: none, "-": standard output
     std::string output;  // -o; empty: none
@@ -58,7 +59,7 @@ void accept_tiled(CLI::Option& execution, RunOptions& options);
 // Throws CLI::ValidationError where this processor lacks the set.
 void check_simd(Simd simd);
 
-// Where results go: --stats, -o, --no-audit.
+// Where results go and what they may take: --stats, -o, --no-audit, --max-memory.
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);
 
 // Checks exclusions and fills in defaults that are lists, which needs all options together. Throws

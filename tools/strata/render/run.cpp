@@ -13,6 +13,7 @@
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/printable.h"
 #include "tools/strata/progress.h"
+#include "tools/strata/render/memory.h"
 #include "tools/strata/render/stats.h"
 #include "tools/strata/table.h"
 
@@ -168,6 +169,7 @@ int run_algorithms(RunOptions& options, const Writer& write) {
     complete(options);
     check_outputs({{"--stats", is_standard_output(options.stats) ? "" : options.stats, {".json"}}});
     const Session session = open_session(options);
+    for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer serves all algorithms: geometry is transformed and set up once.
     peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
     std::vector<RunSummary> runs;

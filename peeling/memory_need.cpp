@@ -1,0 +1,136 @@
+#include "peeling/memory_need.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "peeling/render.h"
+#include "pipeline/device/profile.h"
+#include "pipeline/region/region.h"
+#include "pipeline/region/region_shortcuts.h"
+#include "pipeline/vertices/draw_list.h"
+#include "rasterizer/base/parallel.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+namespace {
+
+constexpr int side_px = 64;  // of the rehearsal: a tile's default
+constexpr int block_px = 8;  // of the parts of it whose density is told
+constexpr std::uint64_t word_bytes = 4;
+// A transformed vertex with what set-up takes of it, a triangle set up, and its place in the bins of a few tiles.
+constexpr std::uint64_t vertex_bytes = 32, triangle_bytes = 64;
+// A captured fragment with its depth, colour and place in the sorted sets; what a closed form keeps of one; one in a pixel's list;
+// and what the audit holds of one: its step of the trace, and itself in a list.
+constexpr std::uint64_t captured_bytes = 56, closed_bytes = 8, listed_bytes = 32, audited_bytes = 64;
+
+// Fragments a pixel: of the region, and of its densest block.
+struct Density {
+    double mean = 0, most = 0;
+};
+
+struct Rehearsal {
+    bool is_refused = false, is_tiled = false, is_replayed = false;
+    std::uint64_t target_words = 0;  // a pixel
+    std::uint64_t layers = 0;
+    Density density;
+    int channels = 4;
+};
+
+Density density_of(Region& region) {
+    const auto width = static_cast<std::size_t>(region.rect().width());
+    std::vector<std::uint32_t> coverage(region.rect().area());
+    RegionShortcuts{region}.count_coverage(coverage);
+    std::vector<std::uint64_t> blocks(coverage.size() / (block_px * block_px));
+    std::uint64_t all = 0;
+    for (std::size_t i = 0; i < coverage.size(); ++i) {
+        const std::size_t column = i % width / block_px, row = i / width / block_px;
+        blocks[row * (width / block_px) + column] += coverage[i];
+        all += coverage[i];
+    }
+    const auto most = static_cast<double>(*std::max_element(blocks.begin(), blocks.end()));
+    return {static_cast<double>(all) / static_cast<double>(coverage.size()), most / (block_px * block_px)};
+}
+
+// The same frame as small as a tile. Its own execution, for a whole frame's targets are others than a tile's.
+Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options,
+                   const Algorithm& algorithm) {
+    Rehearsal found;
+    RenderOptions small = options;
+    small.width = small.height = side_px;
+    small.window_origin = {0, 0};
+    small.tile_size = side_px;
+    small.threads = 1;
+    small.audit = false;
+    Algorithm watched = algorithm;
+    watched.body = [&](Region& region) {
+        if (algorithm.body)
+            algorithm.body(region);
+        else if (algorithm.closed_form == nullptr || !algorithm.closed_form(region))
+            algorithm.run(region);
+        found.target_words = std::max(found.target_words, RegionShortcuts{region}.target_words());
+        found.density = density_of(region);
+    };
+    Renderer renderer{list, view, profile, small};
+    const RenderResult result = renderer.render(watched);
+    found.is_refused = result.outcome == Outcome::refused;
+    found.is_tiled = result.frame.work.tile_size != 0;
+    found.is_replayed = found.is_tiled && algorithm.replayed.has_value();
+    found.layers = result.frame.layers.size();
+    found.channels = result.frame.color.channels();
+    return found;
+}
+
+// Fragments are visited once, and what is kept of them lasts for a tile.
+bool is_closed(const RenderOptions& options, const Algorithm& algorithm) {
+    return algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers;
+}
+
+// What fragments take where `pixels` are looked at together, and no more than `limit`.
+std::uint64_t fragment_bytes(const Rehearsal& found, std::uint64_t pixels, std::uint64_t bytes_each,
+                             std::uint64_t limit) {
+    // A tile may be the densest; a frame is as the view is.
+    const double density = found.is_tiled ? found.density.most : found.density.mean;
+    const double bytes = density * static_cast<double>(pixels) * static_cast<double>(bytes_each);
+    return bytes < static_cast<double>(limit) ? static_cast<std::uint64_t>(bytes) : limit;
+}
+
+}  // namespace
+
+MemoryNeed memory_need(const DrawList& list, const View& view, const DeviceProfile& profile,
+                       const RenderOptions& options, const Algorithm& algorithm) {
+    const Rehearsal found = rehearse(list, view, profile, options, algorithm);
+    MemoryNeed need;
+    if (found.is_refused) return need;
+    const std::uint64_t pixels =
+        std::uint64_t{static_cast<unsigned>(options.width)} * static_cast<unsigned>(options.height);
+    const auto channels = static_cast<std::uint64_t>(found.channels);
+    need.pictures = pixels * word_bytes * (channels + (options.nearest_depth ? 1 : 0));
+
+    const auto tile = static_cast<std::uint64_t>(tile_size_of(options, algorithm));
+    const std::uint64_t region = found.is_tiled ? tile * tile : pixels;
+    const std::uint64_t at_once =
+        found.is_tiled ? std::min<std::uint64_t>(static_cast<std::uint64_t>(thread_count(options.threads)),
+                                                 (pixels + region - 1) / region)
+                       : 1;
+    need.targets = at_once * region * word_bytes * (found.target_words + (options.nearest_depth ? 1 : 0));
+    // A region's own, and those of the frame that are put together from them.
+    need.layers = 2 * found.layers * pixels * word_bytes * (channels + 1);
+
+    const std::uint64_t list_limit = std::max(options.fragment_memory, least_audit_memory);
+    const auto kept = [&](std::uint64_t bytes_each, std::uint64_t limit) {
+        return fragment_bytes(found, at_once * region, bytes_each, limit);
+    };
+    if (options.audit) need.fragments += kept(audited_bytes, list_limit);
+    if (algorithm.is_oracle) need.fragments += kept(listed_bytes, list_limit);
+    if (found.is_replayed)
+        need.fragments += kept(is_closed(options, algorithm) ? closed_bytes : captured_bytes, options.fragment_memory);
+    for (const Instance& instance : list.instances) {
+        const Mesh& mesh = list.meshes[instance.mesh];
+        need.triangles += mesh.positions.size() * vertex_bytes + mesh.indices.size() / 3 * triangle_bytes;
+    }
+    return need;
+}
+
+}  // namespace strata::peeling

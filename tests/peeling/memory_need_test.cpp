@@ -1,0 +1,87 @@
+// Model: sizes of the listed targets, added up by hand; whatever may grow, grown, never needs less.
+#include "peeling/memory_need.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/peeling/rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::peeling;
+using namespace strata::pipeline;
+
+// Six fragments over each of 8x8 pixels.
+DrawList six_layers() {
+    FragmentScene scene{8, 8};
+    for (GivenPixel& pixel : scene.pixels)
+        for (int i = 1; i <= 6; ++i) pixel.fragments.push_back({static_cast<float>(i) / 8.0f, {1, 1, 1, 0.5f}});
+    return draw_list(scene);
+}
+
+MemoryNeed need_of(const char* algorithm, const RenderOptions& options, const char* profile = "geforce8") {
+    static const DrawList list = six_layers();
+    return memory_need(list, {}, *find_profile(profile), options, *find_algorithm(algorithm));
+}
+
+RenderOptions options_of(int columns, int rows) {
+    RenderOptions options;
+    options.width = columns;
+    options.height = rows;
+    options.threads = 2;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("pictures take a word a channel and one for the depth") {
+    const MemoryNeed need = need_of("dual", options_of(300, 200));
+    CHECK(need.pictures == std::uint64_t{300} * 200 * 4 * (4 + 1));
+    RenderOptions without = options_of(300, 200);
+    without.nearest_depth = false;
+    CHECK(need_of("dual", without).pictures == std::uint64_t{300} * 200 * 4 * 4);
+}
+
+TEST_CASE("targets of a whole frame have every pixel, those of tiles the pixels of as many tiles as run at once") {
+    RenderOptions literal = options_of(1000, 500);
+    literal.execution = Execution::literal;
+    literal.nearest_depth = false;
+    RenderOptions replay = literal;
+    replay.execution = Execution::replay;
+    replay.max_passes = 20;
+    replay.tile_size = 32;
+    const std::uint64_t whole = need_of("front_to_back", literal).targets / (std::uint64_t{1000} * 500);
+    const std::uint64_t tiled = need_of("front_to_back", replay).targets / (std::uint64_t{2} * 32 * 32);
+    CHECK(whole == tiled);
+}
+
+TEST_CASE("a refused frame needs nothing") { CHECK(need_of("dual", options_of(64, 64), "geforce3").total() == 0); }
+
+TEST_CASE("neither a larger frame nor more threads, memory for fragments, layers or an audit need less") {
+    for (const char* algorithm : {"dual", "front_to_back", "depth_units", "a_buffer", "weighted_average"})
+        for (const Execution execution : {Execution::literal, Execution::replay}) {
+            INFO(algorithm << (execution == Execution::literal ? ", literal" : ", replay"));
+            std::uint64_t before = 0;
+            RenderOptions options = options_of(64, 64);
+            options.execution = execution;
+            options.audit = false;
+            options.fragment_memory = 1 << 10;
+            options.threads = 1;
+            const auto grows = [&] {
+                const std::uint64_t now = need_of(algorithm, options).total();
+                CHECK(now >= before);
+                before = now;
+            };
+            grows();
+            for (const int side : {65, 128, 700, 1024, 4096}) {
+                options.width = options.height = side;
+                grows();
+            }
+            options.threads = 7;
+            grows();
+            options.fragment_memory = 1 << 20;
+            grows();
+            options.audit = true;
+            grows();
+        }
+}

@@ -1,0 +1,60 @@
+// Model: the peak that the system measured.
+#include <catch2/catch.hpp>
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+#include "tests/tools/program.h"
+
+namespace {
+
+using namespace strata::test;
+
+constexpr double megabyte = 1 << 20;
+
+// The figure of the sentence that refuses the run, in bytes.
+double predicted(const Folder& folder, std::vector<std::string> words) {
+    words.insert(words.end(), {"--max-memory", "1M"});
+    const Ended ended = run_strata(folder, words);
+    CHECK(ended.status == 2);
+    std::smatch found;
+    REQUIRE(std::regex_search(ended.err, found, std::regex("expected about ([0-9]+)M for ")));
+    return std::stod(found[1]) * megabyte;
+}
+
+}  // namespace
+
+TEST_CASE("what a picture will take is told within a quarter of what it takes") {
+    const std::vector<std::string> jobs{
+        "render teapot --size 1024x1024 --algorithm dual",
+        "render teapot --size 1024x1024 --algorithm dual --no-audit -o a.png",
+        "render teapot --size 1024x1024 --algorithm dual --no-audit -o a.exr",
+        "render teapot --size 1024x1024 --algorithm dual --execution literal --no-audit",
+        "render teapot --size 1024x1024 --algorithm dual --execution literal --profile ideal --no-audit",
+        "render teapot --size 1024x1024 --algorithm depth_units --execution literal --no-audit",
+        "layers teapot --size 512x512 --algorithm front_to_back -o layers.exr",
+        "render volume-beam:slices=64 --size 512x512 --algorithm dual",
+        "render volume-beam:slices=64 --size 512x512 --algorithm a_buffer",
+        "render volume-beam:slices=64 --size 512x512 --algorithm depth_units --no-audit"};
+    const Folder folder;
+    for (const std::string& job : jobs) {
+        std::istringstream in(job + " --threads 2");
+        const std::vector<std::string> words{std::istream_iterator<std::string>{in}, {}};
+        const auto measured = static_cast<double>(peak_of_strata(folder, words));
+        REQUIRE(measured > 0);
+        INFO(job << ": " << measured / megabyte << " MiB");
+        CHECK(predicted(folder, words) == Approx(measured).epsilon(0.25));
+    }
+}
+
+TEST_CASE("a picture that would take more than --max-memory is refused before anything is written") {
+    const Folder folder;
+    const Ended ended = run_strata(folder, {"render", "teapot", "--size", "2048x2048", "--execution", "literal",
+                                            "--max-memory", "64M", "-o", "a.exr"});
+    CHECK(ended.status == 2);
+    CHECK(std::regex_match(ended.err,
+                           std::regex(R"(strata: --max-memory: expected about [0-9]+M for dual at 2048x2048 )"
+                                      R"(\(a smaller --size or --fragment-memory takes less\), found 64M\n)")));
+    CHECK(folder.files().empty());
+    CHECK(run_strata(folder, {"render", "teapot", "--size", "64x64", "--max-memory", "64M"}).status == 0);
+}

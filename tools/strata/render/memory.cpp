@@ -1,0 +1,83 @@
+#include "tools/strata/render/memory.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "peeling/memory_need.h"
+#include "rasterizer/base/require.h"
+
+namespace strata::tools {
+
+namespace {
+
+// Of a frame of one colour and one depth a pixel: its codes as numbers, and what a library of images makes of them.
+constexpr std::uint64_t png_bytes_a_pixel = 44, exr_bytes_a_pixel = 28;
+
+// "NAME:   123 kB", as files below /proc have it.
+std::optional<std::uint64_t> kilobytes(const char* file, const std::string& name) {
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        if (line.rfind(name, 0) != 0) continue;
+        std::uint64_t value = 0;
+        if (std::istringstream(line.substr(name.size())) >> value) return value << 10;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::uint64_t> number_in(const char* file) {
+    std::ifstream in(file);
+    std::uint64_t value = 0;
+    if (in >> value) return value;  // "max": no limit
+    return std::nullopt;
+}
+
+std::uint64_t writer_bytes(const RunOptions& options) {
+    const std::uint64_t pixels =
+        std::uint64_t{static_cast<unsigned>(options.render.width)} * static_cast<unsigned>(options.render.height);
+    if (options.output.ends_with(".png")) return pixels * png_bytes_a_pixel;
+    if (options.output.ends_with(".exr")) return pixels * exr_bytes_a_pixel;
+    return 0;
+}
+
+// Whether the rehearsal is not worth its time: there is more than any algorithm takes that keeps no layers.
+bool is_surely_enough(const RunOptions& options, std::uint64_t limit, std::uint64_t held) {
+    constexpr std::uint64_t most_bytes_a_pixel = 512;
+    const std::uint64_t pixels =
+        std::uint64_t{static_cast<unsigned>(options.render.width)} * static_cast<unsigned>(options.render.height);
+    const std::uint64_t most = 2 * held + pixels * most_bytes_a_pixel + 2 * options.render.fragment_memory;
+    return !options.max_memory && !options.render.keep_layers && most < limit;
+}
+
+std::string in_megabytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + "M"; }
+
+}  // namespace
+
+std::uint64_t held_memory() { return kilobytes("/proc/self/status", "VmRSS:").value_or(0); }
+
+std::optional<std::uint64_t> free_memory() {
+    std::optional<std::uint64_t> free = kilobytes("/proc/meminfo", "MemAvailable:");
+    const auto limit = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current");
+    if (limit && used) free = std::min(free.value_or(~std::uint64_t{0}), *limit - std::min(*limit, *used));
+    return free;
+}
+
+void check_memory(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm) {
+    const std::uint64_t held = held_memory();
+    std::optional<std::uint64_t> limit = options.max_memory;
+    if (!limit) limit = free_memory();
+    if (!limit) return;
+    if (!options.max_memory) *limit += held;
+    if (is_surely_enough(options, *limit, held)) return;
+    const std::uint64_t need =
+        held + writer_bytes(options) +
+        peeling::memory_need(session.scene.list, session.view, session.profile, options.render, algorithm).total();
+    if (need <= *limit) return;
+    throw InputError("strata", "--max-memory",
+                     "about " + in_megabytes(need) + " for " + algorithm.name + " at " +
+                         std::to_string(options.render.width) + "x" + std::to_string(options.render.height) +
+                         " (a smaller --size or --fragment-memory takes less)",
+                     in_megabytes(*limit) + (options.max_memory ? "" : ", which is what this machine has free"));
+}
+
+}  // namespace strata::tools
