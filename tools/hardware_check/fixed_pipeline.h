@@ -36,18 +36,18 @@ inline constexpr double cotangent = 2.414213562373095;  // of 22.5 degrees
 // cotangent of 22.5 degrees rounded, and that by 4:3.
 inline constexpr float chip_cotangent = 0x1.3504f2p+1f, chip_cotangent_x = chip_cotangent / (4.0f / 3.0f);
 
-// What the test hands to the fixed pipeline: rows of x, y, z and w, each for a world point's x, y, z and 1.
+// What the test hands to the fixed pipeline: rows of x, y, z and w, each for a point's x, y, z and w (1 in the world).
 struct CompositeMatrix {
     std::array<float, 4> x, y, z, w;
 };
 
-// The window's x, y and z of a world point by the vertex engine's arithmetic, with the viewport's offset; w beside them.
+// The window's x, y and z of a point by the vertex engine's arithmetic, with the viewport's offset; w beside them.
 [[nodiscard]] constexpr std::array<float, 4> chip_window_point(const CompositeMatrix& m,
-                                                               const std::array<float, 3>& point) {
+                                                               const std::array<float, 4>& point) {
     namespace nv20 = rasterizer::nv20;
     const auto dot = [&](const std::array<float, 4>& row) {
         return nv20::sum<4>({nv20::multiply(row[0], point[0]), nv20::multiply(row[1], point[1]),
-                             nv20::multiply(row[2], point[2]), row[3]});
+                             nv20::multiply(row[2], point[2]), nv20::multiply(row[3], point[3])});
     };
     const float w = dot(m.w), inverse = nv20::reciprocal(w);
     const auto divided = [&](const std::array<float, 4>& row) { return nv20::multiply(dot(row), inverse); };

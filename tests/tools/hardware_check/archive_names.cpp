@@ -161,7 +161,7 @@ void add_range_suites(Archive& archive) {
         {"ff_w_zero_inf__quad_w0.00", "rcc_w_zero_inf__z0.25", "w_gaps", "w_pos_strip_tex_persp"}, 4);
     const Names modes = with({"", "WBuf_"}, with({"", "NEARFAR_"}, with({"ZCULL", "ZCLAMP"}, {"", "_IgnW"})));
     add(archive, Says::drawn, "ZMinMaxControl", with({"Ctrl_"}, modes), 16);
-    add(archive, Says::not_modelled, "ZMinMaxControl", with({"CtrlFixed_"}, modes), 16);
+    add(archive, Says::drawn, "ZMinMaxControl", with({"CtrlFixed_"}, modes), 16);
 }
 
 void add_texture_suites(Archive& archive) {

@@ -187,7 +187,7 @@ CompositeMatrix looking_down(double units) {
 TriangleSoup fixed_floor(const BufferSetting& s) {
     const CompositeMatrix camera = looking_down(fixed_units(s));
     const auto window_point = [&](float x, float z) {
-        const auto [window_x, window_y, window_z, w] = chip_window_point(camera, {x, 0, z});
+        const auto [window_x, window_y, window_z, w] = chip_window_point(camera, {x, 0, z, 1});
         return WindowPoint{window_x, window_y, window_z, w};
     };
     TriangleSoup soup;
