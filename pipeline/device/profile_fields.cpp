@@ -274,4 +274,17 @@ std::string text_of(const ProfileField& field, const DeviceProfile& profile) {
     return {};  // unreachable: the enum is closed
 }
 
+std::optional<FieldConflict> conflict_of(const DeviceProfile& profile) {
+    using rasterizer::DepthPath;
+    const rasterizer::RasterRules& rules = profile.raster;
+    if (rules.coverage != rasterizer::CoverageRule::float_spans) return std::nullopt;
+    const auto beside = [](std::string_view other) {
+        return FieldConflict{"raster.coverage", "snapped_edges beside " + std::string{other}, "float_spans"};
+    };
+    if (rules.color == rasterizer::ColorInterpolation::weights_8bit) return beside("raster.color weights_8bit");
+    if (rules.depth_path == DepthPath::window_z) return beside("raster.depth_path window_z");
+    if (rules.depth_path == DepthPath::w_buffer) return beside("raster.depth_path w_buffer");
+    return std::nullopt;
+}
+
 }  // namespace strata::pipeline

@@ -2,6 +2,7 @@
 // describe() and the JSON of scenes/files/profile_json.h both walk it, so a new field is one entry.
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,5 +33,14 @@ struct ProfileField {
 
 // "true", "12" or "nearest_even".
 [[nodiscard]] std::string text_of(const ProfileField& field, const DeviceProfile& profile);
+
+// A field's value that another field rules out.
+struct FieldConflict {
+    std::string_view key;  // "raster.coverage"
+    std::string expected, found;
+};
+// The first of a profile's values that do not go together, if there is one (devices.md 3.1): spans in binary32 cover centres that
+// exact edges leave out, where the edge values that the chip's weights are made of are negative.
+[[nodiscard]] std::optional<FieldConflict> conflict_of(const DeviceProfile& profile);
 
 }  // namespace strata::pipeline

@@ -101,6 +101,8 @@ void check(const DeviceProfile& profile) {
         if (field.step > 1) expected += " in steps of " + std::to_string(field.step);
         its.fail(std::string{field.key}, expected, value);
     }
+    if (const auto conflict = conflict_of(profile))
+        throw InputError("profile", std::string{conflict->key}, conflict->expected, conflict->found);
 }
 
 }  // namespace strata::pipeline

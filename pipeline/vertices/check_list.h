@@ -13,7 +13,7 @@ namespace strata::pipeline {
 // Sizes, indices, enums and floats that decide something; the sums of vertices and indices must fit 32 bits.
 void check(const DrawList& list);
 void check(const View& view);
-// Every field has a value that the table of profile_fields.h lists.
+// Every field has a value that the table of profile_fields.h lists, and no two of them exclude each other.
 void check(const DeviceProfile& profile);
 
 }  // namespace strata::pipeline

@@ -34,12 +34,13 @@ enum class VertexOrigin : std::uint8_t { given, made_by_clip };
     return rules.window_z == WindowZ::buffer_units ? buffer_units(state.depth_format) : 1.0;
 }
 
-// A w of any sign, zero and infinity acting as very small and very large [A]: 1 / w and its products stay finite. NaN stays.
+// A w of any sign, zero and infinity acting as 2^-64 and 2^64: 1 / w and its products stay finite. NaN stays. The chip's
+// reciprocal has these limits (chip-float-depth.md 8).
 [[nodiscard]] constexpr float settled_w(float w) noexcept {
     const bool is_negative = std::bit_cast<std::uint32_t>(w) >> 31 != 0;
     float size = is_negative ? -w : w;
-    if (size < 0x1p-116f) size = 0x1p-116f;
-    if (size > 0x1p116f) size = 0x1p116f;
+    if (size < 0x1p-64f) size = 0x1p-64f;
+    if (size > 0x1p64f) size = 0x1p64f;
     return is_negative ? -size : size;
 }
 

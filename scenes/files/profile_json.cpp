@@ -194,6 +194,10 @@ DeviceProfile parse_profile(const std::string& document_text, const std::string&
         profile.description = text(document, "description", longest_description, file);
     for (const ProfileField& field : profile_fields())
         read_field(field, is_raster(field) ? raster : document, base != nullptr, file, profile);
+    if (const auto conflict = pipeline::conflict_of(profile)) {
+        const auto field = std::ranges::find(profile_fields(), conflict->key, &ProfileField::key);
+        throw InputError(file, pointer(*field), conflict->expected, conflict->found);
+    }
     return profile;
 }
 

@@ -14,49 +14,68 @@ using Pixel = std::array<std::uint32_t, 4>;  // r g b a
 
 constexpr std::uint32_t label = 0x00ffffff;  // (255, 255, 255, 0)
 
-template <class F>
-void for_each_pixel(F&& f) {
-    for (int y = 0; y < picture_height; ++y)
-        for (int x = 0; x < picture_width; ++x) f(x, y);
-}
-
 // Label pixels are marked by a colour: a picture of depth words has none.
 bool reads_color(Reading reading) { return reading == Reading::color || reading == Reading::drawn; }
 bool contains(const rasterizer::Rect& r, int x, int y) { return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1; }
 
-Pixel pixel_of(const Image& image, int x, int y) {
-    const std::size_t i = image.index(x, y);
-    return {image.codes[i], image.codes[i + 1], image.codes[i + 2], image.codes[i + 3]};
-}
-
 std::uint32_t packed(const Pixel& p) { return p[0] | p[1] << 8 | p[2] << 16 | p[3] << 24; }
 std::uint32_t packed(const std::array<std::uint8_t, 4>& p) { return packed(Pixel{p[0], p[1], p[2], p[3]}); }
 
-// The word that stands for a pixel of the drawn picture; their_word() is the same for the capture.
-std::uint32_t our_word(const Picture& drawn, int x, int y) {
+using Row = std::array<std::uint32_t, picture_width>;
+
+// `word` of each pixel's first code in a row of `image`.
+template <class F>
+Row row_of(const Image& image, int y, F&& word) {
+    const auto channels = static_cast<std::size_t>(image.channels());
+    const std::uint32_t* codes = &image.codes[image.index(0, y)];
+    Row row;
+    for (std::uint32_t& each : row) {
+        each = word(codes);
+        codes += channels;
+    }
+    return row;
+}
+
+std::uint32_t packed_codes(const std::uint32_t* c) { return c[0] | c[1] << 8 | c[2] << 16 | c[3] << 24; }
+
+// The words that stand for a row of the drawn picture; their_row() is the same for the capture.
+Row our_row(const Picture& drawn, int y) {
     switch (drawn.reading) {
-        case Reading::color: return packed(pixel_of(drawn.image, x, y));
-        case Reading::drawn: return packed(pixel_of(drawn.image, x, y)) != packed(drawn.background);
-        case Reading::depth16: return drawn.image.codes[drawn.image.index(x, y)];
+        case Reading::color: return row_of(drawn.image, y, packed_codes);
+        case Reading::drawn: {
+            const std::uint32_t background = packed(drawn.background);
+            return row_of(drawn.image, y,
+                          [=](const std::uint32_t* c) { return std::uint32_t{packed_codes(c) != background}; });
+        }
+        case Reading::depth16: return row_of(drawn.image, y, [](const std::uint32_t* c) { return *c; });
         case Reading::depth24: {
-            const std::uint32_t depth = drawn.image.codes[drawn.image.index(x, y)] << 8;
-            return drawn.stencil.codes.empty() ? depth : depth | drawn.stencil.codes[drawn.stencil.index(x, y)];
+            Row row = row_of(drawn.image, y, [](const std::uint32_t* c) { return *c << 8; });
+            for (int x = 0; x < picture_width && !drawn.stencil.codes.empty(); ++x)
+                row[static_cast<std::size_t>(x)] |= drawn.stencil.codes[drawn.stencil.index(x, y)];
+            return row;
         }
     }
-    return 0;  // unreachable: the enum is closed
+    return {};  // unreachable: the enum is closed
 }
 
 // A capture is always rgba8. Depth is unpacked as compare.h says; without a stencil in the drawn
 // picture the capture's stencil byte counts as 0.
-std::uint32_t their_word(const Picture& drawn, const Image& capture, int x, int y) {
-    const Pixel p = pixel_of(capture, x, y);
+Row their_row(const Picture& drawn, const Image& capture, int y) {
+    using Codes = const std::uint32_t*;
     switch (drawn.reading) {
-        case Reading::color: return packed(p);
-        case Reading::drawn: return packed(p) != packed(drawn.background);
-        case Reading::depth16: return (p[0] >> 3) << 11 | (p[1] >> 2) << 5 | p[2] >> 3;
-        case Reading::depth24: return p[3] << 24 | p[0] << 16 | p[1] << 8 | (drawn.stencil.codes.empty() ? 0 : p[2]);
+        case Reading::color: return row_of(capture, y, packed_codes);
+        case Reading::drawn: {
+            const std::uint32_t background = packed(drawn.background);
+            return row_of(capture, y, [=](Codes c) { return std::uint32_t{packed_codes(c) != background}; });
+        }
+        case Reading::depth16:
+            return row_of(capture, y, [](Codes c) { return (c[0] >> 3) << 11 | (c[1] >> 2) << 5 | c[2] >> 3; });
+        case Reading::depth24: {
+            const std::uint32_t stencil = drawn.stencil.codes.empty() ? 0 : 0xff;
+            return row_of(capture, y, [=](Codes c) { return c[3] << 24 | c[0] << 16 | c[1] << 8 | (c[2] & stencil); });
+        }
     }
-    return 0;  // unreachable: the enum is closed
+    return {};  // unreachable: the enum is closed
 }
 
 bool is_hidden(const Picture& drawn, int x, int y) {
@@ -64,15 +83,24 @@ bool is_hidden(const Picture& drawn, int x, int y) {
                        [&](const rasterizer::Rect& r) { return contains(r, x, y); });
 }
 
-bool is_label(const Picture& drawn, const Image& capture, int x, int y) {
-    if (!reads_color(drawn.reading)) return false;
-    const std::uint32_t theirs = packed(pixel_of(capture, x, y));
-    return theirs == label || (drawn.overdrawn && theirs == packed(*drawn.overdrawn));
+// 1 where a capture's pixel is a label, else 0.
+Row labels_of(const Picture& drawn, const Image& capture, int y) {
+    if (!reads_color(drawn.reading)) return {};
+    const std::uint32_t other = drawn.overdrawn ? packed(*drawn.overdrawn) : label;
+    return row_of(capture, y, [=](const std::uint32_t* c) {
+        const std::uint32_t theirs = packed_codes(c);
+        return std::uint32_t{theirs == label || theirs == other};
+    });
 }
 
-// False for labels, which hold text, and for rectangles that the suite hides.
-bool is_compared(const Picture& drawn, const Image& capture, int x, int y) {
-    return !is_label(drawn, capture, x, y) && !is_hidden(drawn, x, y);
+// f(x, y, whether the capture has a label there, our word, their word), row by row from the top.
+template <class F>
+void for_each_pixel(const Picture& drawn, const Image& capture, F&& f) {
+    for (int y = 0; y < picture_height; ++y) {
+        const Row labels = labels_of(drawn, capture, y), ours = our_row(drawn, y),
+                  theirs = their_row(drawn, capture, y);
+        for (std::size_t x = 0; x < picture_width; ++x) f(static_cast<int>(x), y, labels[x] != 0, ours[x], theirs[x]);
+    }
 }
 
 // Theirs minus ours, in the reading's units.
@@ -88,12 +116,15 @@ std::int64_t difference(Reading reading, std::uint32_t ours, std::uint32_t their
     return has_depth ? std::int64_t{theirs >> 8} - std::int64_t{ours >> 8} : std::int64_t{theirs} - std::int64_t{ours};
 }
 
-template <class Word>
-std::string digest_of(const Picture& drawn, const rasterizer::Rect& box, Word&& word) {
+template <class Words>
+std::string digest_of(const Picture& drawn, const rasterizer::Rect& box, Words&& row_of_words) {
     Image words{Format::r32f, picture_width, picture_height};
-    for_each_pixel([&](int x, int y) {
-        words.codes[words.index(x, y)] = contains(box, x, y) || is_hidden(drawn, x, y) ? 0 : word(x, y);
-    });
+    for (int y = 0; y < picture_height; ++y) {
+        const Row row = row_of_words(y);
+        for (int x = 0; x < picture_width; ++x)
+            words.codes[words.index(x, y)] =
+                contains(box, x, y) || is_hidden(drawn, x, y) ? 0 : row[static_cast<std::size_t>(x)];
+    }
     return digest(words);
 }
 
@@ -105,12 +136,11 @@ Comparison compare(const Picture& drawn, const Image& capture, const std::string
                          std::to_string(capture.width) + " x " + std::to_string(capture.height) + " pixels of " +
                              std::string{pipeline::info(capture.format).name}};
     Comparison result;
-    for_each_pixel([&](int x, int y) {
-        if (!is_compared(drawn, capture, x, y)) return;
+    for_each_pixel(drawn, capture, [&](int x, int y, bool is_label, std::uint32_t ours, std::uint32_t theirs) {
+        if (is_label || is_hidden(drawn, x, y)) return;
         ++result.compared;
-        const std::uint32_t ours = our_word(drawn, x, y), theirs = their_word(drawn, capture, x, y);
+        if (ours == theirs) return;
         const std::int64_t d = difference(drawn.reading, ours, theirs);
-        if (d == 0) return;
         if (result.differing++ == 0) {
             result.first = {x, y};
             result.ours = ours;
@@ -125,11 +155,11 @@ Comparison compare(const Picture& drawn, const Image& capture, const std::string
 
 Image difference_picture(const Picture& drawn, const Image& capture) {
     Image shown{Format::rgba8, picture_width, picture_height};
-    for_each_pixel([&](int x, int y) {
-        const std::int64_t d = difference(drawn.reading, our_word(drawn, x, y), their_word(drawn, capture, x, y));
+    for_each_pixel(drawn, capture, [&](int x, int y, bool is_label, std::uint32_t ours, std::uint32_t theirs) {
+        const std::int64_t d = difference(drawn.reading, ours, theirs);
         const auto size = static_cast<std::uint32_t>(std::min<std::int64_t>(255, 96 + 16 * std::abs(d)));
         Pixel rgba{0, 0, 0, 255};
-        if (!is_compared(drawn, capture, x, y))
+        if (is_label || is_hidden(drawn, x, y))
             rgba = {255, 255, 255, 255};
         else if (d > 0)
             rgba = {size, 0, 0, 255};
@@ -142,18 +172,18 @@ Image difference_picture(const Picture& drawn, const Image& capture) {
 
 rasterizer::Rect label_box(const Picture& drawn, const Image& capture) {
     rasterizer::Rect box{picture_width, picture_height, 0, 0};
-    for_each_pixel([&](int x, int y) {
-        if (is_label(drawn, capture, x, y))
+    for_each_pixel(drawn, capture, [&](int x, int y, bool is_label, std::uint32_t, std::uint32_t) {
+        if (is_label)
             box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
     });
     return box.area() == 0 ? rasterizer::Rect{} : box;
 }
 
 std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn) {
-    return digest_of(drawn, box, [&](int x, int y) { return our_word(drawn, x, y); });
+    return digest_of(drawn, box, [&](int y) { return our_row(drawn, y); });
 }
 std::string digest_outside(const rasterizer::Rect& box, const Picture& drawn, const Image& capture) {
-    return digest_of(drawn, box, [&](int x, int y) { return their_word(drawn, capture, x, y); });
+    return digest_of(drawn, box, [&](int y) { return their_row(drawn, capture, y); });
 }
 
 }  // namespace strata::hardware_check

@@ -4,9 +4,11 @@
 //          x = 320 + 320 * 1.81066 X / w, y = 240 - 240 * 2.41421 Y / w, z = M (200 / 199) (1 - 1 / w); the viewport
 //          adds 0.53125 to x and y. In binary64, rounded once. The chip's own z: the matrix holds S = M (200 / 199)
 //          and 6 S, each rounded to binary32, and the vertex engine computes (z S + 6 S) (1 / (z + 7)) by its cuts
-//          and its reciprocal (nv20_arithmetic.h).
+//          and its reciprocal (nv20_arithmetic.h). A CompositeMatrix holds all rows of another camera: one dot product a
+//          row, each of x, y, z times the reciprocal of w, then the viewport's offset.
 // Source   chip-geometry.md 1.3, 5.4 and 6. The chip's z: [M] suite Depth_buffer_fixed_function at 24 bits, every
-//          word of 327 quads but 24 of one strip, whose slope is steep (chip-depth.md 4).
+//          word of 327 quads but 24 of one strip, whose slope is steep (chip-depth.md 4). Its x and y:
+//          chip-float-depth.md 9.2.
 // Tests    tests/tools/hardware_check/suites_test.cpp
 #pragma once
 #include "rasterizer/base/nv20_arithmetic.h"
@@ -28,6 +30,29 @@ inline constexpr double cotangent = 2.414213562373095;  // of 22.5 degrees
     const auto scale = static_cast<float>(double{units} * 200.0 / 199.0);
     const float clip_z = nv20::sum<2>({nv20::multiply(z, scale), 6.0f * scale});
     return nv20::multiply(clip_z, nv20::reciprocal(nv20::sum<2>({z, 7.0f})));
+}
+
+// The scales of clip y and x as the test has them in binary32: the cotangent of half of f32(pi / 4), a step below the
+// cotangent of 22.5 degrees rounded, and that by 4:3.
+inline constexpr float chip_cotangent = 0x1.3504f2p+1f, chip_cotangent_x = chip_cotangent / (4.0f / 3.0f);
+
+// What the test hands to the fixed pipeline: rows of x, y, z and w, each for a point's x, y, z and w (1 in the world).
+struct CompositeMatrix {
+    std::array<float, 4> x, y, z, w;
+};
+
+// The window's x, y and z of a point by the vertex engine's arithmetic, with the viewport's offset; w beside them.
+[[nodiscard]] constexpr std::array<float, 4> chip_window_point(const CompositeMatrix& m,
+                                                               const std::array<float, 4>& point) {
+    namespace nv20 = rasterizer::nv20;
+    const auto dot = [&](const std::array<float, 4>& row) {
+        return nv20::sum<4>({nv20::multiply(row[0], point[0]), nv20::multiply(row[1], point[1]),
+                             nv20::multiply(row[2], point[2]), nv20::multiply(row[3], point[3])});
+    };
+    const float w = dot(m.w), inverse = nv20::reciprocal(w);
+    const auto divided = [&](const std::array<float, 4>& row) { return nv20::multiply(dot(row), inverse); };
+    return {nv20::sum<2>({divided(m.x), viewport_offset}), nv20::sum<2>({divided(m.y), viewport_offset}), divided(m.z),
+            w};
 }
 
 // A world point in the window, without the viewport's offset.

@@ -99,15 +99,12 @@ std::vector<int> searched_values(const ProfileField& f, int current) {
 }
 
 // No frame of the kit is larger than 256 pixels, and no guard band is within the frame. Paths that need a texture shader or a
-// w buffer cannot draw a kit. The chip's weights are made of edge values, which are negative where spans in binary32 cover a
-// centre that exact edges leave out.
+// w buffer cannot draw a kit.
 bool is_valid(const DeviceProfile& profile) {
     const RasterRules& r = profile.raster;
     if (r.depth_path == DepthPath::depth_replace || r.depth_path == DepthPath::w_buffer) return false;
     if (r.depth_path == DepthPath::window_z && r.window_z != WindowZ::buffer_units) return false;
-    if (r.coverage == CoverageRule::float_spans &&
-        (r.color == ColorInterpolation::weights_8bit || r.depth_path == DepthPath::window_z))
-        return false;
+    if (pipeline::conflict_of(profile)) return false;
     if (r.depth_path == DepthPath::perspective_rq && !profile.has_fragment_programs) return false;
     return r.guard_band_px >= 256;
 }

@@ -125,6 +125,11 @@ TEST_CASE("a view and a profile with a value that no rule covers are refused") {
     profile.raster.subpixel_bits = 4;
     profile.raster.tie_rule = static_cast<strata::rasterizer::TieRule>(4);
     CHECK_THROWS_WITH(check(profile), "profile: raster.tie_rule: expected 0 to 3, found 4");
+    DeviceProfile spans = *find_profile("softpipe");
+    spans.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;
+    CHECK_THROWS_WITH(
+        check(spans),
+        "profile: raster.coverage: expected snapped_edges beside raster.color weights_8bit, found float_spans");
 }
 
 TEST_CASE("a list with any of its numbers changed is refused at the door of prepare or prepared") {

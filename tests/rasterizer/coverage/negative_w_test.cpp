@@ -1,9 +1,11 @@
 // The model: a pixel belongs to a triangle if at its centre the edge value over every corner has the sign of that corner's w,
 // the area being positive; a centre on a side counts as its tie rule says, and the other way where w is negative.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <set>
 
+#include "rasterizer/set_up/window.h"
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/support.h"
 
@@ -107,6 +109,17 @@ TEST_CASE("without the rule a w of zero or infinity drops its triangle, and a ne
     CHECK(covered({zero, b, c}, WSigns::ignored).empty());
     CHECK(covered({negative, b, c}, WSigns::ignored) == covered({a, b, c}));
     CHECK(sign_geometry({zero, b, c}, WSigns::ignored).counters.non_finite == 1);
+}
+
+TEST_CASE("a w below 2^-64 acts as 2^-64 and one above 2^64 as 2^64, with its sign") {
+    for (const float sign : {1.0f, -1.0f}) {
+        for (const float w : {0.0f, 0x1p-149f, 0x1p-126f, 0x1.fffffep-65f, 0x1p-64f})
+            CHECK(settled_w(sign * w) == sign * 0x1p-64f);
+        for (const float w : {0x1p64f, 0x1.000002p64f, 0x1.fffffep127f, std::numeric_limits<float>::infinity()})
+            CHECK(settled_w(sign * w) == sign * 0x1p64f);
+        for (const float w : {0x1.000002p-64f, 1.0f, 0x1.fffffep63f}) CHECK(settled_w(sign * w) == sign * w);
+    }
+    CHECK(std::isnan(settled_w(std::numeric_limits<float>::quiet_NaN())));
 }
 
 TEST_CASE("NEARFAR drops a triangle that lies with all corners before or behind the range, and only such a one") {

@@ -3,67 +3,17 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/rasterizer/rational.h"
-#include "tests/rasterizer/scene.h"
+#include "tests/rasterizer/values/quotient_triangles.h"
 
 namespace {
 
 using namespace strata::rasterizer;
-
-constexpr int size = 12;
-constexpr FragmentNeeds depths{.color = false, .reference = true};
-
-struct Triangle {
-    SetupTriangle setup;
-    std::array<float, 3> r, q;
-};
 
 [[nodiscard]] RasterRules buffer_rules(const DepthHypothesis& hypothesis = {}) {
     return {.subpixel_bits = 4,
             .window_z = WindowZ::buffer_units,
             .depth_rounding = DepthRounding::floor,
             .hypothesis = hypothesis};
-}
-
-// r / q lies within the buffer's range but for a few; q is w, and 1/w what the window has of it.
-[[nodiscard]] std::vector<Triangle> random_triangles(std::uint64_t seed, int count, int bits, double units) {
-    Random random{seed};
-    std::vector<Triangle> triangles;
-    while (static_cast<int>(triangles.size()) < count) {
-        const int outside = triangles.size() % 3 == 0 ? 2000 : 4;
-        const auto point = [&] { return random_point(random, size, size, bits, outside); };
-        const std::array p{point(), point(), point()};
-        if (doubled_area(p[0], p[1], p[2]) == 0) continue;
-        Triangle t;
-        std::array<float, 3> inverse_w{};
-        std::array<double, 3> z{};
-        const bool is_flat = triangles.size() % 7 == 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const float w = is_flat ? 1.0f : random_float(random, 0.2f, 9);
-            const float depth = random_float(random, -0.2f, 1.2f);
-            z[i] = double{depth * static_cast<float>(units)};
-            t.q[i] = w;
-            t.r[i] = static_cast<float>(z[i]) * w;
-            inverse_w[i] = 1.0f / w;
-        }
-        t.setup = window_triangle(p, bits, z, inverse_w);
-        triangles.push_back(t);
-    }
-    return triangles;
-}
-
-[[nodiscard]] Geometry geometry_of(const std::vector<Triangle>& triangles, const RasterRules& rules,
-                                   DepthFormat format) {
-    std::vector<SetupTriangle> setup;
-    VertexExtras extras{.stride = 2, .has_rq = true, .values = {}};
-    for (const Triangle& t : triangles) {
-        setup.push_back(t.setup);
-        for (std::size_t i = 0; i < 3; ++i) extras.values.insert(extras.values.end(), {t.r[i], t.q[i]});
-    }
-    Geometry geometry = window_geometry(setup, size, size, rules);
-    geometry.state.depth_format = format;
-    geometry.extras = std::move(extras);
-    return geometry;
 }
 
 [[nodiscard]] float to_bits(float v, int bits) {
@@ -105,7 +55,7 @@ struct Triangle {
 }
 
 // R in the units of r.
-[[nodiscard]] float model_quotient(const Triangle& t, const Fragment& f, int bits, const DepthHypothesis& h) {
+[[nodiscard]] float model_quotient(const QuotientTriangle& t, const Fragment& f, int bits, const DepthHypothesis& h) {
     const std::array<Rational, 3> b = barycentric(t.setup.p, f.x, f.y, bits);
     return model_divide(model_coordinate(b, t.r, t.setup.inverse_w, h), model_coordinate(b, t.q, t.setup.inverse_w, h),
                         h.divide);
@@ -124,10 +74,10 @@ struct Tally {
 [[nodiscard]] Tally compare_quotients(std::uint64_t seed, const DepthHypothesis& hypothesis, DepthFormat format) {
     Tally tally;
     const int count = hypothesis == DepthHypothesis{} ? 30 : 10;
-    for (const Triangle& t : random_triangles(seed, count, 4, max_code(format)))
-        for (const Fragment& f :
-             draw(geometry_of({t}, buffer_rules(hypothesis), format), {DepthPath::perspective_rq, format}, depths)
-                 .fragments) {
+    for (const QuotientTriangle& t : random_quotient_triangles(seed, count, 4, max_code(format)))
+        for (const Fragment& f : draw(quotient_geometry({t}, buffer_rules(hypothesis), format),
+                                      {DepthPath::perspective_rq, format}, quotient_needs)
+                                     .fragments) {
             const float r = model_quotient(t, f, 4, hypothesis);
             tally.wrong += f.reference_z != double{r} ||
                                    f.reference_code != model_floor(Rational{r}, max_code(format)) ||
@@ -161,11 +111,11 @@ TEST_CASE("fewer bits of the interpolants and divides by a reciprocal change wha
 
 TEST_CASE("with full double interpolants R is the true quotient of the vertex products but for 2^-45 of it") {
     std::uint64_t fragments = 0, far = 0;
-    for (const Triangle& t : random_triangles(905, 60, 4, 0xffffff)) {
+    for (const QuotientTriangle& t : random_quotient_triangles(905, 60, 4, 0xffffff)) {
         const RasterRules rules = buffer_rules({.interpolant_bits = full_double});
-        for (const Fragment& f :
-             draw(geometry_of({t}, rules, DepthFormat::d24), {DepthPath::perspective_rq, DepthFormat::d24}, depths)
-                 .fragments) {
+        for (const Fragment& f : draw(quotient_geometry({t}, rules, DepthFormat::d24),
+                                      {DepthPath::perspective_rq, DepthFormat::d24}, quotient_needs)
+                                     .fragments) {
             const std::array<Rational, 3> b = barycentric(t.setup.p, f.x, f.y, 4);
             std::array<Rational, 3> r, q;
             for (std::size_t i = 0; i < 3; ++i) {
@@ -192,14 +142,14 @@ TEST_CASE("depth replace stores the depth that perspective_rq compares, and drop
          {Case{DepthFormat::d16, buffer_rules(), 65535.0}, Case{DepthFormat::d24, buffer_rules(), 16777215.0},
           Case{DepthFormat::d32f, {.subpixel_bits = 4}, 1.0}, Case{DepthFormat::d24, {.subpixel_bits = 4}, 1.0}}) {
         std::uint64_t kept = 0, dropped = 0, wrong = 0;
-        for (const Triangle& t : random_triangles(906, 30, 4, units)) {
-            const Geometry geometry = geometry_of({t}, rules, format);
+        for (const QuotientTriangle& t : random_quotient_triangles(906, 30, 4, units)) {
+            const Geometry geometry = quotient_geometry({t}, rules, format);
             const DepthRequest replaced{DepthPath::depth_replace, format, DepthPath::perspective_rq};
-            const auto stored = draw(geometry, replaced, depths).fragments;
+            const auto stored = draw(geometry, replaced, quotient_needs).fragments;
             const auto coverage = draw(geometry, replaced, coverage_only).fragments;
             for (const Fragment& f : stored) wrong += f.code != f.reference_code ? 1 : 0;
             std::uint64_t inside = 0;
-            const auto all = draw(geometry, {DepthPath::perspective_rq, format}, depths).fragments;
+            const auto all = draw(geometry, {DepthPath::perspective_rq, format}, quotient_needs).fragments;
             for (const Fragment& f : all) {
                 const float r = model_quotient(t, f, 4, {});
                 inside += r >= 0 && double{r} <= units ? 1 : 0;
@@ -215,122 +165,11 @@ TEST_CASE("depth replace stores the depth that perspective_rq compares, and drop
 }
 
 TEST_CASE("with depth clamp a replaced depth outside the range is clamped, not dropped") {
-    for (const Triangle& t : random_triangles(907, 20, 4, 65535)) {
-        Geometry geometry = geometry_of({t}, buffer_rules(), DepthFormat::d16);
+    for (const QuotientTriangle& t : random_quotient_triangles(907, 20, 4, 65535)) {
+        Geometry geometry = quotient_geometry({t}, buffer_rules(), DepthFormat::d16);
         geometry.state.depth_clamp = true;
-        const auto replaced = draw(geometry, {DepthPath::depth_replace, DepthFormat::d16}, depths).fragments;
-        CHECK(replaced == draw(geometry, {DepthPath::perspective_rq, DepthFormat::d16}, depths).fragments);
-    }
-}
-
-namespace {
-
-[[nodiscard]] float rounded(const Rational& v) { return nearest_float(v); }
-[[nodiscard]] float plus(float a, float b) { return rounded(Rational{a} + Rational{b}); }
-[[nodiscard]] float minus(float a, float b) { return rounded(Rational{a} - Rational{b}); }
-[[nodiscard]] float times(float a, float b) { return rounded(Rational{a} * Rational{b}); }
-
-// depth_paths.h, float32_plane; false where the slopes do not exist.
-[[nodiscard]] std::optional<float> model_float32_plane(const SetupTriangle& t, const Fragment& f, int bits,
-                                                       PlaneAnchor anchor, PlaneOrigin origin) {
-    std::array<float, 3> x, y, z;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const bool snaps = origin == PlaneOrigin::snapped;
-        x[i] = snaps ? rounded(Rational{t.p[i].x} / (1 << bits)) : t.unsnapped[i][0];
-        y[i] = snaps ? rounded(Rational{t.p[i].y} / (1 << bits)) : t.unsnapped[i][1];
-        z[i] = static_cast<float>(t.z[i]);
-    }
-    const float x1 = minus(x[1], x[0]), y1 = minus(y[1], y[0]), z1 = minus(z[1], z[0]);
-    const float x2 = minus(x[2], x[0]), y2 = minus(y[2], y[0]), z2 = minus(z[2], z[0]);
-    const float area = minus(times(x1, y2), times(x2, y1));
-    if (area == 0) return std::nullopt;
-    const float dx = rounded(Rational{minus(times(z1, y2), times(z2, y1))} / Rational{area});
-    const float dy = rounded(Rational{minus(times(z2, x1), times(z1, x2))} / Rational{area});
-    float base = z[0], ox = x[0], oy = y[0];
-    if (anchor == PlaneAnchor::window_corner) {
-        base = minus(minus(base, times(dx, ox)), times(dy, oy));
-        ox = oy = 0;
-    }
-    const float px = static_cast<float>(f.x) + 0.5f, py = static_cast<float>(f.y) + 0.5f;
-    return plus(plus(base, times(dx, minus(px, ox))), times(dy, minus(py, oy)));
-}
-
-}  // namespace
-
-TEST_CASE("float32_plane rounds its slopes and every step from its anchor to binary32", "[slow]") {
-    for (const PlaneAnchor anchor : {PlaneAnchor::first_vertex, PlaneAnchor::window_corner})
-        for (const auto& [bits, origin] : {std::pair{4, PlaneOrigin::snapped}, std::pair{8, PlaneOrigin::snapped},
-                                           std::pair{8, PlaneOrigin::unsnapped}}) {
-            RasterRules rules{.subpixel_bits = bits, .plane_origin = origin};
-            rules.hypothesis.plane_anchor = anchor;
-            std::uint64_t fragments = 0, wrong = 0;
-            for (Triangle t : random_triangles(908, 10, bits, 1.0)) {
-                for (auto& position : t.setup.unsnapped) position[0] += 0.0007f, position[1] -= 0.0011f;
-                for (const Fragment& f : draw(geometry_of({t}, rules, DepthFormat::d32f),
-                                              {DepthPath::float32_plane, DepthFormat::d32f}, depths)
-                                             .fragments) {
-                    const auto z = model_float32_plane(t.setup, f, bits, anchor, origin);
-                    if (!z) continue;
-                    wrong += f.reference_z != double{*z} || f.code != to_depth_code(*z, DepthFormat::d32f, {}) ? 1 : 0;
-                    ++fragments;
-                }
-            }
-            CHECK(fragments > 150);
-            CHECK(wrong == 0);
-        }
-}
-
-namespace {
-
-[[nodiscard]] SetupTriangle rotated(const SetupTriangle& t) {
-    SetupTriangle r = t;
-    for (std::size_t i = 0; i < 3; ++i) {
-        r.p[i] = t.p[(i + 1) % 3];
-        r.unsnapped[i] = t.unsnapped[(i + 1) % 3];
-        r.z[i] = t.z[(i + 1) % 3];
-    }
-    return r;
-}
-
-[[nodiscard]] SetupTriangle moved(const SetupTriangle& t, int pixels, int bits) {
-    SetupTriangle m = t;
-    for (SubpixelPoint& p : m.p) p.x += pixels << bits, p.y += pixels << bits;
-    for (auto& u : m.unsnapped)
-        for (float& c : u) c += static_cast<float>(pixels);
-    return m;
-}
-
-// The share of fragments whose code changes when `change` is done to every triangle, which then lies `shift` pixels off.
-template <class Change>
-[[nodiscard]] double changed_share(DepthPath path, PlaneAnchor anchor, int shift, const Change& change) {
-    constexpr int bits = 8;
-    RasterRules rules{.subpixel_bits = bits};
-    rules.hypothesis.plane_anchor = anchor;
-    std::uint64_t fragments = 0, changed = 0;
-    for (const Triangle& t : random_triangles(909, 200, bits, 1.0)) {
-        const auto codes = [&](const SetupTriangle& triangle, int at) {
-            Geometry g = window_geometry({triangle}, size + at, size + at, rules);
-            g.state.viewport = {at, at, size + at, size + at};
-            return by_pixel(draw(g, {path, DepthFormat::d32f}, {.color = false}).fragments);
-        };
-        const auto before = codes(t.setup, 0), after = codes(change(t.setup), shift);
-        REQUIRE(before.size() == after.size());
-        for (std::size_t i = 0; i < before.size(); ++i) changed += before[i].code != after[i].code ? 1 : 0;
-        fragments += before.size();
-    }
-    CHECK(fragments > 4000);
-    return static_cast<double>(changed) / static_cast<double>(fragments);
-}
-
-}  // namespace
-
-TEST_CASE("rotating the vertices or moving the viewport changes many depths of float32_plane and none of exact") {
-    const auto move = [](const SetupTriangle& t) { return moved(t, 512, 8); };
-    CHECK(changed_share(DepthPath::float32_plane, PlaneAnchor::first_vertex, 0, rotated) > 0.25);
-    CHECK(changed_share(DepthPath::float32_plane, PlaneAnchor::window_corner, 512, move) > 0.25);
-    for (const DepthPath path : {DepthPath::exact, DepthPath::float32}) {
-        CHECK(changed_share(path, PlaneAnchor::first_vertex, 0, rotated) == 0.0);
-        CHECK(changed_share(path, PlaneAnchor::window_corner, 512, move) == 0.0);
+        const auto replaced = draw(geometry, {DepthPath::depth_replace, DepthFormat::d16}, quotient_needs).fragments;
+        CHECK(replaced == draw(geometry, {DepthPath::perspective_rq, DepthFormat::d16}, quotient_needs).fragments);
     }
 }
 
@@ -338,13 +177,13 @@ TEST_CASE("a reference is to the bit the depth that a pass storing by that path 
     constexpr std::array paths{DepthPath::window_z, DepthPath::perspective_rq, DepthPath::float32,
                                DepthPath::float32_plane, DepthPath::exact};
     for (const WindowZRule rule : {WindowZRule::chip, WindowZRule::exact, WindowZRule::float32}) {
-        std::vector<Triangle> triangles = random_triangles(910, 40, 4, 0xffffff);
-        const Geometry geometry = geometry_of(triangles, buffer_rules({.window_z = rule}), DepthFormat::d24);
+        std::vector<QuotientTriangle> triangles = random_quotient_triangles(910, 40, 4, 0xffffff);
+        const Geometry geometry = quotient_geometry(triangles, buffer_rules({.window_z = rule}), DepthFormat::d24);
         std::uint64_t pairs = 0, wrong = 0, unlike = 0;
         for (const DepthPath stored : paths)
             for (const DepthPath compared : paths) {
-                const auto both = draw(geometry, {stored, DepthFormat::d24, compared}, depths).fragments;
-                const auto alone = draw(geometry, {compared, DepthFormat::d24}, depths).fragments;
+                const auto both = draw(geometry, {stored, DepthFormat::d24, compared}, quotient_needs).fragments;
+                const auto alone = draw(geometry, {compared, DepthFormat::d24}, quotient_needs).fragments;
                 for (std::size_t i = 0; i < both.size(); ++i) {
                     wrong +=
                         both[i].reference_code != alone[i].code || alone[i].reference_code != alone[i].code ? 1 : 0;
@@ -361,10 +200,10 @@ TEST_CASE("a reference is to the bit the depth that a pass storing by that path 
 
 TEST_CASE("window_z from the exact plane is path exact, and from binary32 the plane rounded once, then floored") {
     std::uint64_t fragments = 0, wrong = 0;
-    for (const Triangle& t : random_triangles(911, 60, 4, 0xffffff)) {
+    for (const QuotientTriangle& t : random_quotient_triangles(911, 60, 4, 0xffffff)) {
         const auto by = [&](WindowZRule rule, DepthPath path) {
-            return draw(geometry_of({t}, buffer_rules({.window_z = rule}), DepthFormat::d24), {path, DepthFormat::d24},
-                        depths)
+            return draw(quotient_geometry({t}, buffer_rules({.window_z = rule}), DepthFormat::d24),
+                        {path, DepthFormat::d24}, quotient_needs)
                 .fragments;
         };
         const auto exact = by(WindowZRule::exact, DepthPath::window_z), truth = by(WindowZRule::chip, DepthPath::exact);

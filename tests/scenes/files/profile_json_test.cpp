@@ -39,6 +39,8 @@ TEST_CASE("a profile with every field at its other end reads back from its JSON 
     profile.description = "tabs\tand \xc3\xa4";
     for (const bool highest : {false, true}) {
         for (const ProfileField& field : profile_fields()) field.set(profile, highest ? field.highest : field.lowest);
+        // Spans exclude the chip's weights, which the highest colours are made of.
+        if (highest) profile.raster.coverage = strata::rasterizer::CoverageRule::snapped_edges;
         CHECK(parse_profile(to_json(profile), "x.json") == profile);
     }
 }
@@ -67,6 +69,16 @@ TEST_CASE("an unknown key or name suggests the nearest") {
           "softpipe, found 'geforce9' (did "
           "you mean "
           "'geforce3'?)");
+}
+
+TEST_CASE("a field that another one rules out is named with it") {
+    CHECK(error_of(R"({"name": "mine", "base": "geforce3", "raster": {"coverage": "float_spans"}})") ==
+          "my.json: /raster/coverage: expected snapped_edges beside raster.color weights_8bit, found float_spans");
+    CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "window_z"}})") ==
+          "my.json: /raster/coverage: expected snapped_edges beside raster.depth_path window_z, found float_spans");
+    CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "w_buffer"}})") ==
+          "my.json: /raster/coverage: expected snapped_edges beside raster.depth_path w_buffer, found float_spans");
+    CHECK(error_of(R"({"name": "mine", "base": "softpipe", "raster": {"depth_path": "exact"}})") == "no error");
 }
 
 TEST_CASE("a value of the wrong type or outside its range names file, pointer, range and value") {

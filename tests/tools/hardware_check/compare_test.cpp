@@ -213,13 +213,16 @@ TEST_CASE("a suite tells of what it can show: depths, colours, coordinates, quot
     const std::map<std::string_view, unsigned> told{{"Alpha_func", 4},
                                                     {"Color_mask_blend", 4},
                                                     {"Combiner", 8},
+                                                    {"Depth_Clamp", 8},
                                                     {"Depth_buffer", 1 | 4},
                                                     {"Depth_buffer_fixed_function", 1 | 4},
                                                     {"Pixel_shader", 2 | 8},
-                                                    {"Shade_model", 4},
+                                                    {"Shade_model", 4 | 8},
                                                     {"Texture_perspective", 4 | 8},
                                                     {"Texture_shadow_comparator", 2 | 8},
-                                                    {"W_buffering", 1}};
+                                                    {"W_buffering", 1 | 8},
+                                                    {"W_param", 8},
+                                                    {"ZMinMaxControl", 4}};
     for (const Suite& suite : suites())
         CHECK(unsigned{suite.tells} == (told.contains(suite.name) ? told.at(suite.name) : 0u));
 }

@@ -253,6 +253,14 @@ TEST_CASE("the test suite's camera puts world points where its matrix does") {
     CHECK(window_z(-6, 65535) == 0);
     CHECK(window_z(193, 65535) == Approx(65535).epsilon(1e-12));
     CHECK(window_z(0, 199) == Approx(200 * (1 - 1 / 7.0)));
+    // A floor's corners, by a camera that looks down by three in seven: the chip's words put them there to 1/16 pixel, three
+    // steps inside of the exact places.
+    const float ahead = 7.0f * (1.0f / std::sqrt(58.0f)), start = 26.1299801f;
+    const CompositeMatrix camera{
+        {320.0f * chip_cotangent_x, 0, ahead * 320.0f, start * 320.0f}, {}, {}, {0, 0, ahead, start}};
+    const auto sixteenth = [&](float x) { return std::trunc(16 * chip_window_point(camera, {x, 0, -10, 1})[0]); };
+    CHECK(sixteenth(15000) == 16 * 513420.875);
+    CHECK(sixteenth(-15000) == 16 * -512779.8125);
     double last = -1;
     for (float z = -6; z <= 193; z += 0.37f) {  // the chip's own is near the exact one, and monotonic
         const double chip = double{chip_window_z(z, 16777215.0f)};

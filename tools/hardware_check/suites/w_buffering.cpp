@@ -168,29 +168,27 @@ double fixed_units(const BufferSetting& s) {
     return 16777215.0;
 }
 
-// Window z of the floor's points by the vertex engine's arithmetic (fixed_pipeline.h): the matrix has the way along the view in
-// rows of z and w, each entry rounded to binary32.
-float floor_z(float z, double units) {
-    namespace nv20 = rasterizer::nv20;
-    // The way along the view in units of z, and where it begins: the test normalises by a reciprocal in binary32.
-    const float ahead = 7.0f * (1.0f / std::sqrt(58.0f)), start = static_cast<float>(199.0 / std::sqrt(58.0));
+// The camera that stands 50 above the floor and looks down by three in seven. Each entry is a sum of products in
+// binary32, as the test multiplies its matrices; it normalises directions by a reciprocal in binary32.
+CompositeMatrix looking_down(double units) {
+    const float inverse = 1.0f / std::sqrt(58.0f), ahead = 7.0f * inverse, down = 3.0f * inverse;
+    // Where the ways along the view and up it begin, for a point at world height 0.
+    const auto start = static_cast<float>(199.0 / std::sqrt(58.0)),
+               up_start = static_cast<float>(-329.0 / std::sqrt(58.0));
     const float scale = static_cast<float>(units * 200.0 / 199.0);
-    const float clip_z =
-        nv20::sum<2>({nv20::multiply(z, static_cast<float>(ahead * scale)), static_cast<float>(start * scale - scale)});
-    const float w = nv20::sum<2>({nv20::multiply(z, ahead), start});
-    return nv20::multiply(clip_z, nv20::reciprocal(w));
+    const float width = 320.0f * chip_cotangent_x, height = -240.0f * chip_cotangent;
+    return {.x = {width, 0, ahead * 320.0f, start * 320.0f},
+            .y = {0, 0, down * height + ahead * 240.0f, up_start * height + start * 240.0f},
+            .z = {0, 0, ahead * scale, start * scale - scale},
+            .w = {0, 0, ahead, start}};
 }
 
-// A floor of 30000 units through the fixed pipeline: the default camera stands 50 above it and looks down by three in seven.
+// A floor of 30000 units through the fixed pipeline.
 TriangleSoup fixed_floor(const BufferSetting& s) {
-    const double length = std::sqrt(58.0), down = 3.0 / length, ahead = 7.0 / length;
-    const auto window_point = [&](double x, double z) {
-        const double y_to_eye = -50.0, z_to_eye = z + 7.0;
-        const double w = ahead * z_to_eye - down * y_to_eye, up = ahead * y_to_eye + down * z_to_eye;
-        const double scale = 240.0 * cotangent / w;
-        return WindowPoint{static_cast<float>(320.0 + x * scale + viewport_offset),
-                           static_cast<float>(240.0 - up * scale + viewport_offset),
-                           floor_z(static_cast<float>(z), fixed_units(s)), static_cast<float>(w)};
+    const CompositeMatrix camera = looking_down(fixed_units(s));
+    const auto window_point = [&](float x, float z) {
+        const auto [window_x, window_y, window_z, w] = chip_window_point(camera, {x, 0, z, 1});
+        return WindowPoint{window_x, window_y, window_z, w};
     };
     TriangleSoup soup;
     add(soup,
@@ -212,8 +210,8 @@ Bound bound_of(const BufferSetting& s) {
     const bool is_24_float = s.format() == DepthFormat::d24f;
     if (s.is_w && s.has_slope) return {std::uint64_t{picture_width} * picture_height, 2};
     if (s.is_w) return {is_24_float ? 1500u : 220u, 1};
-    // Corners by the fixed pipeline at 24 bits: the last bits of z and of its slope.
-    if (!s.by_program && !s.is_16) return {1000, 1};
+    // One triangle of the floor by the fixed pipeline: the last bit of its reciprocals.
+    if (!s.by_program && !s.is_16) return {44, 1};
     if (s.shape == "TriH" && s.has_slope) return {is_24_float ? 1100u : 168u, 1};
     return s.shape == "TruncNeg" ? Bound{4, 1} : Bound{};
 }

@@ -6,6 +6,7 @@
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
+#include "tools/hardware_check/textured.h"
 
 namespace strata::hardware_check {
 namespace {
@@ -31,8 +32,6 @@ std::optional<float> factor_of(std::string_view text) {
     return is_tiny ? std::nullopt : number;
 }
 
-constexpr Argb white = 0xffffffff;
-
 bool is_negative(float w) { return std::bit_cast<std::uint32_t>(w) >> 31 != 0; }
 
 }  // namespace
@@ -49,27 +48,38 @@ Drawing draw_w_param(std::string_view name, const pipeline::DeviceProfile& profi
     const auto m = factor_of(name);
     if (!m) return unknown_name;
 
-    const auto corner = [](float x, float y, float w) {
-        ClipVertex v = at(x, y, white);
-        v.w = w;
+    // Texture coordinates belong to the corner, wherever it stands.
+    const auto corner = [](float x, float y, float w, std::array<float, 2> texture) {
+        ClipVertex v = at(x, y, 0, {1, 1, 1, 1}, w);
+        v.texcoord = texture;
         return v;
     };
     // A negative w takes its corner to the other end of the diagonal.
+    const auto top_left = [&](float w) {
+        return is_negative(w) ? corner(480, 390, w, {0, 0}) : corner(160, 70, w, {0, 0});
+    };
+    const auto low_right = [&](float w) {
+        return is_negative(w) ? corner(160, 70, w, {1, 1}) : corner(480, 390, w, {1, 1});
+    };
+    const auto top_right = [&](float w) { return corner(480, 70, w, {1, 0}); };
+    const auto low_left = [&](float w) { return corner(160, 390, w, {0, 1}); };
     const float first_w = least / *m, last_w = greatest * *m;
-    const ClipVertex top_left = is_negative(first_w) ? corner(480, 390, first_w) : corner(160, 70, first_w);
-    const ClipVertex low_right = is_negative(last_w) ? corner(160, 70, last_w) : corner(480, 390, last_w);
     TriangleSoup soup;
     if (is_quad) {
-        add_quad(soup, {top_left, corner(480, 70, 1), low_right, corner(160, 390, 1)});
+        add_quad(soup, {top_left(first_w), top_right(1), low_right(last_w), low_left(1)});
     } else {
-        add_triangle(soup, top_left, corner(480, 70, least), corner(160, 390, least));
-        add_triangle(soup, low_right, corner(160, 390, greatest), corner(480, 70, greatest));
+        add_triangle(soup, top_left(first_w), top_right(least), low_left(least));
+        add_triangle(soup, low_right(last_w), low_left(greatest), top_right(greatest));
     }
+    pipeline::Texture texture = checker(256, 8, 0xff00c0c0, 0xffc00000);
+    texture.target = pipeline::TextureTarget::two_d;
+    texture.wrap_s = texture.wrap_t = pipeline::TextureWrap::repeat;
     pipeline::Surface surface{profile, {}};
-    constexpr Argb background = 0xfe251135;
-    surface.clear_color(unpack(background));
-    surface.draw({}, std::move(soup));
-    return {Picture{.reading = Reading::drawn, .image = surface.color(), .background = unpack(background)}, {}};
+    surface.clear_color(unpack(0xfe251135));
+    const pipeline::BlendTerm sum{pipeline::BlendEquation::add, pipeline::BlendFactor::one, pipeline::BlendFactor::one};
+    surface.draw({.blend = {true, sum, sum}, .texture = &texture}, std::move(soup));
+    // Texels whose coordinates lie exactly on a cell's edge (chip-float-depth.md 8).
+    return {Picture{.image = surface.color(), .bound = {200, 192}}, {}};
 }
 
 }  // namespace strata::hardware_check

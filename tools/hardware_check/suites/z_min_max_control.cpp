@@ -1,5 +1,8 @@
-// Suite ZMinMaxControl: Ctrl[_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: what the depth range removes, fragments and whole
+// Suite ZMinMaxControl: Ctrl[Fixed][_WBuf][_NEARFAR]_<ZCULL|ZCLAMP>[_IgnW]: what the depth range removes, fragments and whole
 // triangles, by z or by w. chip-float-depth.md 5.1.
+#include <algorithm>
+
+#include "tools/hardware_check/fixed_pipeline.h"
 #include "tools/hardware_check/names.h"
 #include "tools/hardware_check/shapes.h"
 #include "tools/hardware_check/suite.h"
@@ -68,12 +71,24 @@ constexpr Group groups[] = {{90, upper, growing, one,
                                  return Sides<Color>{{l, l, .25f, 1}, {r, r, .8f, 1}};
                              }}};
 
+// A corner through the fixed pipeline, whose matrix is the identity: the test hands over x w, y w, z w and w in binary32, and
+// the chip multiplies by the reciprocal. Where w is 0 all products are 0, and the corner stands in the window's.
+ClipVertex through_pipeline(const ClipVertex& v) {
+    constexpr CompositeMatrix identity{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    const auto [x, y, z, w] = chip_window_point(identity, {v.x * v.w, v.y * v.w, v.z * v.w, v.w});
+    ClipVertex projected = v;
+    projected.x = x;
+    projected.y = y;
+    projected.z = z;
+    projected.w = w;
+    return projected;
+}
+
 }  // namespace
 
 Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProfile& profile) {
-    if (name.starts_with("CtrlFixed_"))
-        return {std::nullopt, "corners of w = 0 in the fixed pipeline are not described"};
-    if (!take(name, "Ctrl_")) return unknown_name;
+    const bool is_fixed = take(name, "CtrlFixed_");
+    if (!is_fixed && !take(name, "Ctrl_")) return unknown_name;
     const bool by_w = take(name, "WBuf_"), culls_triangles = take(name, "NEARFAR_");
     const bool clamps = take(name, "ZCLAMP");
     if (!clamps && !take(name, "ZCULL")) return unknown_name;
@@ -96,9 +111,11 @@ Drawing draw_z_min_max_control(std::string_view name, const pipeline::DeviceProf
             const Sides<float> z = group.z(n), w = group.w(n), greys = grey(n);
             const Sides<Color> color = group.color(greys.left, greys.right);
             TriangleSoup soup;
-            add_quad(soup, {at(x, y, z.left, color.left, w.left), at(x + size, y, z.right, color.right, w.right),
-                            at(x + size, y + size, z.right, color.right, w.right),
-                            at(x, y + size, z.left, color.left, w.left)});
+            std::array<ClipVertex, 4> corner{
+                at(x, y, z.left, color.left, w.left), at(x + size, y, z.right, color.right, w.right),
+                at(x + size, y + size, z.right, color.right, w.right), at(x, y + size, z.left, color.left, w.left)};
+            if (is_fixed) std::transform(corner.begin(), corner.end(), corner.begin(), through_pipeline);
+            add_quad(soup, corner);
             surface.draw(state, std::move(soup));
         }
     // Colours where 256 times a weight lies next to an integer: none at hand (chip-float-depth.md 7).

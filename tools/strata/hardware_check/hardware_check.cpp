@@ -66,9 +66,11 @@ std::vector<Capture> find_captures(const Options& options) {
 }
 
 // Pictures are independent of each other; results stand in the order of the captures.
-std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile) {
+std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, const pipeline::DeviceProfile& profile,
+                                      WithDigests with_digests) {
     std::vector<CheckedPicture> checked(captures.size());
-    for_every("checking", captures.size(), [&](std::size_t i) { checked[i] = check(captures[i], profile); });
+    for_every("checking", captures.size(),
+              [&](std::size_t i) { checked[i] = check(captures[i], profile, with_digests); });
     return checked;
 }
 
@@ -80,7 +82,8 @@ int hardware_check(const Options& options) {
         print(hypothesis_scores(captures, profile));
         return 0;
     }
-    const std::vector<CheckedPicture> checked = check_all(captures, profile);
+    const std::vector<CheckedPicture> checked =
+        check_all(captures, profile, options.digests ? WithDigests::yes : WithDigests::no);
     if (options.digests)
         print(digest_rows(checked));
     else

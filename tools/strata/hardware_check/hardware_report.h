@@ -30,6 +30,7 @@ struct CheckedPicture {
     hardware_check::Bound bound{};
     hardware_check::Comparison comparison{};
     std::vector<std::uint64_t> reports{};
+    // With digests alone.
     rasterizer::Rect labels{};
     // Of the capture outside its labels.
     std::string digest{};
@@ -41,8 +42,12 @@ struct CheckedPicture {
 // rgba8. InputError for a file that holds no picture, or several.
 [[nodiscard]] pipeline::Image read_capture(const std::string& path);
 
+// Whether `labels` and `digest` are wanted, too: they take as long as the comparison.
+enum class WithDigests : bool { no, yes };
+
 // Draws the picture and compares. InputError for a file that is no such capture.
-[[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile);
+[[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile,
+                                   WithDigests with_digests);
 
 // The tables, and the JSON document of --json.
 [[nodiscard]] std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
