@@ -21,7 +21,7 @@ struct CostOptions {
     RunOptions run;
     std::vector<std::string> scenes;
     std::vector<std::string> knobs = cost_knobs();
-    int rounds = 5;
+    int rounds = 0;  // 0: by the length of a round
     Shard shard;
     int merge = 0;
     bool dry_run = false;
@@ -165,7 +165,10 @@ Command add_cost(CLI::App& root) {
     add_resource_options(*app, options->run);
     add_option(
         *app, options->rounds,
-        {"--repeat", "N", "rounds in which a cell is timed beside the default (default 5)", "a whole number from 1"},
+        {"--repeat", "N",
+         "rounds in which a cell is timed beside the default (default 5, and up to 25 while they last under 2 s: short "
+         "runs vary most)",
+         "a whole number from 1"},
         to_positive);
     add_path(
         *app, options->run.output,

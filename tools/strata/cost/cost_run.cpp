@@ -94,11 +94,13 @@ CostTimes time_cell(const CostScene& scene, const CostCell& cell, int rounds) {
     static_cast<void>(reference_seconds());
     static_cast<void>(seconds_of(scene.session, cell, cell.options.execution));
     const double first_literal = seconds_of(scene.session, cell, pipeline::Execution::literal);
-    for (int round = 0; round < rounds; ++round) {
+    const bool is_long = first_literal > long_run;
+    double all = 0;
+    for (int round = 0; wants_round(round, all, rounds); ++round) {
         const double with = reference_seconds();
         const double taken = seconds_of(scene.session, cell, cell.options.execution);
-        const bool is_long = first_literal > long_run;
         const double literal = is_long ? first_literal : seconds_of(scene.session, cell, pipeline::Execution::literal);
+        all += with + taken + (is_long ? 0 : literal);
         times.seconds.push_back(taken);
         times.ratios.push_back(taken / with);
         times.literal.push_back(literal / with);

@@ -2,8 +2,9 @@
 //
 // Rule     Errors and counts depend on the cell alone. Times are wall clock from the scene in memory to finished pixels
 //          without audit, each round one of the default cell, one of this cell and one of it in literal execution, in
-//          turn; literal execution once, related to every round's default, if that takes over 2 s. A time is kept as its ratio to the default's of the same
-//          round.
+//          turn; literal execution once, related to every round's default, if that takes over 2 s. A time is kept as its
+//          ratio to the default's of the same round. A cell has five rounds, and up to 25 while they last under 2 s in all:
+//          another process takes turns of milliseconds, which a long run has many of and a short one now and then.
 // Tests    tests/tools/cost_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -44,7 +45,16 @@ struct CostTimes {
 };
 
 [[nodiscard]] CostResult run_cell(const CostScene& scene, const CostCell& cell);
+// `rounds`: exactly so many; 0: as many as the rule says.
 [[nodiscard]] CostTimes time_cell(const CostScene& scene, const CostCell& cell, int rounds);
+
+// Whether a cell that was timed in `done` rounds, `seconds` in all, is timed in another one.
+[[nodiscard]] constexpr bool wants_round(int done, double seconds, int rounds) noexcept {
+    constexpr int least = 5, most = 25;
+    constexpr double enough = 2;
+    if (rounds > 0) return done < rounds;
+    return done < least || (done < most && seconds < enough);
+}
 
 // Renders the truth and the default cell of a scene whose session and base are there.
 void complete(CostScene& scene);
