@@ -9,15 +9,17 @@ models=${1:-../shared/models} out=${OUT:-build/cost}
 strata=${STRATA:-build/release/strata}
 TIMEFORMAT='a shard: %U s of processor time, %R s on the clock'
 
-# A folder's name, a scene and its options. A shard has a thread: two on two cores are in nobody's way.
+# A folder's name, a scene and its options. A shard has a thread, and its times are the processor's: two shards, and whatever else
+# runs, are in nobody's way.
 sweep() {
   local folder=$out/$1
   shift
-  time "$strata" cost "$@" --alpha 0.5 --threads 1 -o "$folder" --shard 1/2 &
+  local words=("$@" --alpha 0.5 --threads 1 --clock processor -o "$folder")
+  time "$strata" cost "${words[@]}" --shard 1/2 &
   local first=$!
-  time "$strata" cost "$@" --alpha 0.5 --threads 1 -o "$folder" --shard 2/2
+  time "$strata" cost "${words[@]}" --shard 2/2
   wait "$first"
-  "$strata" cost "$@" --alpha 0.5 --threads 1 -o "$folder" --merge 2 >"$folder/report.txt"
+  "$strata" cost "${words[@]}" --merge 2 >"$folder/report.txt"
 }
 
 # Seen from 30 degrees, the usual place, the dragon's file happens to list its triangles from back to front: order would cost nothing.

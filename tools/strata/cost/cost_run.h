@@ -1,7 +1,7 @@
 // tools/strata/cost/cost_run.h - measures one cell of `strata cost`: its error from the truth, its counted work, its times.
 //
-// Rule     Errors and counts depend on the cell alone. Times are wall clock from the scene in memory to finished pixels
-//          without audit, each round one of the default cell, one of this cell and one of it in literal execution, in
+// Rule     Errors and counts depend on the cell alone. Times are those of a clock from the scene in memory to finished
+//          pixels without audit, each round one of the default cell, one of this cell and one of it in literal execution, in
 //          turn; literal execution once, related to every round's default, if that takes over 2 s. A time is kept as its
 //          ratio to the default's of the same round. A cell has five rounds, and up to 25 while they last under 2 s in all:
 //          another process takes turns of milliseconds, which a long run has many of and a short one now and then.
@@ -44,9 +44,17 @@ struct CostTimes {
     std::vector<double> seconds, ratios, literal;
 };
 
+// What a time is: as a user waits; or what all threads took of the processor, which other processes hardly change.
+enum class CostClock : std::uint8_t { wall, processor };
+[[nodiscard]] double seconds_on(CostClock clock);  // since some moment
+
+struct CostTiming {
+    int rounds = 0;  // exactly so many; 0: as many as the rule says
+    CostClock clock = CostClock::wall;
+};
+
 [[nodiscard]] CostResult run_cell(const CostScene& scene, const CostCell& cell);
-// `rounds`: exactly so many; 0: as many as the rule says.
-[[nodiscard]] CostTimes time_cell(const CostScene& scene, const CostCell& cell, int rounds);
+[[nodiscard]] CostTimes time_cell(const CostScene& scene, const CostCell& cell, const CostTiming& timing);
 
 // Whether a cell that was timed in `done` rounds, `seconds` in all, is timed in another one.
 [[nodiscard]] constexpr bool wants_round(int done, double seconds, int rounds) noexcept {
