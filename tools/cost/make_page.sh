@@ -23,8 +23,8 @@ sweep() {
 }
 
 # Seen from 30 degrees, the usual place, the dragon's file happens to list its triangles from back to front: order would cost nothing.
-sweep dragon "$models/dragon.glb" --orbit 120,20
-sweep sponza "$models/sponza.glb"
+sweep dragon "$models/dragon.glb" --orbit 120,20 --repeat 5
+sweep sponza "$models/sponza.glb" --repeat 5
 for run in once again; do sweep "$run" teapot --size 128x128; done
 rm -f tools/cost/RESULTS.*.svg
 tools/cost/page.py "$out/dragon" "$out/sponza" --twice "$out/once" "$out/again" -o tools/cost/RESULTS.md
