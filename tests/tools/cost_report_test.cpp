@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/random_numbers.h"
+#include "tools/strata/cost/cost_run.h"
 
 using namespace strata::tools;
 
@@ -96,6 +97,19 @@ TEST_CASE("times are told as ratios to the cheapest cell of their column, and a 
     CHECK(rows[0].modelled == 2);
     CHECK(rows[1].modelled == 1);
     CHECK_FALSE(rows[0].literal);
+}
+
+TEST_CASE("a cell has five rounds, up to 25 while they last under 2 s, and exactly those that are asked for") {
+    const auto rounds_of = [](double seconds_a_round, int asked) {
+        int done = 0;
+        while (wants_round(done, seconds_a_round * done, asked)) ++done;
+        return done;
+    };
+    CHECK(rounds_of(0.001, 0) == 25);
+    CHECK(rounds_of(0.25, 0) == 8);
+    CHECK(rounds_of(0.5, 0) == 5);
+    CHECK(rounds_of(60, 0) == 5);
+    for (const int asked : {1, 3, 40}) CHECK(rounds_of(60, asked) == asked);
 }
 
 TEST_CASE("the oracle has no time on a card, and makes nobody else's ratio") {

@@ -7,6 +7,7 @@
 #include "peeling/registry.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/rules/hypotheses.h"
+#include "tests/tools/program.h"
 
 namespace {
 
@@ -80,6 +81,45 @@ TEST_CASE("a cell is seen as its scene's own view has it, unless an orbit is nam
     CHECK_NOTHROW(cells.check(cell));
     CHECK_FALSE(cells.view(cell).is_own);
     CHECK(cells.view(cell).far > 0);
+}
+
+TEST_CASE("a pack's own view is turned from the pack's clip space and depth order to those that cells are drawn in") {
+    using strata::test::run_strata;
+    const strata::test::Folder folder;
+    const auto pack = [&](const std::string& name, const std::vector<std::string>& convention) {
+        std::vector<std::string> words{"golden",      "planes:count=2,cells=1",
+                                       "--size",      "16x16",
+                                       "--algorithm", "front_to_back",
+                                       "--depth",     "d32f",
+                                       "--profile",   "ideal",
+                                       "-o",          name};
+        words.insert(words.end(), convention.begin(), convention.end());
+        REQUIRE(run_strata(folder, words).status == 0);
+        return folder / name;
+    };
+    const std::vector<std::vector<std::string>> conventions{
+        {},
+        {"--clip-depth", "zero-to-one"},
+        {"--depth-order", "greater"},
+        {"--clip-depth", "zero-to-one", "--depth-order", "greater"}};
+    std::vector<CellView> views;
+    std::vector<std::uint64_t> layers;
+    for (const auto& convention : conventions) {
+        CellRunner cells = runner();
+        Cell cell = small_cell();
+        cell.height = cell.width;
+        cell.scene = pack("pack" + std::to_string(views.size()), convention);
+        views.push_back(cells.view(cell));
+        layers.push_back(cells.run(cell).measured.errors.layers);
+    }
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        INFO(i);
+        CHECK(views[i].is_own);
+        CHECK(planes_of(views[i]).first == Approx(planes_of(views[0]).first).epsilon(1e-5));
+        CHECK(planes_of(views[i]).second == Approx(planes_of(views[0]).second).epsilon(1e-4));
+        CHECK(layers[i] == layers[0]);
+    }
+    CHECK(layers[0] > 0);
 }
 
 TEST_CASE("a cell's grid of positions is the profile's unless it names one") {

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Makes the page of `strata cost` from the folders that it wrote, with the pictures of the frontiers beside it.
 
-usage: page.py FOLDER... -o RESULTS.md
+usage: page.py FOLDER... [--twice FOLDER FOLDER] -o RESULTS.md
 
-Figures are those of cost.csv and results.csv; the page computes nothing.
+Figures are those of cost.csv, results.csv and timings.jsonl; the page counts and computes nothing else. The two folders of --twice are
+runs of one command.
 """
 import argparse
 import csv
@@ -12,12 +13,15 @@ import os
 import re
 import shutil
 
+import same
+
 HEAD = """# What accuracy costs
 
 Made by `tools/cost/make_page.sh`; [reports.md](../../scenes/reference/reports.md) 10 says what is measured and how. Errors are those from
 the truth of the scene (nothing snapped, nothing stored), in 1/255. Times are ratios to the cheapest cell of their column; the spread is
 that of the rounds, so on a machine that does other things it is wide.
 """
+COLUMN_NAMES = {"default": "by default", "literal": "literally", "modelled": "on the card"}
 
 
 def rows_of(path):
@@ -50,14 +54,48 @@ def chain(rows):
                  [[name, rounded(error), rounded(alone.get(name, links["machine"]))] for name, error in links.items()])
 
 
+def frontier_names(folder, picture):
+    with open(os.path.join(folder, picture), encoding="utf-8") as file:
+        return re.findall(r'text-anchor="start">\d+ ([^<]+)</text>', file.read())
+
+
+def pictures_of(folder):
+    return sorted(os.path.basename(name) for name in glob.glob(os.path.join(folder, "frontier.*.svg")))
+
+
 def frontier(folder, picture, rows):
     """The names on the picture's frontier, with their rows' figures."""
-    with open(os.path.join(folder, picture), encoding="utf-8") as file:
-        names = re.findall(r'text-anchor="start">\d+ ([^<]+)</text>', file.read())
+    names = frontier_names(folder, picture)
     of_name = {f"{row['knob']} {row['value']}": row for row in rows}
     return table(["on the frontier", "RMSE", "default", "literal", "card"],
                  [[name, rounded(row["rmse"]), spread(row, "default"), spread(row, "literal"), rounded(row["modelled"])]
                   for name, row in ((name, of_name[name]) for name in names)])
+
+
+def distinct_points(folder, picture, rows):
+    """Points of the frontier whose error or time is another than that of the point before."""
+    column = picture.split(".")[-2]
+    of_name = {f"{row['knob']} {row['value']}": row for row in rows}
+    return len({(of_name[name]["rmse"], of_name[name][column]) for name in frontier_names(folder, picture)})
+
+
+def asked_and_found(folders, twice):
+    asked = []
+    for folder in folders:
+        rows = rows_of(os.path.join(folder, "cost.csv"))
+        counts = [f"{distinct_points(folder, picture, rows)} {COLUMN_NAMES[picture.split('.')[-2]]}" for picture in pictures_of(folder)]
+        asked.append([f"{rows[0]['scene']}: a frontier of at least six distinct points", ", ".join(counts)])
+        last = next(row["rmse"] for row in rows if row["knob"] == "chain" and row["value"] == "store")
+        asked.append([f"{rows[0]['scene']}: the link made exact last leaves 0", f"RMSE {rounded(last)}"])
+    asked.append(["every sentence agrees with its row", "`tools_test \"every sentence agrees*\"` parses each and compares it"])
+    if twice:
+        alike = "the same bytes" if same.is_alike(twice) else "they differ"
+        asked.append(["the command twice: errors and counts are the same", alike])
+        for column in same.COLUMNS:
+            timed, apart = same.compared(twice, column)
+            asked.append([f"the command twice: 95 % of the times agree within the larger spread, {COLUMN_NAMES[column]}",
+                          f"{len(timed) - len(apart)} of {len(timed)}"])
+    return table(["asked", "found"], asked)
 
 
 def section(folder, page):
@@ -68,7 +106,7 @@ def section(folder, page):
     yield f"{len(rows)} cells, {sum(row['outcome'] == 'refused' for row in rows)} refused."
     yield ""
     yield from chain(rows)
-    for picture in sorted(os.path.basename(name) for name in glob.glob(os.path.join(folder, "frontier.*.svg"))):
+    for picture in pictures_of(folder):
         beside = f"RESULTS.{picture}"
         shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))
         yield f"![{picture}]({beside})"
@@ -84,9 +122,13 @@ def section(folder, page):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+")
+    parser.add_argument("--twice", nargs=2)
     parser.add_argument("-o", dest="page", required=True)
     words = parser.parse_args()
-    text = HEAD + "\n" + "\n".join(line for folder in words.folders for line in section(folder, words.page))
+    lines = [HEAD, *asked_and_found(words.folders, words.twice)]
+    for folder in words.folders:
+        lines.extend(section(folder, words.page))
+    text = "\n".join(lines)
     with open(words.page, "w", encoding="utf-8") as file:
         file.write(text.rstrip("\n") + "\n")
 

@@ -4,11 +4,15 @@
 usage: same.py FOLDER FOLDER
 
 A time is a cell's median ratio to the default cell, by default and literally, as timings.jsonl has them. Two times agree if they differ
-by no more than the larger of the two spreads (greatest less least round). Exit status 1: bytes differ, or fewer than 95 % agree.
+by no more than the larger of the two spreads (greatest less least round). Exit status 1: bytes differ, or fewer than 95 % agree; 2: a
+folder is no finished run.
 """
 import json
 import os
 import sys
+
+ENOUGH = 0.95
+COLUMNS = ("default", "literal")
 
 
 def lines_of(folder, name):
@@ -26,33 +30,52 @@ def timings_of(folder):
     return {line["cell"]: line for line in lines_of(folder, "timings.jsonl")}
 
 
+def is_alike(folders):
+    return all(len({bytes_of(folder, name) for folder in folders}) == 1 for name in ("results.jsonl", "results.csv"))
+
+
 def agree(first, second):
     spread = max(time["greatest"] - time["least"] for time in (first, second))
     return abs(first["median"] - second["median"]) <= spread
+
+
+def compared(folders, column):
+    """The cells that both runs timed, and those of them whose times are apart."""
+    first, second = (timings_of(folder) for folder in folders)
+    timed = [cell for cell in sorted(first) if cell in second and first[cell][column] and second[cell][column]]
+    apart = [cell for cell in timed if not agree(first[cell][column], second[cell][column])]
+    return timed, apart
+
+
+def print_column(folders, column):
+    """Prints what agrees and what is apart; whether enough agrees."""
+    timed, apart = compared(folders, column)
+    if not timed:
+        print(f"{column} times: no cell has one in both runs")
+        return False
+    share = 1 - len(apart) / len(timed)
+    print(f"{column} times: {len(timed) - len(apart)} of {len(timed)} cells agree, {100 * share:.1f} %")
+    cells = {line["cell"]: line for line in lines_of(folders[0], "results.jsonl")}
+    for cell in apart:
+        times = [timings_of(folder)[cell][column] for folder in folders]
+        told = " and ".join(f"{t['median']:.3f} ({t['least']:.3f} to {t['greatest']:.3f})" for t in times)
+        print(f"  {cells[cell]['scene']}: {cells[cell]['knob']} {cells[cell]['value']}: {told}")
+    return share >= ENOUGH
 
 
 def main():
     if len(sys.argv) != 3 or sys.argv[1].startswith("-"):
         sys.exit(__doc__.strip())
     folders = sys.argv[1:]
-    alike = all(len({bytes_of(folder, name) for folder in folders}) == 1 for name in ("results.jsonl", "results.csv"))
+    for path in (os.path.join(folder, name) for folder in folders for name in ("results.jsonl", "results.csv", "timings.jsonl")):
+        if not os.path.exists(path):
+            print(f"same.py: {path}: expected a file of a finished run of strata cost, found none", file=sys.stderr)
+            sys.exit(2)
+    alike = is_alike(folders)
     print("errors and counts: " + ("the same bytes" if alike else "they differ"))
     if not alike:
         sys.exit(1)
-    cells = {line["cell"]: line for line in lines_of(folders[0], "results.jsonl")}
-    first, second = (timings_of(folder) for folder in folders)
-    enough = True
-    for column in ("default", "literal"):
-        timed = [cell for cell in cells if first[cell][column] and second[cell][column]]
-        apart = [cell for cell in timed if not agree(first[cell][column], second[cell][column])]
-        share = 1 - len(apart) / len(timed)
-        enough = enough and share >= 0.95
-        print(f"{column} times: {len(timed) - len(apart)} of {len(timed)} cells agree, {100 * share:.1f} %")
-        for cell in apart:
-            times = [timings[cell][column] for timings in (first, second)]
-            told = " and ".join(f"{t['median']:.3f} ({t['least']:.3f} to {t['greatest']:.3f})" for t in times)
-            print(f"  {cells[cell]['scene']}: {cells[cell]['knob']} {cells[cell]['value']}: {told}")
-    sys.exit(0 if enough else 1)
+    sys.exit(0 if all([print_column(folders, column) for column in COLUMNS]) else 1)
 
 
 if __name__ == "__main__":

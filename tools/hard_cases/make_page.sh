@@ -6,12 +6,18 @@ cd "$(dirname "$0")/../.."
 trap 'echo "tools/hard_cases/make_page.sh: failed at line $LINENO: $BASH_COMMAND" >&2' ERR
 
 strata=${STRATA:-build/release/strata} out=${OUT:-build/hard_cases}
+mkdir -p "$out"
 mapfile -t names < <("$strata" hard-cases --list | awk 'NR > 1 {print $1}' | grep -vx frame-8192x8192)
-TIMEFORMAT='a shard: %U s of processor time, %R s on the clock'
-time "$strata" hard-cases "${names[@]}" -o "$out" --shard 1/2 &
+
+# Notes the processor time, so that a run in several goes has the sum.
+shard() {
+  TIMEFORMAT=%U
+  { time "$strata" hard-cases "${names[@]}" -o "$out" --shard "$1" 2>&3; } 3>&2 2>>"$out/processor_seconds"
+}
+shard 1/2 &
 first=$!
-time "$strata" hard-cases "${names[@]}" -o "$out" --shard 2/2
+shard 2/2
 wait "$first"
 "$strata" hard-cases "${names[@]}" -o "$out" --merge 2
-cp "$out/RESULTS.md" tools/hard_cases/
+tools/hard_cases/page.py "$out" -o tools/hard_cases/RESULTS.md
 cp "$out"/pictures/*.png tools/hard_cases/pictures/

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "peeling/registry.h"
+#include "rasterizer/base/simd.h"
 #include "tests/tools/hard_cases/broken_peel.h"
 
 namespace {
@@ -98,4 +99,24 @@ TEST_CASE("no algorithm fails on a choice of hard cases on any of four devices")
         }
     CHECK(first == "");
     CHECK(rows > 350);
+}
+
+TEST_CASE("a deep case names the ways that it is too deep for, by algorithm; every other case runs in every way") {
+    std::vector<const peeling::Algorithm*> all;
+    for (const peeling::Algorithm& algorithm : peeling::algorithms()) all.push_back(&algorithm);
+    const auto left = tools::left_out(*scenes::find_hard_case("layer-ladder"), all);
+    REQUIRE(left.size() == 2);
+    CHECK(left[0].ways == std::vector<std::string>{"literal", "effects=all"});
+    // All that draw the geometry a layer or eight at a time and have no formula for the layers together.
+    CHECK(left[0].algorithms == std::vector<std::string>{"depth_units", "shadow_map", "shadow_map_depth_replace",
+                                                         "dual_independent", "layer_peel", "hybrid", "coherent_stencil",
+                                                         "coherent_blend", "coherent_ideal", "stencil_routed_k_buffer",
+                                                         "batched", "object_sorted"});
+    CHECK(left[1].ways.front() == "threads=2");
+    CHECK(left[1].ways.size() == 1 + available_simd().size());
+    CHECK(left[1].algorithms == std::vector<std::string>{"batched", "object_sorted"});
+    std::vector<std::string> limited;
+    for (const scenes::HardCase& hard : scenes::hard_cases())
+        if (!tools::left_out(hard, all).empty()) limited.emplace_back(hard.name);
+    CHECK(limited == std::vector<std::string>{"million-in-a-pixel", "layer-ladder", "counts-past-2048"});
 }

@@ -56,6 +56,10 @@ TEST_CASE("lines of another sweep are refused, and so is a shard that is not who
     other.algorithms = {peeling::find_algorithm("painter")};
     CHECK_THROWS_AS(run_sweep(hard_work(other), folder.path, {}), InputError);
     CHECK_THROWS_WITH(merge_shards(hard_work(sweep), folder.path, 2), Catch::Contains("one a cell of the shard"));
+    const std::string nowhere = folder / "nowhere";
+    CHECK_THROWS_WITH(merge_shards(hard_work(sweep), nowhere, 2),
+                      nowhere + ": folder: expected the results of 2 shards, found no such folder");
+    CHECK_FALSE(std::filesystem::exists(nowhere));
 }
 
 TEST_CASE("a sweep of hard cases in which every combination is refused has exit status 2") {

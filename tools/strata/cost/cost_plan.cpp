@@ -98,10 +98,12 @@ void peel_cells(const CostBase& base, Cells& cells) {
     for (const char* name : {"front_to_back", "dual"}) {
         const peeling::Algorithm& algorithm = *peeling::find_algorithm(name);
         for (const int passes : peel_steps(algorithm.geometry_passes(base.layers)))
-            add(cells, base, "peels", fmt::format("{} {}", name, passes), [&](CostCell& cell) {
-                cell.algorithm = &algorithm;
-                cell.options.termination = {.rule = pipeline::TerminationRule::fixed, .passes = passes};
-            });
+            for (const auto& format : color_formats)
+                add(cells, base, "peels", fmt::format("{} {} {}", name, passes, format.name), [&](CostCell& cell) {
+                    cell.algorithm = &algorithm;
+                    cell.options.termination = {.rule = pipeline::TerminationRule::fixed, .passes = passes};
+                    set_color_format(cell, format.value);
+                });
     }
 }
 

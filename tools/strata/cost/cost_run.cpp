@@ -1,6 +1,7 @@
 #include "tools/strata/cost/cost_run.h"
 
 #include <chrono>
+#include <ctime>
 
 #include "peeling/render.h"
 #include "peeling/truth/truth.h"
@@ -35,14 +36,15 @@ using peeling::RenderResult;
 }
 
 // Set-up and passes; scene, truth and audit (unless it is what is timed) stand outside.
-[[nodiscard]] double seconds_of(const Session& session, const CostCell& cell, pipeline::Execution execution) {
+[[nodiscard]] double seconds_of(const Session& session, const CostCell& cell, pipeline::Execution execution,
+                                CostClock clock) {
     peeling::RenderOptions options = cell.options;
     options.execution = execution;
     options.nearest_depth = false;
     options.audit = cell.is_timed_with_audit;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = seconds_on(clock);
     static_cast<void>(rendered(session, cell, options));
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return seconds_on(clock) - start;
 }
 
 }  // namespace
@@ -85,20 +87,31 @@ CostResult run_cell(const CostScene& scene, const CostCell& cell) {
     return found;
 }
 
-CostTimes time_cell(const CostScene& scene, const CostCell& cell, int rounds) {
+double seconds_on(CostClock clock) {
+    if (clock == CostClock::processor) return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+CostTimes time_cell(const CostScene& scene, const CostCell& cell, const CostTiming& timing) {
     CostTimes times;
     const CostCell reference = default_cell(scene.base);
-    const auto reference_seconds = [&] { return seconds_of(scene.session, reference, reference.options.execution); };
+    const auto seconds = [&](const CostCell& timed, pipeline::Execution execution) {
+        return seconds_of(scene.session, timed, execution, timing.clock);
+    };
+    const auto literal_seconds = [&] { return seconds(cell, pipeline::Execution::literal); };
+    const auto reference_seconds = [&] { return seconds(reference, reference.options.execution); };
     constexpr double long_run = 2;
     // Runs before the first round warm up, and say whether literal execution is worth a run in each.
     static_cast<void>(reference_seconds());
-    static_cast<void>(seconds_of(scene.session, cell, cell.options.execution));
-    const double first_literal = seconds_of(scene.session, cell, pipeline::Execution::literal);
-    for (int round = 0; round < rounds; ++round) {
+    static_cast<void>(seconds(cell, cell.options.execution));
+    const double first_literal = literal_seconds();
+    const bool is_long = first_literal > long_run;
+    double all = 0;
+    for (int round = 0; wants_round(round, all, timing.rounds); ++round) {
         const double with = reference_seconds();
-        const double taken = seconds_of(scene.session, cell, cell.options.execution);
-        const bool is_long = first_literal > long_run;
-        const double literal = is_long ? first_literal : seconds_of(scene.session, cell, pipeline::Execution::literal);
+        const double taken = seconds(cell, cell.options.execution);
+        const double literal = is_long ? first_literal : literal_seconds();
+        all += with + taken + (is_long ? 0 : literal);
         times.seconds.push_back(taken);
         times.ratios.push_back(taken / with);
         times.literal.push_back(literal / with);

@@ -109,6 +109,19 @@ std::uint64_t nan_values(const Image& image) {
     return found;
 }
 
+// Whether the algorithm runs in that way, too.
+bool is_run(const scenes::HardCase& hard, const scenes::Scene& scene, const std::string& way,
+            const peeling::Algorithm& algorithm) {
+    constexpr std::size_t many = std::size_t{1} << 20;
+    const std::size_t triangles = scene.list.meshes[0].indices.size() / 3;
+    const int layers = hard.counts.layers;
+    const int passes = algorithm.geometry_passes == nullptr ? layers : algorithm.geometry_passes(layers);
+    if (passes == 1 || triangles * static_cast<std::size_t>(passes) <= many) return true;
+    if (algorithm.whole_frame || algorithm.runs_loops) return false;
+    const bool rasterizes_every_pass = way == "literal" || way == "effects=all";
+    return !rasterizes_every_pass || algorithm.closed_form != nullptr;
+}
+
 bool is_alike(const peeling::RenderResult& a, const peeling::RenderResult& b) {
     return a.frame.color == b.frame.color && a.frame.depth == b.frame.depth && a.audit == b.audit &&
            a.frame.diagnostics == b.frame.diagnostics && a.frame.passes.geometry == b.frame.passes.geometry;
@@ -205,20 +218,11 @@ HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& prof
 
 HardMachine::~HardMachine() = default;
 
-bool HardMachine::is_run(const Way& way, const peeling::Algorithm& algorithm) const {
-    constexpr std::size_t many = std::size_t{1} << 20;
-    const std::size_t triangles = scene_.list.meshes[0].indices.size() / 3;
-    if (triangles * static_cast<std::size_t>(hard_.counts.layers) <= many) return true;
-    if (algorithm.whole_frame || algorithm.runs_loops) return false;
-    const bool rasterizes_every_pass = way.name == "literal" || way.name == "effects=all";
-    return !rasterizes_every_pass || algorithm.closed_form != nullptr;
-}
-
 std::vector<std::string> HardMachine::unlike_ways(const peeling::Algorithm& algorithm,
                                                   const peeling::RenderResult& first) {
     std::vector<std::string> unlike;
     for (std::size_t i = 1; i < ways_.size(); ++i)
-        if (is_run(ways_[i], algorithm) && !is_alike(first, ways_[i].renderer->render(algorithm)))
+        if (is_run(hard_, scene_, ways_[i].name, algorithm) && !is_alike(first, ways_[i].renderer->render(algorithm)))
             unlike.push_back(ways_[i].name);
     return unlike;
 }
@@ -241,6 +245,26 @@ std::string reason_to_leave_out(const scenes::HardCase& hard, const peeling::Alg
 }
 
 }  // namespace
+
+std::vector<LeftOut> left_out(const scenes::HardCase& hard, const std::vector<const peeling::Algorithm*>& algorithms) {
+    const scenes::Scene scene = make_hard_case({}, hard);
+    std::vector<LeftOut> all;
+    const auto ways = ways_of(hard, hard_options(hard, {}));
+    for (std::size_t i = 1; i < ways.size(); ++i) {
+        LeftOut one{.ways = {ways[i].first}, .algorithms = {}};
+        for (const peeling::Algorithm* algorithm : algorithms)
+            if (reason_to_leave_out(hard, *algorithm).empty() && !is_run(hard, scene, one.ways[0], *algorithm))
+                one.algorithms.push_back(algorithm->name);
+        if (one.algorithms.empty()) continue;
+        const auto like = std::find_if(all.begin(), all.end(),
+                                       [&](const LeftOut& other) { return other.algorithms == one.algorithms; });
+        if (like == all.end())
+            all.push_back(std::move(one));
+        else
+            like->ways.push_back(one.ways[0]);
+    }
+    return all;
+}
 
 HardRow HardMachine::run(const peeling::Algorithm& algorithm) {
     if (const std::string reason = reason_to_leave_out(hard_, algorithm); !reason.empty()) return refused(reason);

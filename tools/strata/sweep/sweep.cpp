@@ -93,6 +93,8 @@ int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
 
 // Lines go to the places of their cells, so the merged files are those of a sweep in one shard.
 int merge_shards(const Work& work, const std::string& folder, std::size_t shards) {
+    if (!std::filesystem::is_directory(folder))
+        throw InputError(folder, "folder", fmt::format("the results of {} shards", shards), "no such folder");
     const Lock lock(shard_file(folder, "results", {}));
     Lines results(work.cells);
     std::string timings;
@@ -128,7 +130,7 @@ void dry_run(const Work& work, const Shard& shard) {
         total += measured[like];
         print(json_text(work.description(cell)) + '\n');
     }
-    print(fmt::format("{} cells, about {:.0f} s on this machine\n", mine.size(), total));
+    print(fmt::format("{} cell{}, about {:.0f} s on this machine\n", mine.size(), mine.size() == 1 ? "" : "s", total));
 }
 
 }  // namespace strata::tools
