@@ -76,7 +76,8 @@ PrepareOptions PreparedLists::prepare_options(Selection selection) const {
                            .alpha_scale = s_.options.alpha.value_or(1.0f),
                            .depth_quotient = takes_quotient(s_.depth),
                            .tile_size = 0,
-                           .threads = s_.options.threads};
+                           .threads = s_.options.threads,
+                           .alteration = s_.options.vertex_alteration};
     if (s_.light == nullptr) return options;
     options.units = shadow_units(*s_.list.light, s_.view.view, s_.light->state, s_.profile);
     options.receives_shadow = true;

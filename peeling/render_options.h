@@ -15,6 +15,10 @@
 #include "rasterizer/base/simd.h"
 #include "rasterizer/rules/raster_state.h"
 
+namespace strata::pipeline {
+struct VertexAlteration;  // pipeline/vertices/prepare.h
+}
+
 namespace strata::peeling {
 
 struct Algorithm;
@@ -66,6 +70,7 @@ struct RenderOptions {
     std::array<int, 2> window_origin{0, 0};
     // Conventions; the viewport is set from width, height and window_origin.
     rasterizer::RasterState raster{};
+    const pipeline::VertexAlteration* vertex_alteration = nullptr;  // outlives the renderer; null: none
 };
 
 // The side of the tiles of `algorithm`'s frame, in pixels: what was asked for, or else 64; 128 where one pass is all and the frame has many

@@ -34,6 +34,8 @@ struct Alteration {
     std::function<void(Region& region, PassState& state, PassKind kind)> pass{};
     // Stands in for the program, and calls `run` where the program itself shall run.
     std::function<void(const ProgramCall& call, const std::function<void()>& run)> program{};
+    // A pass has ended, and `passed` fragments got through its tests.
+    std::function<void(PassKind kind, std::uint64_t passed)> drawn{};
     // The answer to a query that asks about `count`.
     std::function<bool(std::uint64_t count, bool goes_on)> query{};
 };

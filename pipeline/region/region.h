@@ -167,6 +167,7 @@ class Region {
         return books_.counts ? instruments_.alteration : nullptr;
     }
     [[nodiscard]] PassState altered(const PassState& state, PassKind kind);
+    void tell_alteration(PassKind kind, const Drawn& drawn) const;
     template <FragmentProgram P>
     Drawn draw_list(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>

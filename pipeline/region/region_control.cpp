@@ -25,6 +25,10 @@ PassState Region::altered(const PassState& state, PassKind kind) {
     return changed;
 }
 
+void Region::tell_alteration(PassKind kind, const Drawn& drawn) const {
+    if (const Alteration* a = alteration(); a != nullptr && a->drawn) a->drawn(kind, drawn.passed.own_);
+}
+
 // A tile that counts nothing and has promised to be idle stops on its own word. With Idle::when_zero it first goes through one
 // more iteration, the probe, because literal execution would: its counters are those of every iteration that the frame still runs.
 bool Region::any(Count count, Idle idle) {

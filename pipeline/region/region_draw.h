@@ -31,6 +31,7 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
         finish(state, batch, out, drawn);
     };
     for_each_batch(list, state, rasterizer::BatchSink{sink});
+    tell_alteration(PassKind::geometry, drawn);
     show({.step = Step::geometry, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
     return drawn;
 }
@@ -81,6 +82,7 @@ Drawn Region::draw_screen(const PassState& state, P& program) {
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     }
+    tell_alteration(PassKind::full_screen, drawn);
     show({.step = Step::full_screen, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
     return drawn;
 }

@@ -157,6 +157,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     // Before the transform, whose quotient rows read the state.
     check(state);
     rasterizer::TriangleSoup soup = transform(list, view, options);
+    if (options.alteration != nullptr && options.alteration->vertices) options.alteration->vertices(soup);
     SubmissionOrder order;
     if (options.order) order = options.order(soup);
     soup.order = std::move(order.triangles);
@@ -167,6 +168,7 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     rasterizer::RasterState scaled = state;
     scaled.w_scale = w_scale_of(view, state);
     prepared.geometry = rasterizer::set_up(std::move(soup), scaled, rules, options.threads);
+    if (options.alteration != nullptr && options.alteration->corners) options.alteration->corners(prepared.geometry);
     if (options.tile_size != 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;
     for (const PrimitiveRange& part : order.parts) prepared.parts.push_back(part_of(prepared.geometry, part));

@@ -73,6 +73,13 @@ struct SubmissionOrder {
 };
 using Ordering = std::function<SubmissionOrder(const rasterizer::TriangleSoup&)>;
 
+// What vertices suffer beside the rules: a deliberate mistake, for a caller that wants to know what it looks like. Empty
+// functions change nothing.
+struct VertexAlteration {
+    std::function<void(rasterizer::TriangleSoup&)> vertices{};  // in clip space, before they are cut and projected
+    std::function<void(rasterizer::Geometry&)> corners{};       // in the window, set up
+};
+
 // Options that decide a frame's vertices beside the list. The defaults
 // draw all of it as listed, binned into tiles of 32 pixels.
 struct PrepareOptions {
@@ -91,6 +98,8 @@ struct PrepareOptions {
     CoordinateUnits units{};
     // Every colour is multiplied by the comparison of shadow_stage.h.
     bool receives_shadow = false;
+    // Null: none.
+    const VertexAlteration* alteration = nullptr;
 };
 
 // Whether w differs with the distance from the eye: what a w buffer needs.

@@ -69,8 +69,16 @@ TEST_CASE("a folder's heat maps and comparisons side by side are drawn of each a
                                 "--heat", "alone.png"})
                 .status == 1);
     CHECK(content_of(folder / "alone.png").size() > 0);
-    CHECK(run_strata(folder, {"compare", "pack", "other", "--junit", "x.xml"}).err ==
-          "strata: --junit: expected a picture as the candidate, found a folder; compare its picture.npy alone\n");
+    REQUIRE(run_strata(folder, {"compare", "pack", "other", "--junit", "cases.xml"}).status == 1);
+    const std::string cases = content_of(folder / "cases.xml");
+    for (const char* part :
+         {"tests=\"6\" failures=\"6\"", "classname=\"strata.compare.dual\" name=\"layers\"",
+          "classname=\"strata.compare.front_to_back\" name=\"passes\"", "<failure message=\"pass 0, a geometry pass"}) {
+        INFO(part);
+        CHECK(cases.find(part) != std::string::npos);
+    }
+    REQUIRE(run_strata(folder, {"compare", "pack", "pack", "--junit", "right.xml"}).status == 0);
+    CHECK(content_of(folder / "right.xml").find("failures=\"0\"") != std::string::npos);
 }
 
 TEST_CASE("deep files are compared by their layers") {

@@ -41,6 +41,31 @@ TEST_CASE("diagnose takes a pack for the scene with its state, and a folder for 
           "strata: pack/scene: files: expected a picture of weighted_sum, weighted_sum/picture.npy, found none\n");
 }
 
+TEST_CASE("diagnose takes a folder of packs, and says who made the pictures of all of them") {
+    const Folder folder;
+    REQUIRE(
+        shell(folder,
+              "mkdir set made && "
+              "strata golden showroom --size 24x24 --background 0.2,0.3,0.5 --algorithm weighted_sum -o set/room && "
+              "strata golden planes:count=3 --size 16x16 --algorithm weighted_average -o set/planes && "
+              "strata golden teapot --size 16x16 --algorithm weighted_sum -o set/left_out && "
+              "strata render set/room --algorithm weighted_sum --mistake alpha_squared -o made/room.png && "
+              "strata render set/planes --algorithm weighted_average --mistake alpha_squared -o made/planes.exr")
+            .status == 0);
+    const Ended all = run_strata(folder, {"diagnose", "set", "made"});
+    INFO(all.out << all.err);
+    CHECK(all.status == 1);
+    CHECK(all.out.starts_with("all 2 scenes are those of: alpha multiplied by itself (alpha_squared)\n  planes: "));
+    const nlohmann::json document =
+        nlohmann::json::parse(run_strata(folder, {"diagnose", "set", "made", "--json"}).out);
+    CHECK(document["verdict"] == "one_mistake");
+    CHECK(document["scenes"].size() == 2);
+    CHECK(document["findings"][0]["fits"] == nlohmann::json({true, true}));
+    CHECK(run_strata(folder, {"diagnose", "set", "set/room"}).err ==
+          "strata: set/room: files: expected a picture or a folder with the name of a pack, such as left_out, found "
+          "none\n");
+}
+
 TEST_CASE("reduce leaves a small pack on which the command still fails") {
     const Folder folder;
     REQUIRE(run_strata(folder, {"golden", "showroom", "--size", "32x32", "--algorithm", "front_to_back", "-o", "pack"})

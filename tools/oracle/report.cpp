@@ -107,23 +107,34 @@ std::string to_json(const Comparison& c) {
     return document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 
-std::string to_junit(const Comparison& c) {
-    const auto failures = std::ranges::count_if(c.kinds, [](const KindReport& kind) { return kind.beyond > 0; });
+std::string failure_of(const KindReport& kind) {
+    return fmt::format("{} pixels, first at {},{}{}", kind.beyond, kind.first_x, kind.first_y,
+                       kind.detail.empty() ? "" : "; " + kind.detail);
+}
+
+std::string to_junit(const std::vector<JunitCase>& cases) {
+    const auto failures = std::ranges::count_if(cases, [](const JunitCase& c) { return !c.failure.empty(); });
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-    text += fmt::format("<testsuite name=\"strata compare\" tests=\"{}\" failures=\"{}\">\n", kind_count - 1, failures);
+    text += fmt::format("<testsuite name=\"strata compare\" tests=\"{}\" failures=\"{}\">\n", cases.size(), failures);
+    for (const JunitCase& c : cases) {
+        text += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(c.group), escaped(c.name));
+        if (!c.failure.empty())
+            text += fmt::format(">\n    <failure message=\"{}\"/>\n  </testcase>\n", escaped(c.failure));
+        else
+            text += c.is_skipped ? ">\n    <skipped/>\n  </testcase>\n" : "/>\n";
+    }
+    return text + "</testsuite>\n";
+}
+
+std::string to_junit(const Comparison& c) {
+    std::vector<JunitCase> cases;
     for (std::size_t k = 1; k < kind_count; ++k) {
         const auto kind = static_cast<Kind>(k);
         const auto found = std::ranges::find(c.kinds, kind, &KindReport::kind);
-        text += fmt::format("  <testcase classname=\"strata.compare\" name=\"{}\"", name(kind));
-        if (found == c.kinds.end() || found->beyond == 0) {
-            text += "/>\n";
-            continue;
-        }
-        text += fmt::format(">\n    <failure message=\"{}\"/>\n  </testcase>\n",
-                            escaped(fmt::format("{} pixels, first at {},{}{}", found->beyond, found->first_x,
-                                                found->first_y, found->detail.empty() ? "" : "; " + found->detail)));
+        const bool fails = found != c.kinds.end() && found->beyond > 0;
+        cases.push_back({"strata.compare", std::string{name(kind)}, fails ? failure_of(*found) : ""});
     }
-    return text + "</testsuite>\n";
+    return to_junit(cases);
 }
 
 }  // namespace strata::oracle

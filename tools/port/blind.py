@@ -3,10 +3,10 @@
 
     tools/port/blind.py SEED [--driver llvmpipe]
 
-Drawn are 15 single mistakes that the catalogue has, 5 that it has not, and 5 pairs of such as it has; for each a scene with its size, formats,
-background and opacity. A scene is drawn again while the port's own picture of it does not change: the oracle is not asked for that, and its
-answers change nothing. The diagnosis has the pack and the candidate's files alone. No row is left out or made again. Exit status 1: a
-right port is not named right.
+Drawn are 15 single mistakes that the catalogue has, 5 that it has not, and 5 pairs of such as it has; for each three scenes with their sizes, formats,
+backgrounds and opacities, as a port's author has more than one. A scene is drawn again while the port's own picture of it does not change: the oracle is
+not asked for that, and its answers change nothing. A mistake that 60 scenes do not show three times is listed, and another one is drawn for it. The diagnosis has the packs
+and the candidates' files alone. No row is left out or made again. Exit status 1: a right port is not named right.
 """
 import argparse
 import json
@@ -21,8 +21,9 @@ import mistaken  # noqa: E402
 import packs  # noqa: E402
 
 HERE, ROOT = mistaken.HERE, mistaken.ROOT
-DRAWS = 30  # scenes for one mistake at most
-SINGLE, OUTSIDE, PAIRS = 15, 5, 5
+SCENES = 3
+DRAWS = 60  # scenes for one mistake at most
+WANTED = {"single": 15, "outside": 5, "pair": 5}
 
 
 def scene_of(draw):
@@ -46,17 +47,15 @@ def scene_of(draw):
 
 
 def drawn_cases(draw, known):
-    """(names, algorithm) of each case: the port's own list says which algorithm shows a mistake."""
+    """(kind, names, algorithm) without end, kind by kind, in the order in which they are asked for: the port's own list says which algorithm shows
+    a mistake."""
     algorithm = {name: shows for name, shows, _ in known}
     inside = [name for name, _, _ in known if name in mistaken.NAMES]
     outside = [name for name, _, _ in known if name not in mistaken.NAMES]
-    cases = [("single", (name,)) for name in draw.sample(inside, SINGLE)]
-    cases += [("outside", (name,)) for name in draw.sample(outside, OUTSIDE)]
-    while len(cases) < SINGLE + OUTSIDE + PAIRS:
-        pair = tuple(draw.sample(inside, 2))
-        if algorithm[pair[0]] == algorithm[pair[1]] and ("pair", pair) not in cases and ("pair", pair[::-1]) not in cases:
-            cases.append(("pair", pair))
-    return [(kind, names, algorithm[names[0]]) for kind, names in cases]
+    pairs = [(one, other) for one in inside for other in inside if one < other and algorithm[one] == algorithm[other]]
+    orders = {"single": [(name,) for name in draw.sample(inside, len(inside))],
+              "outside": [(name,) for name in draw.sample(outside, len(outside))], "pair": draw.sample(pairs, len(pairs))}
+    return [(kind, names, algorithm[names[0]]) for kind, all_names in orders.items() for names in all_names]
 
 
 class Bench:
@@ -64,28 +63,39 @@ class Bench:
         self.build, self.folder, self.driver = build, folder, driver
         self.profile, self.number = packs.profile_file(folder, driver), 0
 
-    def pack(self, words, algorithm):
+    def new_set(self):
         self.number += 1
-        return packs.Pack(self.build, self.folder / f"pack{self.number}", words, self.profile, [algorithm])
+        self.set = self.folder / f"set{self.number}"
+        self.set.mkdir()
+
+    def pack(self, words, algorithm):
+        """One more pack of the set."""
+        return packs.Pack(self.build, self.set / f"scene{len(list(self.set.iterdir())) + 1}", words, self.profile, [algorithm])
 
     def candidate(self, pack, names, algorithm, picture_only):
         """A folder with what the port makes; the last one is gone."""
-        folder = self.folder / "candidate"
+        folder = self.folder / "candidates" / pack.folder.name
         shutil.rmtree(folder, ignore_errors=True)
         return pack.candidate(folder, self.driver, ",".join(names), [algorithm], picture_only=picture_only)
 
     def picture(self, pack, names, algorithm):
         return (self.candidate(pack, names, algorithm, True) / algorithm / "picture.npy").read_bytes()
 
-    def diagnose(self, pack, names, algorithm):
-        candidate = self.candidate(pack, names, algorithm, False)
-        words = [self.build / "strata", "diagnose", pack.folder, candidate, "--algorithm", algorithm, "--json", *packs.GIVES_UP]
+    def diagnose(self, found, names, algorithm):
+        """What is said of the whole set."""
+        shutil.rmtree(self.folder / "candidates", ignore_errors=True)
+        for pack in found:
+            candidate = self.candidate(pack, names, algorithm, False)
+        self.made_by = json.loads((candidate / "candidate.json").read_text())["made_by"].removeprefix("strata_port, ")
+        words = [self.build / "strata", "diagnose", self.set, self.folder / "candidates", "--algorithm", algorithm, "--json", *packs.GIVES_UP]
         return json.loads(packs.run(words, allowed=(0, 1)))
 
 
-def find_scene(bench, draw, names, algorithm):
-    """A pack on which the port's picture changes with each of the mistakes, and with both of two as with neither alone; and how many
-    scenes were drawn for it. Or None."""
+def find_scenes(bench, draw, names, algorithm):
+    """Packs on which the port's picture changes with each of the mistakes, and with both of two as with neither alone; their words; and how many
+    scenes were drawn for them."""
+    bench.new_set()
+    found, all_words = [], []
     for tries in range(1, DRAWS + 1):
         words = scene_of(draw)
         try:
@@ -94,44 +104,50 @@ def find_scene(bench, draw, names, algorithm):
             pictures = {bench.picture(pack, way, algorithm) for way in sorted(ways)}
         except packs.Failed:  # the profile or the port does not have this combination
             continue
-        if len(pictures) == len(ways):
-            return pack, words, tries
-        shutil.rmtree(pack.folder)
-    return None
+        if len(pictures) != len(ways):
+            shutil.rmtree(pack.folder)
+            continue
+        found.append(pack)
+        all_words.append(" ".join(words))
+        if len(found) == SCENES:
+            break
+    return found, all_words, tries
 
 
 def judged(kind, names, said):
-    """first: named first. beside: another one that leaves the same output is named first. yes of those that the catalogue has not: none of
-    mine. same output: what is named leaves this output to the last code. ranked first: the right one, but it leaves pixels unexplained."""
+    """first: named first. beside: another one that leaves the same output in all scenes is named first. none of mine: the right answer for those that the catalogue has
+    not. same output: who is named leaves all of this output to the last code."""
     best, unknown = said["findings"][0], said["verdict"] == "none_of_mine"
     if kind == "outside":
-        return "none of mine" if unknown else "same output" if best["explained"] == said["differing"] else "no"
+        return "none of mine" if unknown else "same output"
     known = [mistaken.NAMES[name] for name in names]
     def holds(found):
-        return all(any(answer in found for answer in answers) for answers in known)
-    if holds(best["mistakes"]) and len(best["mistakes"]) == len(names):
+        return len(found) == len(names) and all(any(answer in found for answer in answers) for answers in known)
+    if holds(best["mistakes"]):
         return "ranked first" if unknown else "first"
-    # Others beside the first that leave this picture and agree as far with the passes.
-    beside = [found["mistakes"] for found in said["findings"] if found["agreeing"] == said["pixels"] and found["passes"] == best["passes"]]
-    if not unknown and any(len(found) == len(names) and holds(found) for found in [*([m] for m in best["alike"]), *beside]):
+    # Others beside the first that fit all scenes and agree as far with the passes.
+    beside = [[mistake] for mistake in best["alike"]]
+    beside += [found["mistakes"] for found in said["findings"] if all(found["fits"]) and found["targets_alike"] == best["targets_alike"]]
+    if not unknown and any(map(holds, beside)):
         return "beside"
-    return "no" if unknown or best["explained"] != said["differing"] else "same output"
+    return "no" if unknown else "same output"
 
 
 def page(seed, driver, renderer, rows, right, drawn):
     def count(kind, *answers):
-        return f"{sum(r[0] == kind and r[-1] in answers for r in rows)} of {sum(r[0] == kind for r in rows)}"
+        asked = [r for r in rows if r[0] == kind and r[-1] != "not shown"]
+        return f"{sum(r[-1] in answers for r in asked)} of {len(asked)}"
 
     lines = ["# Mistakes drawn by a seed", "",
-             f"Made by `tools/port/blind.py {seed}` on {renderer}. The seed draws the mistakes and the scenes (the script says how); the oracle has the pack and",
-             "what the port wrote, its passes and layers included. The figure is as it fell: no row was left out or made again, and no scene was chosen by hand.",
-             f"A mistake that none of {DRAWS} scenes shows counts as not answered.", "",
+             f"Made by `tools/port/blind.py {seed}` on {renderer}. The seed draws the mistakes and three scenes for each (the script says how); the oracle has the",
+             "packs and what the port wrote, its passes and layers included. The figure is as it fell: no row was left out or made again, and no scene was",
+             f"chosen by hand. A mistake that {DRAWS} scenes do not show {SCENES} times is listed as not shown, and another one was drawn for it.", "",
              "| | answered rightly | of these named first, or as none of mine | beside another one that leaves the same output | another one is named, which leaves the same output |",
              "|---|---|---|---|---|"]
     for kind, words in (("single", "single mistakes that the catalogue has"), ("outside", "single mistakes that it has not"), ("pair", "pairs")):
         lines.append(f"| {words} | {count(kind, 'first', 'beside', 'none of mine')} | {count(kind, 'first', 'none of mine')} | {count(kind, 'beside')} | {count(kind, 'same output')} |")
-    lines += ["", f"The right port is named right on {right} of these scenes. Scenes drawn: {drawn}.", "",
-              "| kind | mistake | algorithm | scene | verdict | named first | explains | first class of pixels | answer |", "|" + "---|" * 9]
+    lines += ["", f"The right port is named right on {right} of these sets of scenes. Scenes drawn: {drawn}.", "",
+              "| kind | mistake | algorithm | scenes | verdict | named first | pixels that differ | first class of pixels | answer |", "|" + "---|" * 9]
     lines += ["| " + " | ".join(row) + " |" for row in rows]
     return "\n".join(lines) + "\n"
 
@@ -148,25 +164,26 @@ def main():
     rows, right, wrong, drawn, renderer = [], 0, 0, 0, options.driver
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(build, pathlib.Path(folder), options.driver)
+        asked = {kind: 0 for kind in WANTED}
         for kind, names, algorithm in drawn_cases(draw, mistaken.listed(build)):
-            found = find_scene(bench, draw, names, algorithm)
-            if found is None:
-                rows.append([kind, ", ".join(names), algorithm, f"none of {DRAWS} shows it", "", "", "", "", "not shown"])
+            if asked[kind] == WANTED[kind]:
+                continue
+            found, words, tries = find_scenes(bench, draw, names, algorithm)
+            drawn += tries
+            if len(found) < SCENES:
+                rows.append([kind, ", ".join(names), algorithm, f"{len(found)} of {DRAWS} show it", "", "", "", "", "not shown"])
                 print(*rows[-1], sep=" | ", flush=True)
                 continue
-            pack, words, tries = found
-            drawn += tries
-            said = bench.diagnose(pack, (), algorithm)
-            is_right = said["verdict"] == "right"
+            asked[kind] += 1
+            is_right = bench.diagnose(found, (), algorithm)["verdict"] == "right"
             right, wrong = right + is_right, wrong + (not is_right)
-            said = bench.diagnose(pack, names, algorithm)
-            renderer = json.loads((bench.folder / "candidate/candidate.json").read_text())["made_by"].removeprefix("strata_port, ")
-            best, kinds = said["findings"][0], said["comparison"]["kinds"]
-            first = f"{kinds[0]['kind']} {kinds[0]['pixels']}" if kinds else ""
-            rows.append([kind, ", ".join(names), algorithm, " ".join(words), said["verdict"].replace("_", " "), ", ".join(best["mistakes"]),
-                         f"{best['explained']} of {said['differing']}", first, judged(kind, names, said)])
+            said = bench.diagnose(found, names, algorithm)
+            best, kinds = said["findings"][0], [scene["kinds"][0]["kind"] for scene in said["scenes"] if scene["kinds"]]
+            rows.append([kind, ", ".join(names), algorithm, "; ".join(words), said["verdict"].replace("_", " "), ", ".join(best["mistakes"]),
+                         str(said["differing"]), ", ".join(dict.fromkeys(kinds)), judged(kind, names, said)])
+            renderer = bench.made_by
             print(*rows[-1], sep=" | ", flush=True)
-            shutil.rmtree(pack.folder)
+            shutil.rmtree(bench.set)
     pathlib.Path(options.out).write_text(page(options.seed, options.driver, renderer, rows, f"{right} of {right + wrong}", drawn))
     return 0 if wrong == 0 else 1
 

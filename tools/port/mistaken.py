@@ -80,7 +80,8 @@ NAMES = {"flipped_rows": {"upside_down", "flipped_rows"}, "other_clip_range": {"
          "min_max_cleared_to_0": {"min_max_cleared_to_0"}, "opaque_ignored": {"opaque_depth_lost"}, "straight_layers": {"not_premultiplied"},
          "alpha_twice": {"premultiplied_twice"}, "cleared_to_opaque": {"front_cleared_wrong"}, "under_not_separate": {"one_blend_function"},
          "over_for_under": {"over_for_under", "premultiplied_over_for_under"}, "factors_exchanged": {"swapped_factors"}, "min_for_max": {"min_for_max"},
-         "alpha_squared": {"alpha_squared"}, "background_lost": {"background_lost"}, "srgb_twice": {"srgb_twice"},
+         "alpha_squared": {"alpha_squared"}, "background_lost": {"background_lost", "nothing_behind"}, "back_premultiplied": {"far_layer_premultiplied"},
+         "sides_exchanged": {"front_is_clockwise"}, "count_in_a_byte": {"count_not_added"}, "srgb_twice": {"srgb_twice"},
          "red_for_blue": {"red_for_blue"}, "last_layer_lost": {"one_pass_too_few"}, "query_above_1": {"query_above_one"},
          "not_swapped": {"ping_pong_not_swapped"}, "stencil_wraps": {"stencil_wraps"}}
 

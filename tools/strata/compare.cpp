@@ -82,16 +82,16 @@ void draw_folders(const CompareOptions& options, const std::vector<oracle::PackP
 
 // A pack and the folder of a port: the end and the passes of every algorithm that both have.
 int compare_folders(const CompareOptions& options) {
-    if (!options.junit.empty() || !options.background.empty())
+    if (!options.background.empty())
         throw CLI::ValidationError(
-            options.junit.empty() ? "--background" : "--junit",
-            "expected a picture as the candidate, found a folder; compare its picture.npy alone");
+            "--background", "expected a picture as the candidate, found a folder; compare its picture.npy alone");
     const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
     if (std::ranges::none_of(found, &oracle::PackComparison::is_there))
         throw InputError(options.candidate, "algorithms", "one that the pack has, too", "none");
     draw_folders(options, reference, candidate, found);
+    if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
     print(options.json ? oracle::to_json(found) : oracle::to_text(found));
     return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
 }
@@ -151,8 +151,10 @@ Command add_compare(CLI::App& root) {
     add_path(*app, options->side,
              {"--side", "FILE.png",
               "reference, candidate and heat map side by side; of a folder NAME.ALGORITHM.png each", "a file name"});
-    add_path(*app, options->junit,
-             {"--junit", "FILE.xml", "a test case a kind, for continuous integration", "a file name"});
+    add_path(
+        *app, options->junit,
+        {"--junit", "FILE.xml",
+         "a test case a kind, or of a folder picture, layers and passes, for continuous integration", "a file name"});
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
         "Examples:\n"

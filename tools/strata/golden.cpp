@@ -23,7 +23,8 @@ namespace {
 struct GoldenOptions {
     RunOptions run;
     std::string check;
-    bool suite = false;
+    bool suite = false, exr = false;
+    [[nodiscard]] oracle::Copies copies() const { return exr ? oracle::Copies::exr : oracle::Copies::none; }
 };
 
 int check(const std::string& path, Simd simd) {
@@ -72,7 +73,8 @@ int write_suite(const GoldenOptions& options) {
             "SCENE",
             "expected a scene of the suite (strata mistakes --suite lists them), found '" + options.run.scene + "'");
     Progress bar("scenes of the suite");
-    oracle::write_suite(options.run.output, scenes, [&](double share) { bar.show(share); });
+    oracle::write_suite(
+        options.run.output, scenes, [&](double share) { bar.show(share); }, options.copies());
     return 0;
 }
 
@@ -80,7 +82,7 @@ int write_suite(const GoldenOptions& options) {
 void check_alone(const CLI::App& app) {
     for (const CLI::Option* option : app.get_options())
         if (const std::string name = option->get_name();
-            option->count() > 0 && name != "--suite" && name != "-o" && name != "SCENE")
+            option->count() > 0 && name != "--suite" && name != "--exr" && name != "-o" && name != "SCENE")
             throw CLI::ValidationError("--suite", "expected a folder for it alone, found " + name);
 }
 
@@ -97,7 +99,7 @@ int golden(GoldenOptions& options) {
     complete(options.run);
     const oracle::Golden made = golden_of(options.run);
     if (made.algorithms.empty()) return 2;
-    oracle::write_pack(made, options.run.output);
+    oracle::write_pack(made, options.run.output, options.copies());
     return 0;
 }
 
@@ -117,6 +119,7 @@ Command add_golden(CLI::App& root) {
     app->add_flag(
         "--suite", options->suite,
         "write the standard set: small scenes in which every known mistake shows; SCENE may name one of them");
+    app->add_flag("--exr", options->exr, "beside the arrays, EXR files of the picture, the layers and every pass");
     add_choice(*app, options->run.simd, "--simd", simds,
                "instruction set; same bits (default best: what the processor has)");
     app->footer(

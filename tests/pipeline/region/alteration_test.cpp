@@ -72,6 +72,22 @@ TEST_CASE("a pass takes the state that its alteration leaves, geometry and quads
     CHECK(quads == 1);
 }
 
+TEST_CASE("an alteration hears how many fragments got through a pass") {
+    std::vector<std::pair<PassKind, std::uint64_t>> heard;
+    const Alteration listens{.program =
+                                 [](const ProgramCall& call, const std::function<void()>& run) {
+                                     run();
+                                     for (std::size_t i = 0; i < static_cast<std::size_t>(call.in.count); ++i)
+                                         if (call.out.color[0][0][i] > 0.5f) call.out.discard(static_cast<int>(i));
+                                 },
+                             .drawn = [&](PassKind kind, std::uint64_t passed) { heard.emplace_back(kind, passed); }};
+    static_cast<void>(reds_after_pass(listens));
+    static_cast<void>(reds_after_pass(listens, true));
+    // Five of the eight reds are at most 1/2; a quad of 3/4 is discarded everywhere.
+    CHECK(heard ==
+          std::vector<std::pair<PassKind, std::uint64_t>>{{PassKind::geometry, 5}, {PassKind::full_screen, 0}});
+}
+
 TEST_CASE("an alteration stands in for a program, around it or without it") {
     const Alteration behind{.program = [](const ProgramCall& call, const std::function<void()>& run) {
         run();

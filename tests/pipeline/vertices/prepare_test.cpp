@@ -234,6 +234,34 @@ TEST_CASE("parts keep their primitives and lie between their depths, which no fr
     }
 }
 
+TEST_CASE("altered vertices are those that are projected, and altered corners those that are drawn") {
+    const TriangleScene scene = random_triangles(508, 24);
+    strata::rasterizer::RasterState raster;
+    raster.viewport = {0, 0, 64, 64};
+    const auto prepared = [&](const VertexAlteration* alteration) {
+        return prepare(scene.list, scene.view, raster, *find_profile("geforce8"), {.alteration = alteration});
+    };
+    // Every w is doubled together with x, y and z: a power of two moves no vertex, but halves 1 / w.
+    const VertexAlteration doubled{.vertices =
+                                       [](strata::rasterizer::TriangleSoup& soup) {
+                                           for (ClipVertex& v : soup.vertices)
+                                               for (float* const c : {&v.x, &v.y, &v.z, &v.w}) *c *= 2;
+                                       },
+                                   .corners =
+                                       [](strata::rasterizer::Geometry& geometry) {
+                                           for (auto& corner : geometry.corners) corner.z = 0.25f;
+                                       }};
+    const PreparedDraw usual = prepared(nullptr), altered = prepared(&doubled);
+    REQUIRE(altered.geometry.corners.size() == usual.geometry.corners.size());
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < usual.geometry.corners.size(); ++i) {
+        const auto &a = usual.geometry.corners[i], &b = altered.geometry.corners[i];
+        wrong += a.p.x != b.p.x || a.p.y != b.p.y || a.inverse_w != 2 * b.inverse_w || b.z != 0.25f ? 1 : 0;
+    }
+    CHECK(usual.geometry.corners.size() > 20);
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("opaque and masked materials go to the opaque list, blended ones to the transparent") {
     const TriangleScene scene = random_triangles(504, 8);  // materials: blend, blend, mask, opaque
     const auto materials = [&](Selection selection) {

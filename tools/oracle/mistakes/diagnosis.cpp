@@ -15,15 +15,20 @@ namespace {
 
 using Agreement = std::vector<bool>;  // a pixel an entry
 
+// Codes of colours that are forgiven beside the tolerances, where both pictures have codes of one kind.
+enum class Forgiven : std::uint8_t { none, one_code };
+
 // Which pixels of the candidate are those of `picture`.
-Agreement agreement(const Picture& picture, const Picture& candidate, const Tolerances& tolerances) {
+Agreement agreement(const Picture& picture, const Picture& candidate, const Tolerances& tolerances,
+                    Forgiven beside = Forgiven::none) {
     const Pairing pairing = pair_targets(picture, candidate);
     Agreement all(pairing.pairs[0].reference->pixels(), true);
     for (const Pair& pair : pairing.pairs) {
         const bool is_depth = pair.reference->meaning == Meaning::depth;
-        const std::uint32_t forgiven = is_depth ? tolerances.depth_codes : tolerances.color_codes;
         const bool has_one_code =
             pair.reference->code == pair.candidate->code && pair.reference->channels == pair.candidate->channels;
+        const std::uint32_t more = beside == Forgiven::one_code && has_one_code ? 1 : 0;
+        const std::uint32_t forgiven = is_depth ? tolerances.depth_codes : tolerances.color_codes + more;
         const auto channels = static_cast<std::size_t>(pair.reference->channels);
         const auto has_equal_words = [&](std::size_t i) {
             const auto at = [&](const Target& t) {
@@ -40,11 +45,6 @@ Agreement agreement(const Picture& picture, const Picture& candidate, const Tole
 
 bool is_same(const Picture& a, const Picture& b) {
     return std::ranges::equal(a.targets, b.targets, {}, &Target::codes, &Target::codes);
-}
-
-Tolerances one_code_more(Tolerances tolerances) {
-    ++tolerances.color_codes;
-    return tolerances;
 }
 
 // `nearly` is the agreement within one code more.
@@ -69,6 +69,11 @@ void for_all(std::size_t count, const ShowProgress& progress, const std::functio
     });
 }
 
+// Whether a finding explains half of the pixels to the last code and all of them within one.
+bool is_nearly_whole(const Finding& f, const Diagnosis& d) {
+    return f.agreeing != d.pixels && f.nearly == d.pixels && 2 * f.explained >= d.differing;
+}
+
 constexpr std::size_t most_pairs = 256;  // that are rendered; those of finished pictures cost nothing
 constexpr std::size_t most_pixels_of_pairs = std::size_t{1} << 21;
 
@@ -82,7 +87,7 @@ struct Lineup::Evidence {
 
     [[nodiscard]] Finding of(std::vector<const Mistake*> mistakes, const Picture& picture) const {
         return finding(std::move(mistakes), agreement(picture, candidate, tolerances),
-                       agreement(picture, candidate, one_code_more(tolerances)), right_agrees);
+                       agreement(picture, candidate, tolerances, Forgiven::one_code), right_agrees);
     }
 };
 
@@ -108,6 +113,30 @@ const Picture* Lineup::picture_of(const Mistake& mistake) const {
     return found->picture ? &*found->picture : nullptr;
 }
 
+Lineup::Judged Lineup::judge(std::span<const Mistake* const> mistakes, const Picture& candidate,
+                             const Tolerances& tolerances, const std::vector<PassPicture>* passes) const {
+    std::vector<const Mistake*> made;
+    for (const Mistake* mistake : mistakes)
+        if (picture_of(*mistake) != nullptr) made.push_back(mistake);
+    const std::optional<Picture> both = made.size() > 1 ? laboratory_.with(made) : std::nullopt;
+    const Picture* picture = made.empty() ? &laboratory_.right() : made.size() == 1 ? picture_of(*made[0]) : nullptr;
+    if (both) picture = &*both;
+    if (picture == nullptr) return {};
+    const Agreement right_agrees = agreement(laboratory_.right(), candidate, tolerances);
+    const Evidence evidence{candidate, tolerances, right_agrees, {}};
+    const Finding right = evidence.of({}, laboratory_.right());
+    Judged judged{.finding = evidence.of(made, *picture)};
+    Diagnosis scene{.pixels = right_agrees.size(), .differing = right_agrees.size() - right.agreeing};
+    judged.fits = judged.finding.agreeing == scene.pixels ||
+                  (right.nearly != scene.pixels && is_nearly_whole(judged.finding, scene));
+    if (passes == nullptr || !judged.fits) return judged;
+    const auto right_passes = laboratory_.compare_passes({}, *passes);
+    if (!right_passes || right_passes->targets == 0) return judged;
+    judged.finding.passes = laboratory_.compare_passes(made, *passes);
+    judged.fits = judged.finding.passes && explains_origin(*judged.finding.passes, *right_passes);
+    return judged;
+}
+
 bool Lineup::shows(const Mistake& mistake) const {
     return std::ranges::find(suspects_, &mistake, &Suspect::mistake)->shows;
 }
@@ -117,8 +146,7 @@ namespace {
 // Brings the best finding that nearly explains all pixels to the front, where none explains them all to the last code.
 void take_nearly_whole(Diagnosis& d, std::uint64_t right_nearly) {
     if (d.findings.front().agreeing == d.pixels || right_nearly == d.pixels) return;
-    const auto found = std::ranges::find_if(
-        d.findings, [&](const Finding& f) { return f.nearly == d.pixels && 2 * f.explained >= d.differing; });
+    const auto found = std::ranges::find_if(d.findings, [&](const Finding& f) { return is_nearly_whole(f, d); });
     if (found == d.findings.end()) return;
     std::rotate(d.findings.begin(), found, found + 1);
     d.is_nearly = true;
@@ -167,6 +195,8 @@ Diagnosis Lineup::diagnose(const Picture& candidate, const Tolerances& tolerance
         try_pairs(evidence, progress, result);
         rank();
     }
+    const bool may_be_nearly = passes != nullptr && right_nearly != result.pixels;
+    if (may_be_nearly && (result.is_nearly || result.passes_contradict)) weigh_nearly_whole(*passes, result);
     return result;
 }
 
@@ -175,6 +205,24 @@ namespace {
 constexpr std::size_t most_weighed = 64;  // findings whose passes are made again
 
 }  // namespace
+
+void Lineup::weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosis& d) const {
+    if (!d.right_passes || d.right_passes->targets == 0) return;
+    std::size_t weighed = 0;
+    for (auto f = d.findings.begin(); f != d.findings.end() && weighed < most_weighed; ++f) {
+        if (!is_nearly_whole(*f, d)) continue;
+        ++weighed;
+        f->passes = laboratory_.compare_passes(f->mistakes, passes);
+        if (!f->passes || !explains_origin(*f->passes, *d.right_passes)) continue;
+        std::rotate(d.findings.begin(), f, f + 1);
+        d.is_nearly = true;
+        d.passes_contradict = false;
+        d.verdict = verdict_of(d);
+        return;
+    }
+    d.is_nearly = false;
+    d.verdict = Verdict::none_of_mine;
+}
 
 void Lineup::weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& d) const {
     d.right_passes = laboratory_.compare_passes({}, passes);

@@ -11,6 +11,7 @@
 // Tests    tests/tools/oracle/mistakes/diagnosis_test.cpp
 #pragma once
 #include <functional>
+#include <span>
 
 #include "tools/oracle/compare.h"
 #include "tools/oracle/mistakes/laboratory.h"
@@ -58,6 +59,15 @@ class Lineup {
                                      const ShowProgress& progress = {},
                                      const std::vector<PassPicture>* passes = nullptr) const;
 
+    // The machine with those of `mistakes` that can be made on this scene. It fits if the candidate's picture is its own, or nearly, and
+    // its passes do not contradict.
+    struct Judged {
+        Finding finding{};
+        bool fits = false;
+    };
+    [[nodiscard]] Judged judge(std::span<const Mistake* const> mistakes, const Picture& candidate,
+                               const Tolerances& tolerances, const std::vector<PassPicture>* passes) const;
+
     // Null where the mistake cannot be made on this scene.
     [[nodiscard]] const Picture* picture_of(const Mistake& mistake) const;
     [[nodiscard]] bool shows(const Mistake& mistake) const;
@@ -72,6 +82,7 @@ class Lineup {
     };
     struct Evidence;
     void try_pairs(const Evidence& evidence, const ShowProgress& progress, Diagnosis& diagnosis) const;
+    void weigh_nearly_whole(const std::vector<PassPicture>& passes, Diagnosis& diagnosis) const;
     void weigh_passes(const Evidence& evidence, const std::vector<PassPicture>& passes, Diagnosis& diagnosis) const;
 
     const Laboratory& laboratory_;

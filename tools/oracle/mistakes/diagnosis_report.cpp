@@ -15,14 +15,6 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t most_findings = 6;  // that people are told
 
-std::string sentence_of(const Finding& f) {
-    if (f.mistakes.empty()) return "the right machine";
-    std::string text;
-    for (const Mistake* mistake : f.mistakes)
-        text += fmt::format("{}{} ({})", text.empty() ? "" : "; and: ", mistake->sentence, mistake->name);
-    return text;
-}
-
 // Only all of them are 100 %.
 std::string percent(std::uint64_t part, std::uint64_t all) {
     if (part == all) return "100";
@@ -35,19 +27,19 @@ std::string first_line(const Diagnosis& d) {
     if (d.passes_contradict)
         return fmt::format(
             "none of mine: the picture is that of: {}; but no known machine that leaves it has these passes\n",
-            sentence_of(best));
+            sentence_of(best.mistakes));
     if (d.verdict == Verdict::none_of_mine)
         return fmt::format(
             "none of mine: {} of {} pixels differ from the right picture, and no known mistake, nor two of them, "
             "explains them all\n",
             d.differing, d.pixels);
     return fmt::format("100 % of the pixels are{} those of: {}\n", d.is_nearly ? ", within one code," : "",
-                       sentence_of(best));
+                       sentence_of(best.mistakes));
 }
 
 std::string line_of(const Finding& f, const Diagnosis& d) {
     std::string text =
-        fmt::format("  {} % of the pixels are those of: {}\n", percent(f.agreeing, d.pixels), sentence_of(f));
+        fmt::format("  {} % of the pixels are those of: {}\n", percent(f.agreeing, d.pixels), sentence_of(f.mistakes));
     if (!f.mistakes.empty() && d.differing > 0)
         text += fmt::format("      {} of the {} that differ; {} that do not differ speak against it\n", f.explained,
                             d.differing, f.contradicted);
@@ -77,6 +69,14 @@ ordered_json names_of(const std::vector<const Mistake*>& mistakes) {
 }
 
 }  // namespace
+
+std::string sentence_of(const std::vector<const Mistake*>& mistakes) {
+    if (mistakes.empty()) return "the right machine";
+    std::string text;
+    for (const Mistake* mistake : mistakes)
+        text += fmt::format("{}{} ({})", text.empty() ? "" : "; and: ", mistake->sentence, mistake->name);
+    return text;
+}
 
 std::string_view name(Verdict verdict) noexcept {
     switch (verdict) {

@@ -1,6 +1,7 @@
 #include "tools/oracle/mistakes/experiment.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace strata::oracle {
 
@@ -39,6 +40,28 @@ pipeline::DrawList& Experiment::scene() {
 
 namespace {
 
+// Both functions, one after the other.
+template <class T>
+std::function<void(T&)> in_turn(std::function<void(T&)> first, std::function<void(T&)> second) {
+    if (!first || !second) return first ? first : second;
+    return [first = std::move(first), second = std::move(second)](T& changed) {
+        first(changed);
+        second(changed);
+    };
+}
+
+}  // namespace
+
+void Experiment::alter_vertices(pipeline::VertexAlteration change) {
+    if (vertex_alteration)
+        change = {in_turn(vertex_alteration->vertices, std::move(change.vertices)),
+                  in_turn(vertex_alteration->corners, std::move(change.corners))};
+    vertex_alteration = std::make_shared<const pipeline::VertexAlteration>(std::move(change));
+    options.vertex_alteration = vertex_alteration.get();
+}
+
+namespace {
+
 using pipeline::Alteration;
 
 // Calls the program of alteration `next` and of those behind it around the pass's own.
@@ -72,6 +95,11 @@ Alteration combined(const Experiment& experiment) {
             },
         .program = [&all](const pipeline::ProgramCall& call,
                           const std::function<void()>& run) { run_program(all, 0, call, run); },
+        .drawn =
+            [&all](pipeline::PassKind kind, std::uint64_t passed) {
+                for (const Alteration& a : all)
+                    if (a.drawn) a.drawn(kind, passed);
+            },
         .query =
             [&all](std::uint64_t count, bool goes_on) {
                 for (const Alteration& a : all)

@@ -14,6 +14,7 @@
 #include "pipeline/device/profile.h"
 #include "pipeline/frame/alteration.h"
 #include "pipeline/vertices/draw_list.h"
+#include "pipeline/vertices/prepare.h"
 #include "tools/oracle/picture.h"
 
 namespace strata::oracle {
@@ -49,9 +50,12 @@ struct Experiment {
     std::vector<std::function<void(Picture&)>> afterwards{};  // what happens to the finished picture
     std::shared_ptr<Names> names = std::make_shared<Names>();
     std::shared_ptr<pipeline::DrawList> own_list{};
+    std::shared_ptr<const pipeline::VertexAlteration> vertex_alteration{};  // the options' own
 
     // The scene, to be changed: a copy from the first call on.
     [[nodiscard]] pipeline::DrawList& scene();
+    // Changes vertices behind all changes that there are.
+    void alter_vertices(pipeline::VertexAlteration change);
 };
 
 // All alterations of an experiment as one; it must live while the experiment's run does.

@@ -21,6 +21,20 @@ auto made(auto&& run) -> std::optional<decltype(run())> {
     return std::nullopt;
 }
 
+using Targets = std::vector<Target>;
+
+// The target that is published, as what happens to the finished picture leaves it: a port may do that in its last pass. Under its own name.
+Targets finished(const PassShown& last, const PassShown& published, const Experiment& e) {
+    Targets targets;
+    for (const NamedImage& target : last.targets) {
+        if (e.afterwards.empty() || target.image.codes != published.targets[0].image.codes) continue;
+        Picture picture{.file = "", .targets = {as_target(target.image, target.name)}};
+        for (const auto& change : e.afterwards) change(picture);
+        targets.push_back(std::move(picture.targets[0]));
+    }
+    return targets;
+}
+
 }  // namespace
 
 Laboratory::Laboratory(const RunInput& input, const peeling::Algorithm& algorithm, Depths depths, int limit)
@@ -90,9 +104,13 @@ std::optional<PassAgreement> Laboratory::compare_passes(std::span<const Mistake*
     const pipeline::Alteration alteration = combined(*e);
     return made([&] {
         PassEvidence evidence{candidate};
-        passes(
-            {*e->list, e->view, e->profile, e->options}, *e->algorithm, [&](PassShown&& pass) { evidence.add(pass); },
-            e->alterations.empty() ? nullptr : &alteration);
+        std::optional<PassShown> last;
+        const auto add = [&](PassShown&& pass) {
+            if (last) evidence.add(*last, pass.kind == PassKind::published ? finished(*last, pass, *e) : Targets{});
+            last = std::move(pass);
+        };
+        passes({*e->list, e->view, e->profile, e->options}, *e->algorithm, add,
+               e->alterations.empty() ? nullptr : &alteration);
         return evidence.found();
     });
 }

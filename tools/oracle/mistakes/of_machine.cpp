@@ -27,13 +27,17 @@ bool takes_color(Experiment& e, Format format) {
     return true;
 }
 
-// Clip x and y move by so many pixels' share of w, to the right and up.
+// Clip x and y move by so many pixels' share of w, to the right and up: behind the vertex stage, so that no product of it rounds otherwise.
 bool moves(Experiment& e, double right_px, double up_px) {
-    for (int c = 0; c < 4; ++c) {
-        auto& column = e.view.projection[c];
-        column[0] += column[3] * (2 * right_px / e.options.width);
-        column[1] += column[3] * (2 * up_px / e.options.height);
-    }
+    const auto x = static_cast<float>(2 * right_px / e.options.width);
+    const auto y = static_cast<float>(2 * up_px / e.options.height);
+    e.alter_vertices({.vertices = [x, y](rasterizer::TriangleSoup& soup) {
+        for (rasterizer::ClipVertex& v : soup.vertices) {
+            const float dx = x * v.w, dy = y * v.w;
+            v.x += dx;
+            v.y += dy;
+        }
+    }});
     return true;
 }
 

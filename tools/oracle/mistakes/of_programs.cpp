@@ -109,6 +109,14 @@ void forget_transmittance(const Names& names, const ProgramCall& call) {
     });
 }
 
+// Blending multiplies the far layer of dual peeling with its alpha, so its colours are to come straight.
+void premultiply_far_layer(const Names& names, const ProgramCall& call) {
+    if (!is_dual_peel(names, call.state)) return;
+    auto& far = call.out.color[2];
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < count_of(call); ++i) far[c][i] *= far[3][i];
+}
+
 // t = 1 - average alpha, as if one fragment stood for all.
 void average_without_power(const Names& names, const ProgramCall& call) {
     if (!names.is(call.state.reads[0], "sums") || !names.is(call.state.reads[1], "count")) return;
@@ -133,6 +141,9 @@ constexpr Mistake program_mistakes[] = {
      }},
     {"not_premultiplied", "colours not multiplied by their alpha", Place::programs,
      [](Experiment& e) { return behind_programs(e, pipeline::PassKind::geometry, leave_straight); }},
+    {"far_layer_premultiplied", "dual peeling's far layer premultiplied, and times alpha once more as it is blended",
+     Place::programs,
+     [](Experiment& e) { return behind_programs(e, pipeline::PassKind::geometry, premultiply_far_layer); }},
     {"alpha_squared", "alpha multiplied by itself", Place::programs,
      [](Experiment& e) {
          return before_programs(e, [](FragmentBatch& in) {

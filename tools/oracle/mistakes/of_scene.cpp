@@ -1,6 +1,7 @@
 // tools/oracle/mistakes/of_scene.cpp - mistakes in what is handed to the machine: materials, textures, colours, order.
 #include <algorithm>
 
+#include "peeling/prepared_lists.h"
 #include "pipeline/vertices/prepare.h"
 #include "scenes/numbers/srgb_encode.h"
 #include "tools/oracle/mistakes/catalogue.h"
@@ -45,6 +46,20 @@ void flatten(Mesh& mesh) {
         if (!from.texcoords.empty()) mesh.texcoords.push_back(from.texcoords[vertex]);
         mesh.indices[i] = static_cast<std::uint32_t>(i);
     }
+}
+
+// Whether a depth is a quotient of attributes: then w is not the colours' alone.
+bool has_quotient_depth(const Experiment& e) {
+    const auto own = e.options.depth_path.value_or(e.profile.raster.depth_path);
+    const auto& compared = e.options.reference_path ? e.options.reference_path : e.algorithm->compares;
+    return peeling::takes_quotient({.path = e.algorithm->stores.value_or(own), .reference = compared});
+}
+
+// Attributes run linearly over the window; positions and depths stay as they are to the last bit.
+void make_affine(Experiment& e) {
+    e.alter_vertices({.corners = [](rasterizer::Geometry& geometry) {
+        for (rasterizer::WindowCorner& corner : geometry.corners) corner.inverse_w = 1.0f;
+    }});
 }
 
 enum class Weighting : std::uint8_t { affine, unnormalised };
@@ -100,12 +115,19 @@ bool loses_perspective(Experiment& e, Weighting weighting) {
 
 constexpr Mistake scene_mistakes[] = {
     {"colors_affine", "colours interpolated linearly over the window, without perspective", Place::scene,
-     [](Experiment& e) { return loses_perspective(e, Weighting::affine); }},
+     [](Experiment& e) {
+         if (has_quotient_depth(e)) return loses_perspective(e, Weighting::affine);
+         if (!pipeline::has_perspective(e.view)) return false;
+         make_affine(e);
+         return true;
+     }},
     {"colors_unnormalised", "colours over w interpolated and not divided by 1 / w again", Place::scene,
      [](Experiment& e) { return loses_perspective(e, Weighting::unnormalised); }},
     {"colors_flat", "flat colours: each triangle has that of its last corner", Place::scene,
      [](Experiment& e) {
          std::ranges::for_each(e.scene().meshes, flatten);
+         // A constant over w, divided by 1 / w, is rounded twice: a flat colour is not.
+         if (!is_textured(e) && !has_quotient_depth(e)) make_affine(e);
          return true;
      }},
     {"colors_decoded", "colours decoded from sRGB before they are blended", Place::scene,

@@ -47,6 +47,24 @@ bool in_queries(Experiment& e, std::function<bool(std::uint64_t count, bool goes
     return true;
 }
 
+// The pass that composites a layer of a single fragment leaves it out, too: a query decides before it.
+bool stops_at_one(Experiment& e) {
+    const auto passed = std::make_shared<std::uint64_t>(0);  // of the last geometry pass
+    e.alterations.push_back({.pass =
+                                 [names = e.names, passed](Region&, PassState& state, pipeline::PassKind kind) {
+                                     const bool composites =
+                                         kind == pipeline::PassKind::full_screen && names->is(state.reads[0], "layer");
+                                     if (!composites || *passed != 1) return;
+                                     for (Blend& blend : state.blend) blend.write_mask = 0;
+                                 },
+                             .drawn =
+                                 [passed](pipeline::PassKind kind, std::uint64_t count) {
+                                     if (kind == pipeline::PassKind::geometry) *passed = count;
+                                 },
+                             .query = [](std::uint64_t count, bool goes_on) { return goes_on && count > 1; }});
+    return true;
+}
+
 bool is_front(const Names& names, RenderTarget target) {
     return names.is(target, "accumulated") || names.is(target, "front");
 }
@@ -252,10 +270,7 @@ constexpr Mistake step_mistakes[] = {
          });
      }},
     {"ping_pong_not_swapped", "the two targets of a pair never swapped", Place::steps, swaps_nothing},
-    {"query_above_one", "the peel ended by a query that counts one: > 1 for > 0", Place::steps,
-     [](Experiment& e) {
-         return in_queries(e, [](std::uint64_t count, bool goes_on) { return goes_on && count > 1; });
-     }},
+    {"query_above_one", "the peel ended by a query that counts one: > 1 for > 0", Place::steps, stops_at_one},
     {"query_half_of_first", "the peel ended once a query counts less than half of what the first one counted",
      Place::steps,
      [](Experiment& e) {

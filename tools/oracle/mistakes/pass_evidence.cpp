@@ -47,7 +47,7 @@ bool explains_origin(const PassAgreement& machine, const PassAgreement& right) {
            is_later(machine.first_far, right.first_far);
 }
 
-void PassEvidence::add(const PassShown& pass) {
+void PassEvidence::add(const PassShown& pass, std::span<const Target> instead) {
     if (pass.kind == PassKind::published) return;
     const auto other = std::ranges::find(candidate_, pass.number, &PassPicture::number);
     if (other == candidate_.end()) return;
@@ -58,7 +58,10 @@ void PassEvidence::add(const PassShown& pass) {
         ++found_.targets;
         const Target ours = as_target(target.image, target.name);
         const bool fits = has_one_shape(ours, *theirs);
-        const std::uint32_t apart = fits ? greatest_distance(ours, *theirs) : 0;
+        std::uint32_t apart = fits ? greatest_distance(ours, *theirs) : 0;
+        const auto other_form = std::ranges::find(instead, target.name, &Target::name);
+        if (fits && apart > 0 && other_form != instead.end())
+            apart = std::min(apart, greatest_distance(*other_form, *theirs));
         if (fits && apart == 0) {
             ++found_.alike;
             continue;

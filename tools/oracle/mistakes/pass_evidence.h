@@ -6,9 +6,12 @@
 // Tests    tests/tools/oracle/mistakes/pass_evidence_test.cpp
 #pragma once
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace strata::oracle {
+
+struct Target;  // tools/oracle/picture.h
 
 struct PassPicture;  // tools/oracle/pack/pack_pictures.h
 struct PassShown;    // tools/oracle/passes.h
@@ -29,7 +32,8 @@ class PassEvidence {
   public:
     // `candidate` must live as long.
     explicit PassEvidence(const std::vector<PassPicture>& candidate) : candidate_{candidate} {}
-    void add(const PassShown& pass);
+    // A target that is not the candidate's may stand as one of `instead` with its name.
+    void add(const PassShown& pass, std::span<const Target> instead = {});
     [[nodiscard]] const PassAgreement& found() const noexcept { return found_; }
 
   private:

@@ -114,11 +114,12 @@ Golden golden_of(const SuiteScene& of) {
     return golden;
 }
 
-void write_suite(const std::string& folder, std::span<const SuiteScene* const> scenes, const ShowProgress& progress) {
+void write_suite(const std::string& folder, std::span<const SuiteScene* const> scenes, const ShowProgress& progress,
+                 Copies copies) {
     scenes::NewFolder place{folder};
     std::size_t written = 0;
     for (const SuiteScene* scene : scenes) {
-        write_pack(golden_of(*scene), folder + "/" + scene->name);
+        write_pack(golden_of(*scene), folder + "/" + scene->name, copies);
         if (progress) progress(0.5 * static_cast<double>(++written) / static_cast<double>(scenes.size()));
     }
     scenes::write_file(folder + "/" + list_name, list_of(columns_of({scenes.begin(), scenes.end()}, progress)));

@@ -18,7 +18,7 @@ namespace strata::oracle {
 
 // Into a folder that is not there yet or is empty, else InputError. A failure leaves nothing behind.
 void write_suite(const std::string& folder, std::span<const SuiteScene* const> scenes,
-                 const ShowProgress& progress = {});
+                 const ShowProgress& progress = {}, Copies copies = Copies::none);
 
 // Whether `path` is a suite's folder or its suite.json.
 [[nodiscard]] bool is_suite(const std::string& path);

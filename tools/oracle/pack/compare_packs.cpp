@@ -132,4 +132,35 @@ std::string to_json(const std::vector<PackComparison>& comparisons) {
     return document.dump(2) + '\n';
 }
 
+namespace {
+
+// The kinds beyond the tolerance, with their pixels.
+std::string failures_of(const Comparison& comparison) {
+    std::string text;
+    for (const KindReport& kind : comparison.kinds)
+        if (kind.beyond > 0)
+            text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", name(kind.kind), failure_of(kind));
+    return text;
+}
+
+JunitCase case_of(const PackComparison& c, const std::string& what, const std::optional<Comparison>& comparison) {
+    const bool fails = comparison && !comparison->accepted;
+    return {"strata.compare." + c.algorithm, what, fails ? failures_of(*comparison) : "", !comparison};
+}
+
+}  // namespace
+
+std::string to_junit(const std::vector<PackComparison>& comparisons) {
+    std::vector<JunitCase> cases;
+    for (const PackComparison& c : comparisons) {
+        cases.push_back(case_of(c, "picture", c.picture));
+        cases.push_back(case_of(c, "layers", c.layers));
+        cases.push_back({"strata.compare." + c.algorithm, "passes", "", c.passes_compared == 0});
+        if (c.first)
+            cases.back().failure = fmt::format("pass {}, a {} pass of iteration {}: {}", c.first->number, c.first->kind,
+                                               c.first->iteration, failures_of(c.first->comparison));
+    }
+    return to_junit(cases);
+}
+
 }  // namespace strata::oracle

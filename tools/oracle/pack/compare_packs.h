@@ -31,5 +31,7 @@ struct PackComparison {
 
 [[nodiscard]] std::string to_text(const std::vector<PackComparison>& comparisons);
 [[nodiscard]] std::string to_json(const std::vector<PackComparison>& comparisons);
+// Three test cases an algorithm: picture, layers and passes. What the candidate has not is skipped.
+[[nodiscard]] std::string to_junit(const std::vector<PackComparison>& comparisons);
 
 }  // namespace strata::oracle

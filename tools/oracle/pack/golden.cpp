@@ -6,6 +6,7 @@
 #include "scenes/packs/new_folder.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/pack/draw_json.h"
+#include "tools/oracle/pack/exr_copies.h"
 #include "tools/oracle/pack/result_json.h"
 #include "tools/oracle/pack/state_json.h"
 
@@ -29,9 +30,10 @@ void derive(const Golden& golden, const scenes::PackFiles::Sink& sink) {
     sink("manifest.json", manifest.dump(1) + '\n');
 }
 
-void write_pack(const Golden& golden, const std::string& folder) {
+void write_pack(const Golden& golden, const std::string& folder, Copies copies) {
     scenes::NewFolder place{folder};
     derive(golden, [&](const std::string& name, const std::string& bytes) { place.write(name, bytes); });
+    if (copies == Copies::exr) write_exr_copies(folder);
     place.keep();
 }
 

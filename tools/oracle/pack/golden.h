@@ -3,6 +3,7 @@
 // Rule     tools/oracle/PACK.md is the format. One derivation serves writing and checking; only what takes its files differs.
 // Tests    tests/tools/oracle/golden_test.cpp
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,11 @@ struct Golden {
 // Every file of the pack, manifest.json last. Throws Refused for what the profile lacks.
 void derive(const Golden& golden, const scenes::PackFiles::Sink& sink);
 
+// What stands beside the arrays (exr_copies.h).
+enum class Copies : std::uint8_t { none, exr };
+
 // Into a folder that is not there yet or is empty, else InputError. A failure leaves nothing behind.
-void write_pack(const Golden& golden, const std::string& folder);
+void write_pack(const Golden& golden, const std::string& folder, Copies copies = Copies::none);
 
 // `path` is a pack's folder or its manifest.
 [[nodiscard]] Golden read_pack(const std::string& path);

@@ -15,18 +15,18 @@
 
 namespace strata::oracle {
 
+pipeline::Format format_named(const std::string& name, const std::string& file) {
+    for (const pipeline::Format format : enum_values<pipeline::Format>)
+        if (pipeline::info(format).name == name) return format;
+    throw InputError(file, "format", "a target's format", name);
+}
+
 namespace {
 
 using nlohmann::json;
 using pipeline::ChannelType;
 using pipeline::Format;
 using scenes::NumberArray;
-
-Format format_named(const std::string& name, const std::string& file) {
-    for (const Format format : enum_values<Format>)
-        if (pipeline::info(format).name == name) return format;
-    throw InputError(file, "format", "a target's format", name);
-}
 
 // Finds the file of a target: nothing if there is none. `own` is the file that the pack names, `place` what a candidate calls it.
 using Finder = std::function<std::optional<std::string>(const std::string& own, const std::string& place)>;

@@ -12,6 +12,9 @@
 
 namespace strata::oracle {
 
+// A target's format by its name; `file` is where it stands.
+[[nodiscard]] pipeline::Format format_named(const std::string& name, const std::string& file);
+
 struct PassPicture {
     int number = 0, iteration = 0;
     std::string kind{};  // "geometry", "full_screen"

@@ -1,4 +1,5 @@
 // tools/strata/diagnose/diagnose.cpp - strata diagnose: which known mistake made a picture.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -7,9 +8,11 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
+#include "tools/oracle/mistakes/scenes_diagnosis.h"
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
+#include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
@@ -62,31 +65,123 @@ std::vector<oracle::PassPicture> read_passes(const DiagnoseOptions& options, con
     return {};
 }
 
-// Right: 0. Whatever else made the picture, known or not: 1.
-int diagnose(DiagnoseOptions& options) {
+// A scene with its wrong machines, and what the port made of it.
+struct OpenCase {
+    DiagnoseOptions options;
+    oracle::Picture candidate{};
+    std::vector<oracle::PassPicture> passes{};
+    Session session{};
+    std::optional<oracle::Laboratory> laboratory{};
+    std::optional<oracle::Lineup> lineup{};
+
+    [[nodiscard]] const std::vector<oracle::PassPicture>* passes_or_null() const {
+        return passes.empty() ? nullptr : &passes;
+    }
+    [[nodiscard]] oracle::Comparison comparison() const {
+        return oracle::compare(laboratory->right(), candidate, options.tolerances);
+    }
+};
+
+std::unique_ptr<OpenCase> open_case(const DiagnoseOptions& given, const oracle::ShowProgress& progress) {
+    auto opened = std::make_unique<OpenCase>();
+    opened->options = given;
+    DiagnoseOptions& options = opened->options;
     choose_algorithm(options.run);
     complete(options.run);
     if (options.run.algorithms.size() != 1)
         throw CLI::ValidationError("--algorithm", "expected one algorithm, found several");
-    const oracle::Picture candidate = read_candidate(options, options.run.algorithms[0]->name);
+    const peeling::Algorithm& algorithm = *options.run.algorithms[0];
+    opened->candidate = read_candidate(options, algorithm.name);
+    opened->passes = read_passes(options, algorithm.name);
     // The machines draw at the candidate's size.
-    options.run.render.width = candidate.targets[0].width;
-    options.run.render.height = candidate.targets[0].height;
-    const Session session = open_session(options.run);
-    const oracle::Laboratory laboratory{{session.scene.list, session.view, session.profile, options.run.render},
-                                        *options.run.algorithms[0],
-                                        has_depth(candidate) ? oracle::Depths::made : oracle::Depths::left_out,
-                                        options.limit};
-    const auto shown_by = [](Progress& bar) { return [&bar](double share) { bar.show(share); }; };
+    options.run.render.width = opened->candidate.targets[0].width;
+    options.run.render.height = opened->candidate.targets[0].height;
+    opened->session = open_session(options.run);
+    opened->laboratory.emplace(
+        oracle::RunInput{opened->session.scene.list, opened->session.view, opened->session.profile, options.run.render},
+        algorithm, has_depth(opened->candidate) ? oracle::Depths::made : oracle::Depths::left_out, options.limit);
+    opened->lineup.emplace(*opened->laboratory, progress);
+    return opened;
+}
+
+oracle::ShowProgress shown_by(Progress& bar) {
+    return [&bar](double share) { bar.show(share); };
+}
+
+// Right: 0. Whatever else made the picture, known or not: 1.
+int status_of(oracle::Verdict verdict) { return verdict == oracle::Verdict::right ? 0 : 1; }
+
+int diagnose_one(const DiagnoseOptions& options) {
     Progress machines("wrong machines");
-    const oracle::Lineup lineup{laboratory, shown_by(machines)};
+    const auto opened = open_case(options, shown_by(machines));
     Progress pairs("pairs of mistakes");
-    const std::vector<oracle::PassPicture> passes = read_passes(options, options.run.algorithms[0]->name);
     const oracle::Diagnosis found =
-        lineup.diagnose(candidate, options.tolerances, shown_by(pairs), passes.empty() ? nullptr : &passes);
-    const oracle::Comparison comparison = oracle::compare(laboratory.right(), candidate, options.tolerances);
-    print(options.json ? to_json(found, comparison) : to_text(found, comparison));
-    return found.verdict == oracle::Verdict::right ? 0 : 1;
+        opened->lineup->diagnose(opened->candidate, options.tolerances, shown_by(pairs), opened->passes_or_null());
+    print(options.json ? to_json(found, opened->comparison()) : to_text(found, opened->comparison()));
+    return status_of(found.verdict);
+}
+
+// The packs in a folder by their names, such as the scenes of a suite. Empty where it is a pack itself, or no folder.
+std::vector<std::string> packs_in(const std::string& folder) {
+    std::vector<std::string> names;
+    if (scenes::is_procedural(folder) || scenes::is_pack(folder) || !std::filesystem::is_directory(folder))
+        return names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (scenes::is_pack(entry.path().string())) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+}
+
+// What the port made of a pack: a folder or a picture of its name. Empty if there is none.
+std::string made_of(const std::string& pack, const std::string& folder) {
+    for (const char* ending : {"", ".exr", ".png", ".npy"})
+        if (const std::string path = (std::filesystem::path(folder) / (pack + ending)).string();
+            std::filesystem::exists(path))
+            return path;
+    return "";
+}
+
+// The packs of which the port drew something.
+int diagnose_several(const DiagnoseOptions& options, const std::vector<std::string>& packs) {
+    Progress bar("scenes");
+    std::vector<std::unique_ptr<OpenCase>> opened;
+    std::vector<oracle::SceneEvidence> scenes;
+    std::vector<oracle::SceneReport> reports;
+    for (const std::string& name : packs) {
+        DiagnoseOptions of_scene = options;
+        of_scene.run.scene = (std::filesystem::path(options.run.scene) / name).string();
+        of_scene.candidate = made_of(name, options.candidate);
+        if (of_scene.candidate.empty()) continue;
+        take_pack_state(of_scene.run, of_scene.run.scene);
+        opened.push_back(open_case(of_scene, {}));
+        const OpenCase& c = *opened.back();
+        scenes.push_back({name, &*c.lineup, &c.candidate, c.passes_or_null()});
+        reports.push_back({name, c.comparison()});
+        bar.show(0.5 * static_cast<double>(opened.size()) / static_cast<double>(packs.size()));
+    }
+    if (scenes.empty())
+        throw InputError(options.candidate, "files",
+                         "a picture or a folder with the name of a pack, such as " + packs[0], "none");
+    const oracle::ScenesDiagnosis found =
+        oracle::diagnose_scenes(scenes, options.tolerances, [&](double share) { bar.show(0.5 + 0.5 * share); });
+    print(options.json ? to_json(found, reports) : to_text(found, reports));
+    return status_of(found.verdict);
+}
+
+// Every pack of a folder brings its own state.
+void check_several(const CLI::App& app) {
+    const std::vector<std::string> fitting{"SCENE",       "CANDIDATE", "--algorithm", "--limit",
+                                           "--tolerance", "--layout",  "--json"};
+    for (const CLI::Option* option : app.get_options())
+        if (option->count() > 0 && std::ranges::find(fitting, option->get_name()) == fitting.end())
+            throw CLI::ValidationError(option->get_name(), "expected one scene for it, found a folder of packs");
+}
+
+int diagnose(const CLI::App& app, const DiagnoseOptions& options) {
+    const std::vector<std::string> packs = packs_in(options.run.scene);
+    if (packs.empty()) return diagnose_one(options);
+    check_several(app);
+    return diagnose_several(options, packs);
 }
 
 }  // namespace
@@ -95,8 +190,10 @@ Command add_diagnose(CLI::App& root) {
     auto* app = root.add_subcommand("diagnose", "tell which known mistake, or which two, made a picture of a scene");
     const auto options = std::make_shared<DiagnoseOptions>();
     add_picture_options(*app, options->run);
-    app->add_option("CANDIDATE", options->candidate,
-                    "an .exr, .png or .npy file, bare numbers with --layout, or a candidate's folder (PACK.md)")
+    app->add_option(
+           "CANDIDATE", options->candidate,
+           "an .exr, .png or .npy file, bare numbers with --layout, or a candidate's folder (PACK.md); of a folder of "
+           "packs a folder with one of each")
         ->required()
         ->type_name("");
     add_layout_option(*app, options->layout);
@@ -111,12 +208,16 @@ Command add_diagnose(CLI::App& root) {
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
         "The scene is drawn at the candidate's size, whatever --size says; strata mistakes lists what is tried.\n"
+        "A folder of packs, such as a suite, with a folder of pictures or of candidates' folders of the same names is "
+        "diagnosed as a whole: "
+        "one "
+        "port made them all.\n"
         "Examples:\n"
         "  strata render showroom --size 64x64 -o mine.png && strata diagnose showroom mine.png\n"
         "  strata golden showroom --size 64x64 -o room && strata diagnose room room --json\n"
         "Exit status: 0 right, 1 a mistake or none of mine, 2 bad input or usage, 3 the system failed, 130 "
         "interrupted.");
-    return {app, [options] { return diagnose(*options); }};
+    return {app, [app, options] { return diagnose(*app, *options); }};
 }
 
 }  // namespace strata::tools

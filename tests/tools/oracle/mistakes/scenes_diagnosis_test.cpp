@@ -1,0 +1,102 @@
+// Model: the mistake that was put into the pictures of all scenes, or another one into each.
+#include "tools/oracle/mistakes/scenes_diagnosis.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/oracle/mistakes/scenes_of_test.h"
+
+using namespace strata;
+using namespace strata::oracle;
+using strata::test::Bench;
+
+namespace {
+
+// A scene of the suite with all machines, once for all tests.
+struct SceneBench {
+    explicit SceneBench(const char* name) : bench{name}, lineup{bench.laboratory} {}
+    Bench bench;
+    Lineup lineup;
+};
+
+const SceneBench& random_peel() {
+    static const SceneBench scene{"random.front_to_back"};
+    return scene;
+}
+const SceneBench& planes_peel() {
+    static const SceneBench scene{"planes.front_to_back"};
+    return scene;
+}
+const SceneBench& averaged() {
+    static const SceneBench scene{"showroom.weighted_average"};
+    return scene;
+}
+
+ScenesDiagnosis diagnosed(const SceneBench& first, const Picture& made_of_first, const SceneBench& second,
+                          const Picture& made_of_second) {
+    return diagnose_scenes({{.name = "first", .lineup = &first.lineup, .candidate = &made_of_first},
+                            {.name = "second", .lineup = &second.lineup, .candidate = &made_of_second}});
+}
+
+std::vector<std::string_view> first_names(const ScenesDiagnosis& diagnosis) {
+    std::vector<std::string_view> names;
+    for (const Mistake* mistake : diagnosis.findings.front().mistakes) names.push_back(mistake->name);
+    return names;
+}
+
+using FirstNames = std::vector<std::string_view>;
+
+}  // namespace
+
+TEST_CASE("a port that is right in every scene is right") {
+    const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.laboratory.right(), planes_peel(),
+                                            planes_peel().bench.laboratory.right());
+    CHECK(found.verdict == Verdict::right);
+    CHECK(found.differing == 0);
+    CHECK(found.findings.front().mistakes.empty());
+}
+
+TEST_CASE("of two mistakes that leave one picture of a scene another scene names the one that was made") {
+    const Picture peeled = random_peel().bench.with("order_reversed");
+    const Diagnosis alone = random_peel().lineup.diagnose(peeled);
+    CHECK(alone.findings.front().mistakes[0]->name == "last_of_equals");
+    const ScenesDiagnosis both = diagnosed(random_peel(), peeled, averaged(), averaged().bench.with("order_reversed"));
+    CHECK(both.verdict == Verdict::one_mistake);
+    CHECK(first_names(both) == FirstNames{"order_reversed"});
+    CHECK(both.findings.front().alike.empty());
+    CHECK(both.findings.front().fits == std::vector<bool>{true, true});
+}
+
+TEST_CASE("a mistake that hides in one scene is named by the other") {
+    REQUIRE_FALSE(random_peel().lineup.shows(*find_mistake("depth_stepwise")));
+    const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("depth_stepwise"), planes_peel(),
+                                            planes_peel().bench.with("depth_stepwise"));
+    CHECK(found.verdict == Verdict::one_mistake);
+    CHECK(first_names(found) == FirstNames{"depth_stepwise"});
+    CHECK(found.scenes[0].verdict == Verdict::right);
+}
+
+TEST_CASE("two mistakes at once are named over several scenes") {
+    const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("culls_all_backs", "red_for_blue"),
+                                            planes_peel(), planes_peel().bench.with("culls_all_backs", "red_for_blue"));
+    CHECK(found.verdict == Verdict::two_mistakes);
+    CHECK(first_names(found) == FirstNames{"culls_all_backs", "red_for_blue"});
+}
+
+TEST_CASE("a port that goes wrong in each scene by another mistake is none of mine") {
+    const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("not_premultiplied"), planes_peel(),
+                                            planes_peel().bench.with("upside_down"));
+    CHECK(found.verdict == Verdict::none_of_mine);
+    CHECK(std::ranges::count(found.findings.front().fits, true) == 1);
+    const std::vector<SceneReport> reports{
+        {"first", compare(random_peel().bench.laboratory.right(), random_peel().bench.with("not_premultiplied"))},
+        {"second", compare(planes_peel().bench.laboratory.right(), planes_peel().bench.with("upside_down"))}};
+    const std::string text = to_text(found, reports);
+    CHECK_THAT(text, Catch::StartsWith("none of mine"));
+    CHECK_THAT(text, Catch::Contains("  first: ") && Catch::Contains("(not_premultiplied)") &&
+                         Catch::Contains("(upside_down)"));
+    const auto document = nlohmann::json::parse(to_json(found, reports));
+    CHECK(document["verdict"] == "none_of_mine");
+    CHECK(document["scenes"][1]["mistakes"][0] == "upside_down");
+    CHECK(document["scenes"][0]["kinds"][0]["pixels"].get<int>() > 0);
+}
