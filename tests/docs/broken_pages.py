@@ -6,7 +6,9 @@ import tempfile
 
 import blocks
 
-RIGHT = "# Page\n```console\n$ echo one && \\\n  echo two\none\ntwo\n$ strata --version\n...\n$ false || echo \"status $?\"\nstatus 1\n```\n"
+RIGHT = "# Page\n```console\n$ echo one && \\\n  echo two\none\ntwo\n$ strata --version\n...\n$ false || echo \"status $?\"\nstatus 1\n```\n" \
+    "```text note\nleft\n```\n```text note\nright\n```\n```console\n$ cat note\nleft\nright\n```\n" \
+    "```text from LICENSE\n                                 Apache License\n```\n"
 MISTAKES = [
     ("two\n$", "three\n$", "another line than is printed"),
     ("one\ntwo\n", "one\n", "a line that the page leaves out"),
@@ -14,6 +16,9 @@ MISTAKES = [
     ("strata --version", "strata --versions", "an option that there is not"),
     ("strata --version", "strato --version", "a program that there is not"),
     (' || echo "status $?"\nstatus 1', "", "a status that is not said"),
+    ("```text note\nright", "```text another\nright", "a file that is not there"),
+    ("Apache License", "Apache Licence", "a line of a file that stands otherwise there"),
+    ("from LICENSE", "from LICENCE", "a file of the checkout that there is not"),
     ("status 1", "status ...2", "dots that stand for too little"),
 ]
 
