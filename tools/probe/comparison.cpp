@@ -1,6 +1,7 @@
 #include "tools/probe/comparison.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "tools/probe/draw_item.h"
 
@@ -16,15 +17,33 @@ bool is_nan(std::uint32_t code, ChannelType type) {
     return type == ChannelType::single && (code & 0x7fffffffu) > 0x7f800000u;
 }
 
-void add_places(const Image& a, const Image& b, std::vector<bool>& places) {
+// The bits by which the codes of a place are off, of its worst channel: 0 to 32.
+void each_place(const Image& a, const Image& b, auto take) {
     const ChannelType type = pipeline::info(a.format).type;
     const auto channels = static_cast<std::size_t>(a.channels());
     for (std::size_t i = 0; i < a.codes.size(); i += channels) {
-        bool same = true;
-        for (std::size_t c = i; c < i + channels; ++c)
-            same = same && (a.codes[c] == b.codes[c] || (is_nan(a.codes[c], type) && is_nan(b.codes[c], type)));
-        places.push_back(same);
+        int off = 0;
+        for (std::size_t c = i; c < i + channels; ++c) {
+            const std::uint32_t one = a.codes[c], other = b.codes[c];
+            if (one == other || (is_nan(one, type) && is_nan(other, type))) continue;
+            off = std::max(off, static_cast<int>(std::bit_width(one > other ? one - other : other - one)));
+        }
+        take(off);
     }
+}
+
+void add_places(const Image& a, const Image& b, std::vector<bool>& places) {
+    each_place(a, b, [&](int off) { places.push_back(off == 0); });
+}
+
+// Sums up what `nearness` says of one image.
+std::uint64_t points_of(const Image& a, const Image& b, std::uint64_t& equal) {
+    std::uint64_t points = 0;
+    each_place(a, b, [&](int off) {
+        equal += off == 0 ? 1 : 0;
+        points += static_cast<std::uint64_t>(off == 0 ? most_points : 32 - off);
+    });
+    return points;
 }
 
 bool is_covered(const Answer& answer, std::size_t pixel) {
@@ -65,7 +84,19 @@ Difference difference(const Answer& a, const Answer& b) {
     return result;
 }
 
+Nearness nearness(const Answer& a, const Answer& b) {
+    Nearness result{.places = place_count(a)};
+    result.color = points_of(a.color, b.color, result.equal);
+    if (a.depth) result.depth = points_of(*a.depth, *b.depth, result.equal);
+    const std::size_t area = result.places / (a.depth ? 2 : 1);
+    for (std::size_t i = 0; i < area; ++i)
+        if (is_covered(a, i) == is_covered(b, i)) result.coverage += most_points;
+    return result;
+}
+
 Comparison::Comparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y) : y_{y} {
+    const auto says = pack.device.find("has_d32f");
+    says_float_depth_ = says != pack.device.end() && says->is_boolean() && says->get<bool>();
     const auto found = pack.answers.find(y);
     if (found == pack.answers.end()) return;
     for (const Item& item : items) {
@@ -76,9 +107,10 @@ Comparison::Comparison(const ProbePack& pack, const std::vector<Item>& items, YD
 
 std::vector<std::size_t> Comparison::items_of(const std::vector<std::string_view>& beginnings) const {
     std::vector<std::size_t> numbers;
-    for (std::size_t i = 0; i < items_.size(); ++i)
-        if (std::ranges::any_of(beginnings, [&](std::string_view b) { return items_[i].item->name.starts_with(b); }))
-            numbers.push_back(i);
+    for (const std::string_view beginning : beginnings)
+        for (std::size_t i = 0; i < items_.size(); ++i)
+            if (items_[i].item->name.starts_with(beginning) && std::ranges::find(numbers, i) == numbers.end())
+                numbers.push_back(i);
     return numbers;
 }
 

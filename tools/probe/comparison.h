@@ -39,12 +39,20 @@ struct Difference {
 };
 [[nodiscard]] Difference difference(const Answer& a, const Answer& b);
 
+// How near an answer is: a place that agrees counts most_points, another one less the more bits its code is off; so a search is
+// drawn towards the right value while another field still spoils every code. The coverage is that of `difference`.
+struct Nearness {
+    std::uint64_t coverage = 0, depth = 0, color = 0, equal = 0, places = 0;
+};
+inline constexpr int most_points = 40;
+[[nodiscard]] Nearness nearness(const Answer& a, const Answer& b);
+
 class Comparison {
   public:
     // The pack and the items outlive it.
     Comparison(const ProbePack& pack, const std::vector<Item>& items, YDirection y);
 
-    // Answered items whose names begin with one of these, in the kit's order.
+    // Answered items whose names begin with the first of these, in the kit's order, then with the next.
     [[nodiscard]] std::vector<std::size_t> items_of(const std::vector<std::string_view>& beginnings) const;
     [[nodiscard]] const Answer& answer(std::size_t number) const noexcept { return *items_[number].answer; }
     [[nodiscard]] const Item& item(std::size_t number) const noexcept { return *items_[number].item; }
@@ -55,6 +63,8 @@ class Comparison {
     [[nodiscard]] Reply drawn(const DeviceProfile& profile, std::size_t number) const;
     [[nodiscard]] std::vector<bool> equal(const Reply& drawn, std::size_t number) const;
     [[nodiscard]] Tally tally(const DeviceProfile& profile, const std::vector<std::size_t>& numbers) const;
+    // Whether the driver says that it has float depth buffers.
+    [[nodiscard]] bool says_float_depth() const noexcept { return says_float_depth_; }
     [[nodiscard]] YDirection orientation() const noexcept { return y_; }
 
   private:
@@ -64,6 +74,7 @@ class Comparison {
     };
     std::vector<Answered> items_{};
     YDirection y_;
+    bool says_float_depth_ = false;
 };
 
 }  // namespace strata::probe

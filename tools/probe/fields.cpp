@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 
 namespace strata::probe {
 
@@ -19,9 +20,12 @@ using rasterizer::WeightRule;
 using rasterizer::WindowZ;
 using rasterizer::WindowZRule;
 
-bool is_chip_depth(const RasterRules& r) {
-    return r.depth_path == DepthPath::window_z && r.hypothesis.window_z == WindowZRule::chip;
+// Fragments outside the depth range are dropped by the chip's window z, whichever depth is stored (chip_values.cpp).
+bool drops_by_window_z(const RasterRules& r) {
+    return r.z_clip == rasterizer::ZClip::per_fragment && r.window_z == WindowZ::buffer_units;
 }
+bool has_window_z(const RasterRules& r) { return r.depth_path == DepthPath::window_z || drops_by_window_z(r); }
+bool is_chip_depth(const RasterRules& r) { return has_window_z(r) && r.hypothesis.window_z == WindowZRule::chip; }
 bool has_color_weights(const RasterRules& r) {
     return r.color == ColorInterpolation::weights_8bit && r.plane_rule == PlaneRule::exact;
 }
@@ -41,7 +45,7 @@ constexpr Dependence dependences[]{
     {"raster.guard_band_px", [](const RasterRules& r) { return r.clip == ClipVolume::guard_band; }},
     {"raster.perspective", [](const RasterRules& r) { return r.plane_rule != PlaneRule::exact; }},
     {"raster.offset_rule", [](const RasterRules& r) { return r.depth_path == DepthPath::window_z; }},
-    {"raster.window_z_rule", [](const RasterRules& r) { return r.depth_path == DepthPath::window_z; }},
+    {"raster.window_z_rule", has_window_z},
     {"raster.plane_anchor", [](const RasterRules& r) { return r.depth_path == DepthPath::float32_plane; }},
     {"raster.interpolant_bits", [](const RasterRules& r) { return r.depth_path == DepthPath::perspective_rq; }},
     {"raster.divide", [](const RasterRules& r) { return r.depth_path == DepthPath::perspective_rq; }},
@@ -77,6 +81,35 @@ bool matters(std::string_view key, const DeviceProfile& profile) {
     return found == std::end(dependences) || found->matters(profile.raster);
 }
 
+bool can_change(std::string_view key, const Item& item) {
+    const auto any_draw = [&](auto has) { return std::ranges::any_of(item.draws, has); };
+    const auto any_corner = [&](auto has) {
+        return any_draw([&](const Draw& draw) { return std::ranges::any_of(draw.corners, has); });
+    };
+    const auto is_one_of = [&](std::initializer_list<std::string_view> keys) {
+        return std::ranges::find(keys, key) != keys.end();
+    };
+    // Polygon offset may leave the depth range.
+    const bool has_offset = any_draw([](const Draw& draw) { return draw.offset.enabled; });
+    if (is_one_of({"raster.clip", "raster.guard_band_px", "raster.z_clip", "raster.w_clip"}))
+        return any_corner([](const ClipVertex& v) {
+                   return !(std::abs(v.x) <= v.w && std::abs(v.y) <= v.w && std::abs(v.z) <= v.w && v.w > 0);
+               }) ||
+               (key == "raster.z_clip" && has_offset);
+    if (is_one_of({"raster.depth_path", "raster.window_z", "raster.depth_rounding", "raster.window_z_rule",
+                   "raster.plane_anchor", "raster.sum_bits", "raster.interpolant_bits", "raster.divide"}))
+        return item.depth.has_value();
+    if (is_one_of({"raster.offset_unit", "raster.offset_rule"})) return item.depth && has_offset;
+    if (key == "alpha_test") return any_draw([](const Draw& draw) { return draw.alpha_above.has_value(); });
+    const bool blends = any_draw([](const Draw& draw) { return draw.blend.has_value(); });
+    const bool is_unorm = item.color == pipeline::Format::rgba8;
+    if (key == "blend_rounding") return blends && is_unorm;
+    if (key == "min_max_nan" || key == "denormals") return blends && !is_unorm;
+    if (key == "half_rounding") return item.color == pipeline::Format::rgba16f;
+    if (key == "unorm_rounding") return is_unorm;
+    return true;
+}
+
 std::span<const Unprobed> unprobed_fields() { return unprobed; }
 
 std::vector<const ProfileField*> probed_fields() {
@@ -105,34 +138,50 @@ bool is_valid(const DeviceProfile& profile) {
     if (r.depth_path == DepthPath::depth_replace || r.depth_path == DepthPath::w_buffer) return false;
     if (r.depth_path == DepthPath::window_z && r.window_z != WindowZ::buffer_units) return false;
     if (pipeline::conflict_of(profile)) return false;
+    if (r.coverage == CoverageRule::float_spans && is_chip_depth(r)) return false;
     if (r.depth_path == DepthPath::perspective_rq && !profile.has_fragment_programs) return false;
     return r.guard_band_px >= 256;
 }
 
 const std::vector<FieldGroup>& field_groups() {
     static const std::vector<FieldGroup> groups{
-        {"coverage", {"coverage."}, {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule"}},
-        {"positions", {"positions.edges"}, {"raster.w_divide", "raster.viewport"}},
+        {"coverage",
+         Part::coverage,
+         {"coverage."},
+         {"raster.coverage", "raster.subpixel_bits", "raster.snap", "raster.tie_rule"}},
+        {"positions", Part::coverage, {"positions.edges"}, {"raster.w_divide", "raster.viewport"}},
         {"depth",
+         Part::depth,
          {"depth."},
          {"raster.depth_path", "raster.window_z_rule", "raster.plane_rule", "raster.plane_origin", "raster.window_z",
           "raster.depth_rounding", "raster.plane_anchor"},
          {"raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.sum_bits",
           "raster.interpolant_bits", "raster.divide"}},
-        // Float depths show the last bit of a position, once it is known how they are made.
-        {"positions in depth", {"positions.", "depth."}, {"raster.w_divide", "raster.viewport"}},
+        // Float depths show the last bit of a position, once it is known how they are made; and the other way round.
+        {"positions in depth",
+         Part::depth,
+         {"positions.", "depth."},
+         {"raster.w_divide", "raster.viewport"},
+         {"raster.subpixel_bits", "raster.snap", "raster.plane_rule", "raster.plane_origin", "raster.depth_rounding",
+          "raster.interpolant_bits", "raster.divide"}},
         {"colours",
-         {"color.", "depth.d32f", "depth.d24"},
+         Part::color,
+         {"color."},
          {"raster.plane_rule", "raster.color", "raster.plane_origin", "raster.perspective", "unorm_rounding",
           "raster.perspective_color"},
-         {"raster.vertex_color_bits", "raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit"}},
-        {"clip", {"clip.", "positions."}, {"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"}},
-        {"offset", {"offset."}, {"raster.offset_unit", "raster.offset_rule"}},
-        {"blending", {"blend.products", "blend.over"}, {"blend_rounding"}},
-        {"halves", {"color.halves"}, {"half_rounding"}},
-        {"extremes", {"blend.max", "blend.min"}, {"min_max_nan"}},
-        {"denormals", {"blend.small"}, {"denormals"}},
-        {"alpha", {"alpha."}, {"alpha_test"}},
+         {"raster.vertex_color_bits", "raster.weights", "raster.reciprocal_bits", "raster.reciprocal_deficit",
+          "half_rounding"}},
+        {"clip",
+         Part::both,
+         {"clip.guard-band", "clip.", "positions."},
+         {"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"},
+         {"raster.window_z_rule"}},
+        {"offset", Part::depth, {"offset."}, {"raster.offset_unit", "raster.offset_rule"}},
+        {"blending", Part::color, {"blend.products", "blend.over"}, {"blend_rounding"}},
+        {"halves", Part::color, {"color.halves"}, {"half_rounding"}},
+        {"extremes", Part::color, {"blend.max", "blend.min"}, {"min_max_nan"}},
+        {"denormals", Part::color, {"blend.small"}, {"denormals"}},
+        {"alpha", Part::color, {"alpha."}, {"alpha_test"}},
     };
     return groups;
 }

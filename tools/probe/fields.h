@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pipeline/device/profile_fields.h"
+#include "tools/probe/item.h"
 
 namespace strata::probe {
 
@@ -21,6 +22,9 @@ using pipeline::ProfileField;
 
 // Whether the field can change a pixel of any scene of the kit, given the others.
 [[nodiscard]] bool matters(std::string_view key, const DeviceProfile& profile);
+
+// Whether the field can change a pixel of the scene at all. What is said to change none is not drawn again (scores.h).
+[[nodiscard]] bool can_change(std::string_view key, const Item& item);
 
 // Fields that no scene of the kit decides, with the reason. Features and limits are not among them: a driver says those.
 struct Unprobed {
@@ -35,13 +39,17 @@ struct Unprobed {
 // Whether the fields go together: a device could be like this.
 [[nodiscard]] bool is_valid(const DeviceProfile& profile);
 
+// What of a scene's pictures counts. Where colours are not known yet, whether a pixel is covered still tells an edge.
+enum class Part : std::uint8_t { coverage, depth, color, both };
+
 struct FieldGroup {
     std::string_view name;
+    Part part{};
     // The scenes whose pixels count, by the beginnings of their names; the first of them sifts the candidates.
     std::vector<std::string_view> items{};
     // Every combination of these is tried,
     std::vector<std::string_view> joint{};
-    // and these, two at a time, on the best of them.
+    // and these with them, one and two at a time, on the best of them.
     std::vector<std::string_view> refined{};
 };
 [[nodiscard]] const std::vector<FieldGroup>& field_groups();

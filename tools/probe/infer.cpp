@@ -136,7 +136,7 @@ class Evidence {
             finding.reason = finding.runners_up.front().value + " explains as many pixels";
             return;
         }
-        finding.state = FieldState::inferred;
+        finding.state = finding.agree < finding.places ? FieldState::broken : FieldState::inferred;
     }
 
     void note_change(std::size_t item, const std::vector<bool>& equal, const std::string& text) {

@@ -10,9 +10,10 @@
 
 namespace strata::probe {
 
-// inferred: one value has the greatest k. open: several have, or no scene tells. idle: the field has no effect beside the
+// inferred: one value has all n. broken: one has the greatest k, and there are places where the device does what none says. open: several have the
+// greatest k, or no scene tells. idle: the field has no effect beside the
 // others. unprobed: the kit has no scene for it. stated: a feature or a limit, as the driver says.
-enum class FieldState : std::uint8_t { inferred, open, idle, unprobed, stated };
+enum class FieldState : std::uint8_t { inferred, broken, open, idle, unprobed, stated };
 
 struct ValueCount {
     std::string value{};
@@ -31,7 +32,7 @@ struct FieldFinding {
     std::uint64_t agree = 0, places = 0;    // k of n
     std::vector<ValueCount> runners_up{};   // best first; equal k first if the field is open
     std::optional<Contradiction> broken{};  // the first, if k < n
-    std::string reason{};                   // of a field that is neither inferred nor stated
+    std::string reason{};                   // of a field that is neither inferred, broken nor stated
 };
 
 // A scene that the profile does not explain.

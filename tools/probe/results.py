@@ -36,24 +36,24 @@ def measured(strata, kit_answers, unseen_answers, orientation, folder):
 
 def states(found):
     rules = [f for f in found["fields"] if f["state"] != "stated" and not f["field"].startswith(("has_", "max_"))]
-    return {s: [f["field"] for f in rules if f["state"] == s] for s in ("inferred", "open", "idle", "unprobed")}
+    return {s: [f["field"] for f in rules if f["state"] == s] for s in ("inferred", "broken", "open", "idle", "unprobed")}
 
 
 def row(name, orientation, found, scenes):
     s = states(found)
     total = {key: sum(scene[key] for scene in scenes) for key in ("pixels", "coverage_differ", "depth_differ", "color_differ")}
-    share = f"{len(s['inferred'])} of {len(s['inferred']) + len(s['open'])}"
+    share = f"{len(s['inferred'])} of {sum(len(s[k]) for k in ('inferred', 'broken', 'open'))}"
     return (f"| {name} | {orientation} | {share} | {found['agree']:,} of {found['pixels']:,} | {total['pixels']:,} | "
             f"{total['coverage_differ']:,} | {total['depth_differ']:,} | {total['color_differ']:,} |")
 
 
 def details(name, orientation, found):
     s = states(found)
-    lines = [f"### {name}, {orientation}", "", "| field | value | evidence | runners-up |", "|---|---|---|---|"]
+    lines = [f"### {name}, {orientation}", "", "| field | value | state | evidence | runners-up |", "|---|---|---|---|---|"]
     for f in found["fields"]:
-        if f["state"] == "inferred":
+        if f["state"] in ("inferred", "broken"):
             others = ", ".join(f"{v['value']} {v['agree']:,}" for v in f["runners_up"][:2])
-            lines.append(f"| {f['field']} | {f['value']} | {f['agree']:,} of {f['places']:,} | {others} |")
+            lines.append(f"| {f['field']} | {f['value']} | {f['state']} | {f['agree']:,} of {f['places']:,} | {others} |")
     lines += ["", "Open: " + ("; ".join(f"{f['field']} ({f['reason']})" for f in found["fields"] if f["state"] == "open") or "none") + ".",
               "No effect beside the others: " + (", ".join(s["idle"]) or "none") + "."]
     if found["unexplained"]:

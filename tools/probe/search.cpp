@@ -5,6 +5,7 @@
 
 #include "rasterizer/base/input_error.h"
 #include "tools/probe/kit.h"
+#include "tools/probe/scores.h"
 
 namespace strata::probe {
 
@@ -12,13 +13,10 @@ namespace {
 
 struct Candidate {
     DeviceProfile profile;
-    Tally tally{};
+    std::uint64_t points = 0;
 };
 
-using Numbers = std::vector<std::size_t>;
 using Keys = std::vector<std::string_view>;
-
-bool is_perfect(const Tally& t) { return t.equal == t.all; }
 
 // Coverage is searched before depth and colours: a start whose weights do not go with spans must not keep them out.
 DeviceProfile without_weights_of_spans(DeviceProfile profile) {
@@ -26,6 +24,8 @@ DeviceProfile without_weights_of_spans(DeviceProfile profile) {
     if (rules.coverage != rasterizer::CoverageRule::float_spans) return profile;
     rules.color = rasterizer::ColorInterpolation::exact_plane;
     if (rules.depth_path == rasterizer::DepthPath::window_z) rules.depth_path = rasterizer::DepthPath::float32;
+    if (rules.hypothesis.window_z == rasterizer::WindowZRule::chip)
+        rules.hypothesis.window_z = rasterizer::WindowZRule::exact;
     return profile;
 }
 
@@ -45,6 +45,17 @@ void combine(const Keys& keys, std::size_t next, DeviceProfile profile, std::vec
     }
 }
 
+// What a search looks at.
+struct View {
+    Scores& scores;
+    Numbers numbers;
+    Part part;
+    [[nodiscard]] std::uint64_t points(const DeviceProfile& profile, std::uint64_t bar = 0) const {
+        return scores.points(profile, numbers, part, bar);
+    }
+    [[nodiscard]] bool is_perfect(const Candidate& c) const { return c.points == scores.most(numbers, part); }
+};
+
 // The best of each kind: of equal values of the first two fields. Earlier candidates win ties.
 std::vector<Candidate> best_of_kinds(const Keys& keys, const std::vector<Candidate>& all, std::size_t most) {
     std::map<std::pair<int, int>, std::size_t> best;
@@ -52,112 +63,167 @@ std::vector<Candidate> best_of_kinds(const Keys& keys, const std::vector<Candida
         const int first = field(keys[0]).value(all[i].profile);
         const int second = keys.size() > 1 ? field(keys[1]).value(all[i].profile) : 0;
         const auto [at, is_new] = best.try_emplace({first, second}, i);
-        if (!is_new && all[i].tally.equal > all[at->second].tally.equal) at->second = i;
+        if (!is_new && all[i].points > all[at->second].points) at->second = i;
     }
     std::vector<std::size_t> order;
     for (const auto& [kind, i] : best) order.push_back(i);
     std::ranges::sort(order);
-    std::ranges::stable_sort(order,
-                             [&](std::size_t a, std::size_t b) { return all[a].tally.equal > all[b].tally.equal; });
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return all[a].points > all[b].points; });
     std::vector<Candidate> kept;
     for (const std::size_t i : order)
         if (kept.size() < most) kept.push_back(all[i]);
     return kept;
 }
 
-// Tries every value of `a` with every value of `b`. True if that gained.
-bool improve(const Comparison& device, const Numbers& numbers, const Keys& pair, Candidate& best) {
+// Tries all values of these fields together. True if that gained.
+bool improve(const View& view, const Keys& keys, Candidate& best) {
     std::vector<DeviceProfile> tried;
-    combine(pair, 0, best.profile, tried);
+    combine(keys, 0, best.profile, tried);
     bool gained = false;
     for (DeviceProfile& profile : tried) {
-        const Tally tally = device.tally(profile, numbers);
-        if (tally.equal <= best.tally.equal) continue;
-        best = {std::move(profile), tally};
+        const std::uint64_t points = view.points(profile, best.points);
+        if (points <= best.points) continue;
+        best = {std::move(profile), points};
         gained = true;
     }
     return gained;
 }
 
-// Two fields at a time, until no pair gains.
-void refine(const Comparison& device, const Numbers& numbers, const Keys& keys, Candidate& best) {
-    for (bool gained = true; gained && !is_perfect(best.tally);) {
+// A field that cannot change any of the scenes, or has no effect, need not be tried; with a second one it may have.
+bool is_of_use(const View& view, std::string_view key) {
+    return std::ranges::any_of(view.numbers, [&](std::size_t n) { return view.scores.can_change(key, n); });
+}
+
+// One field at a time, until none gains; then two at a time, and again.
+void refine(const View& view, const Keys& all, Candidate& best) {
+    Keys keys;
+    for (const std::string_view key : all)
+        if (is_of_use(view, key) && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+    for (bool gained = true; gained && !view.is_perfect(best);) {
         gained = false;
+        for (const std::string_view key : keys)
+            if (matters(key, best.profile)) gained |= improve(view, {key}, best);
+        if (gained) continue;
         for (std::size_t a = 0; a < keys.size(); ++a)
-            for (std::size_t b = a + 1; b < keys.size() && !is_perfect(best.tally); ++b)
-                if (matters(keys[a], best.profile) || matters(keys[b], best.profile))
-                    gained |= improve(device, numbers, {keys[a], keys[b]}, best);
+            for (std::size_t b = 0; b < keys.size() && !view.is_perfect(best); ++b)
+                if (a != b && matters(keys[a], best.profile) && (a < b || !matters(keys[b], best.profile)))
+                    gained |= improve(view, {keys[a], keys[b]}, best);
     }
 }
 
-std::vector<Candidate> tallied(const Comparison& device, const Numbers& numbers, std::vector<DeviceProfile> profiles) {
+std::vector<Candidate> scored(const View& view, std::vector<DeviceProfile> profiles) {
     std::vector<Candidate> all;
     for (DeviceProfile& profile : profiles) {
-        const Tally tally = device.tally(profile, numbers);
-        all.push_back({std::move(profile), tally});
+        const std::uint64_t points = view.points(profile);
+        all.push_back({std::move(profile), points});
     }
     return all;
 }
 
-// The first of the best.
-Candidate best_of(std::vector<Candidate> all) {
-    return *std::ranges::max_element(all, {}, [](const Candidate& c) { return c.tally.equal; });
-}
-
 // Kinds that go on to all scenes.
-constexpr std::size_t most_kinds = 8;
+constexpr std::size_t most_kinds = 6;
 
-DeviceProfile search_group(const FieldGroup& group, const Comparison& device, const DeviceProfile& start) {
-    const Numbers numbers = device.items_of(group.items);
-    if (numbers.empty()) return start;
+DeviceProfile search_group(const FieldGroup& group, Scores& scores, const DeviceProfile& start) {
+    const View view{scores, scores.device().items_of(group.items), group.part};
+    if (view.numbers.empty()) return start;
+    const View first{scores, {view.numbers.front()}, group.part};
     std::vector<DeviceProfile> combinations;
     combine(group.joint, 0, start, combinations);
-    if (combinations.size() <= 64 && group.refined.empty())
-        return best_of(tallied(device, numbers, std::move(combinations))).profile;
-    const std::vector<Candidate> sifted =
-        best_of_kinds(group.joint, tallied(device, {numbers.front()}, std::move(combinations)), most_kinds);
-    std::vector<Candidate> finalists;
-    for (const Candidate& candidate : sifted) {
-        Candidate final{candidate.profile, device.tally(candidate.profile, numbers)};
-        refine(device, numbers, group.refined, final);
-        // What the sifting scene left open, the others may tell.
-        refine(device, numbers, group.joint, final);
-        finalists.push_back(final);
-        if (is_perfect(final.tally)) break;
-    }
-    return best_of(std::move(finalists)).profile;
-}
-
-// A guard band has thousands of values. The scenes have a triangle for each of some reaches (kit_clip.cpp): with a band
-// that is too near some are cut that are whole, so the first of the best reaches is next to the true one. All values there
-// are tried.
-DeviceProfile search_guard_band(const Comparison& device, const DeviceProfile& start) {
-    const Numbers numbers = device.items_of({"clip.guard-band"});
-    if (numbers.empty() || !matters("raster.guard_band_px", start)) return start;
-    std::vector<int> coarse = guard_reaches();
-    coarse.push_back(field("raster.guard_band_px").highest);
-    const auto with = [&](int guard) {
-        Candidate candidate{start};
-        candidate.profile.raster.guard_band_px = guard;
-        candidate.tally = device.tally(candidate.profile, numbers);
-        return candidate;
-    };
-    std::size_t nearest = 0;
-    Candidate best = with(coarse[0]);
-    for (std::size_t i = 1; i < coarse.size(); ++i) {
-        Candidate candidate = with(coarse[i]);
-        if (candidate.tally.equal > best.tally.equal) {
-            best = std::move(candidate);
-            nearest = i;
-        }
-    }
-    const int first = coarse[nearest == 0 ? 0 : nearest - 1], last = coarse[std::min(nearest + 1, coarse.size() - 1)];
-    for (int guard = first; guard <= last && !is_perfect(best.tally); ++guard) {
-        Candidate candidate = with(guard);
-        if (candidate.tally.equal > best.tally.equal) best = std::move(candidate);
+    if (combinations.empty()) return start;
+    Keys keys = group.joint;
+    keys.insert(keys.end(), group.refined.begin(), group.refined.end());
+    Candidate best{start, view.points(start)};
+    for (const Candidate& sifted : best_of_kinds(group.joint, scored(first, std::move(combinations)), most_kinds)) {
+        Candidate one = sifted;
+        refine(first, keys, one);
+        one.points = view.points(one.profile);
+        refine(view, keys, one);
+        if (one.points > best.points) best = std::move(one);
+        if (view.is_perfect(best)) break;
     }
     return best.profile;
 }
+
+// The nearest reach (kit.h) whose triangle the device did not draw as if no guard band cut it: the band is nearer. Triangles that are
+// whole agree in every pixel; of those that are cut one may, by chance.
+int first_cut_reach(const Scores& scores, DeviceProfile profile) {
+    const Comparison& device = scores.device();
+    const std::vector<int> reaches = guard_reaches();
+    std::size_t first = reaches.size();
+    profile.raster.guard_band_px = field("raster.guard_band_px").highest;
+    for (const std::size_t n : device.items_of({"clip.guard-band"})) {
+        const std::vector<bool> equal = device.equal(device.drawn(profile, n), n);
+        const auto width = static_cast<std::size_t>(device.item(n).width);
+        for (std::size_t place = 0; place < equal.size(); ++place) {
+            const std::size_t row = place / width % reaches.size();
+            const std::size_t reach = device.orientation() == YDirection::down ? row : reaches.size() - 1 - row;
+            if (!equal[place]) first = std::min(first, reach);
+        }
+    }
+    return first < reaches.size() ? reaches[first] : field("raster.guard_band_px").highest;
+}
+
+// Only the true guard band explains all triangles that it cuts, and a near miss no more than a far one: so all values are tried,
+// downwards from the first triangle that is seen to be cut; beyond 131,072 pixels every second or so.
+void search_guard_band(const View& view, Candidate& best) {
+    if (!matters("raster.guard_band_px", best.profile) || view.is_perfect(best)) return;
+    const int last = first_cut_reach(view.scores, best.profile), first = std::max(256, last - last / 4);
+    for (int value = last; value >= first; value -= 1 + value / 131'072) {
+        DeviceProfile tried = best.profile;
+        tried.raster.guard_band_px = value;
+        const std::uint64_t points = view.points(tried, best.points);
+        if (points > best.points) best = {std::move(tried), points};
+        if (view.is_perfect(best)) return;
+    }
+}
+
+// A guard band is cut like the view volume where it is as near: whether there is one is known when it has been searched.
+DeviceProfile search_clip(const FieldGroup& group, Scores& scores, const DeviceProfile& start) {
+    const View view{scores, scores.device().items_of(group.items), group.part};
+    DeviceProfile found = search_group(group, scores, start);
+    Candidate best{found, view.points(found)};
+    found.raster.clip = rasterizer::ClipVolume::guard_band;
+    found.raster.guard_band_px = field("raster.guard_band_px").highest;
+    Candidate other{found, view.points(found)};
+    search_guard_band(view, other);
+    refine(view, group.joint, other);
+    search_guard_band(view, other);
+    return other.points > best.points ? other.profile : best.profile;
+}
+
+// What the groups left: fields that can change a scene that is not explained, until the whole kit gains no more.
+DeviceProfile repaired(Scores& scores, const DeviceProfile& start) {
+    View all{scores, scores.device().items_of({""}), Part::both};
+    Candidate best{start, all.points(start)};
+    const auto is_explained = [&](std::size_t n) {
+        return scores.points(best.profile, n, Part::both) == scores.most(n, Part::both);
+    };
+    for (std::uint64_t before = 0; before != best.points && !all.is_perfect(best);) {
+        before = best.points;
+        // The scenes that are not explained come first: a worse profile is told by them.
+        std::ranges::stable_partition(all.numbers, [&](std::size_t n) { return !is_explained(n); });
+        View wrong{scores, {}, Part::both};
+        for (const std::size_t n : all.numbers)
+            if (!is_explained(n)) wrong.numbers.push_back(n);
+        Keys keys;
+        for (const ProfileField* f : probed_fields())
+            if (is_of_use(wrong, f->key)) keys.push_back(f->key);
+        refine(all, keys, best);
+        search_guard_band(all, best);
+    }
+    return best.profile;
+}
+
+// The groups one after the other, from one device on.
+Candidate searched_from(Scores& scores, DeviceProfile profile) {
+    for (const FieldGroup& group : field_groups())
+        profile = (group.name == "clip" ? search_clip : search_group)(group, scores, profile);
+    profile = repaired(scores, profile);
+    const View all{scores, scores.device().items_of({""}), Part::both};
+    return {profile, all.points(profile)};
+}
+
+constexpr std::size_t most_starts = 3;
 
 }  // namespace
 
@@ -178,11 +244,18 @@ DeviceProfile with_features(DeviceProfile profile, const ProbePack& pack) {
 }
 
 DeviceProfile searched(const Comparison& device, const ProbePack& pack) {
+    Scores scores{device};
+    const View all{scores, device.items_of({""}), Part::both};
     std::vector<DeviceProfile> starts;
     for (const DeviceProfile& profile : pipeline::builtin_profiles()) starts.push_back(with_features(profile, pack));
-    DeviceProfile profile = best_of(tallied(device, device.items_of({""}), std::move(starts))).profile;
-    for (const FieldGroup& group : field_groups()) profile = search_group(group, device, profile);
-    return search_guard_band(device, profile);
+    std::vector<Candidate> ranked = scored(all, std::move(starts));
+    std::ranges::stable_sort(ranked, std::ranges::greater{}, &Candidate::points);
+    Candidate best = ranked.front();
+    for (std::size_t i = 0; i < std::min(most_starts, ranked.size()) && !all.is_perfect(best); ++i) {
+        Candidate found = searched_from(scores, ranked[i].profile);
+        if (found.points > best.points) best = std::move(found);
+    }
+    return best.profile;
 }
 
 }  // namespace strata::probe

@@ -2,9 +2,11 @@
 //
 // Rule     Starts from the built-in profile that agrees best, with the device's own features and limits. Group after group:
 //          every valid combination of the joint fields is tried on the group's first scene; the best of each kind (by the
-//          first two fields) go on to all of its scenes, where pairs of the refined fields are tried until none gains. A
-//          value is left only for one under which more pixels agree.
-// Tests    tests/tools/probe/infer_test.cpp
+//          first two fields) go on to all of its scenes, where fields are tried one and two at a time until none gains. Points
+//          draw the search (comparison.h): a code that is nearly right counts, too, while other fields are not known yet. At last
+//          the fields of all scenes that are not explained are tried on the whole kit; if some stay, the search starts again
+//          from the next two built-in profiles.
+// Tests    tests/tools/probe/search_test.cpp, infer_test.cpp
 #pragma once
 #include "tools/probe/comparison.h"
 

@@ -25,6 +25,7 @@ TEST_CASE("every built-in device is found, and no scene is left unexplained") {
         CHECK(found.tally.equal == found.tally.all);
         CHECK(found.unexplained.empty());
         for (const FieldFinding& f : found.fields) {
+            CHECK(f.state != FieldState::broken);
             if (f.state != FieldState::inferred) continue;
             INFO(f.key);
             CHECK(f.value == pipeline::text_of(field(f.key), device));
@@ -48,6 +49,7 @@ TEST_CASE("one changed pixel breaks the evidence of the field that it decides, b
     const Inference found = infer(pack, kit(), YDirection::up);
     const FieldFinding& tie = finding(found, "raster.tie_rule");
     CHECK(tie.value == "bottom_left");
+    CHECK(tie.state == FieldState::broken);
     CHECK(tie.agree + 1 == tie.places);
     REQUIRE(tie.broken.has_value());
     CHECK(tie.broken->item == "coverage.ties");

@@ -71,10 +71,10 @@ std::string to_text(const Inference& result) {
     for (const FieldFinding& f : result.fields)
         if (f.state != FieldState::stated)
             table.rows.push_back({f.key, f.value, std::string{probe::name(f.state)}, evidence(f), runners_up(f)});
-    const std::size_t inferred = count(result, FieldState::inferred), open = count(result, FieldState::open);
     return tools::to_text(table) +
-           fmt::format("{} fields inferred, {} open; {} of {} pixels agree\n", inferred, open, result.tally.equal,
-                       result.tally.all) +
+           fmt::format("{} fields inferred, {} broken, {} open; {} of {} pixels agree\n",
+                       count(result, FieldState::inferred), count(result, FieldState::broken),
+                       count(result, FieldState::open), result.tally.equal, result.tally.all) +
            left_over(result);
 }
 

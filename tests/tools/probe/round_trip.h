@@ -1,0 +1,47 @@
+// One profile's way through the kit and back: from its answers alone another profile, held against it on scenes of another
+// generator than the kit's.
+#pragma once
+#include <fmt/format.h>
+
+#include "tools/probe/draw_item.h"
+#include "tools/probe/infer.h"
+#include "tools/probe/kit.h"
+#include "tools/probe/random_profile.h"
+
+namespace strata::probe {
+
+struct RoundTrip {
+    DeviceProfile truth{};
+    Inference found{};
+    Difference unseen{};
+    // Unseen scenes that the two draw, and that one alone refuses.
+    int drawn = 0, refused_by_one = 0;
+    [[nodiscard]] bool is_equal() const { return unseen.is_none() && refused_by_one == 0; }
+};
+
+// `y` as the device's frame has it.
+inline RoundTrip round_trip(const DeviceProfile& truth, const std::vector<Item>& unseen, YDirection y) {
+    RoundTrip trip{.truth = truth, .found = infer(answer(truth, kit(), {y}), kit(), y)};
+    for (const Item& item : unseen) {
+        const Reply a = draw_item(truth, item, y), b = draw_item(trip.found.profile, item, y);
+        if (a.answer.has_value() != b.answer.has_value()) ++trip.refused_by_one;
+        if (!a.answer || !b.answer) continue;
+        ++trip.drawn;
+        trip.unseen += difference(*a.answer, *b.answer);
+    }
+    return trip;
+}
+
+// Fields that have an effect and came back otherwise: of a trip whose pictures are equal, those that stand for each other.
+inline std::string other_values_of(const RoundTrip& trip) {
+    std::string text;
+    for (const ProfileField* f : probed_fields()) {
+        const DeviceProfile& found = trip.found.profile;
+        if (!matters(f->key, trip.truth) && !matters(f->key, found)) continue;
+        if (f->value(trip.truth) == f->value(found)) continue;
+        text += fmt::format(" {}={}({})", f->key, pipeline::text_of(*f, trip.truth), pipeline::text_of(*f, found));
+    }
+    return text;
+}
+
+}  // namespace strata::probe

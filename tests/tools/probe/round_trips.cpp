@@ -1,0 +1,41 @@
+// Random profiles from their answers alone: probe_round_trips [first=0] [count=200] [y=up]. A line a profile that came back with
+// other fields, true and found; exit status 1 if one of them draws an unseen scene otherwise.
+#include <cstdlib>
+#include <cstring>
+
+#include "rasterizer/base/numerics.h"
+#include "tests/tools/probe/round_trip.h"
+
+using namespace strata::probe;
+
+namespace {
+
+int setting(int argc, char** argv, const char* name, int otherwise) {
+    const std::size_t length = std::strlen(name);
+    for (int i = 1; i < argc; ++i)
+        if (std::strncmp(argv[i], name, length) == 0 && argv[i][length] == '=') return std::atoi(argv[i] + length + 1);
+    return otherwise;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const int first = setting(argc, argv, "first", 0), count = setting(argc, argv, "count", 200);
+    const std::vector<Item> unseen = unseen_scenes(100, 20);
+    int equal = 0, whole = 0;
+    for (int i = first; i < first + count; ++i) {
+        const RoundTrip trip = round_trip(random_profile(i), unseen, i % 2 == 0 ? YDirection::up : YDirection::down);
+        const Difference& d = trip.unseen;
+        equal += trip.is_equal() ? 1 : 0;
+        whole += trip.found.tally.equal == trip.found.tally.all ? 1 : 0;
+        fmt::print(
+            "{} {}: kit {} of {}, unseen {} of {} differ (coverage {}, depth {}, colour {}), refused by one {}:{}\n", i,
+            trip.is_equal() ? "equal" : "OTHER", trip.found.tally.all - trip.found.tally.equal, trip.found.tally.all,
+            d.coverage + d.depth + d.color, d.pixels, d.coverage, d.depth, d.color, trip.refused_by_one,
+            other_values_of(trip));
+        std::fflush(stdout);
+    }
+    fmt::print("{} of {} profiles come back with every pixel of 20 unseen scenes; {} with every pixel of the kit\n",
+               equal, count, whole);
+    return equal == count ? 0 : 1;
+}

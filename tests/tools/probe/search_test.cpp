@@ -1,0 +1,55 @@
+// Model: pictures that are drawn, where a search takes them for drawn.
+#include "tools/probe/search.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/tools/probe/round_trip.h"
+#include "tools/probe/draw_item.h"
+#include "tools/probe/kit.h"
+
+using namespace strata;
+using namespace strata::probe;
+
+namespace {
+
+// Another value of the field, if a device could have it.
+std::optional<DeviceProfile> turned(const DeviceProfile& profile, const ProfileField& f) {
+    DeviceProfile other = profile;
+    f.set(other, f.value(profile) == f.lowest ? f.highest : f.lowest);
+    if (f.key == "raster.guard_band_px") f.set(other, 256 + f.value(profile) / 2);
+    if (!is_valid(other)) return std::nullopt;
+    return other;
+}
+
+}  // namespace
+
+TEST_CASE("three devices that nobody built come back from their answers alone") {
+    const std::vector<Item> unseen = unseen_scenes(100, 20);
+    for (const int number : {0, 2, 4}) {
+        const RoundTrip trip = round_trip(random_profile(number), unseen, YDirection::down);
+        INFO("profile " << number << other_values_of(trip));
+        CHECK(trip.is_equal());
+        CHECK(trip.drawn > 0);
+        CHECK(trip.found.tally.equal == trip.found.tally.all);
+    }
+}
+
+TEST_CASE("a field that matters not, or cannot change a scene, changes no bit of it") {
+    for (int number = 0; number < 8; ++number) {
+        const DeviceProfile profile = random_profile(number);
+        for (const Item& item : kit()) {
+            if (item.width == 256) continue;
+            const Reply drawn = draw_item(profile, item, YDirection::down);
+            for (const ProfileField* f : probed_fields()) {
+                const std::optional<DeviceProfile> other = turned(profile, *f);
+                if (!other) continue;
+                // The field matters under neither value, for one that turns on others it does under one.
+                if (can_change(f->key, item) && (matters(f->key, profile) || matters(f->key, *other))) continue;
+                INFO("profile " << number << ", " << item.name << ", " << f->key);
+                const Reply again = draw_item(*other, item, YDirection::down);
+                CHECK(drawn.answer == again.answer);
+            }
+        }
+    }
+}
