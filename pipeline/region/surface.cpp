@@ -84,6 +84,15 @@ PreparedDraw prepared(const DeviceProfile& profile, const SurfaceLayout& layout,
     return list;
 }
 
+// Every pixel of `target` gets its codes from a batch that is the same in all places.
+template <class Target>
+void store_everywhere(Region& region, Target target, std::size_t pixels, const ColorCodes& codes) {
+    for (std::size_t first = 0; first < pixels; first += batch_capacity)
+        RegionShortcuts{region}.store_pixels(target, static_cast<std::uint32_t>(first),
+                                             static_cast<int>(std::min<std::size_t>(batch_capacity, pixels - first)),
+                                             codes);
+}
+
 }  // namespace
 
 Surface::Surface(const DeviceProfile& profile, const SurfaceLayout& layout) {
@@ -99,20 +108,20 @@ Surface::Surface(Surface&&) noexcept = default;
 Surface& Surface::operator=(Surface&&) noexcept = default;
 
 void Surface::clear_color(const PixelCode& value) {
-    fill([&](int, int) { return value; });
+    ColorCodes codes{};
+    for (int c = 0; c < 4; ++c) {
+        const auto channel = static_cast<std::size_t>(c);
+        codes[channel].fill(narrowed(state_->layout.color, c, value[channel]));
+    }
+    store_everywhere(state_->region, state_->color, state_->frame.rect().area(), codes);
 }
 
 // The code is stored as it is: a clear of a region would convert a float and could not name every code (formats.md
 // 5.5).
 void Surface::clear_depth(std::uint32_t code) {
-    State& s = *state_;
     ColorCodes codes{};
     codes[0].fill(code);
-    const std::size_t pixels = s.frame.rect().area();
-    for (std::size_t first = 0; first < pixels; first += batch_capacity)
-        RegionShortcuts{s.region}.store_pixels(s.depth, static_cast<std::uint32_t>(first),
-                                               static_cast<int>(std::min<std::size_t>(batch_capacity, pixels - first)),
-                                               codes);
+    store_everywhere(state_->region, state_->depth, state_->frame.rect().area(), codes);
 }
 
 void Surface::clear_stencil(std::uint8_t value) { state_->region.clear(state_->stencil, {.stencil = value}); }
