@@ -18,8 +18,8 @@ import same
 HEAD = """# What accuracy costs
 
 Made by `tools/cost/make_page.sh`; [reports.md](../../scenes/reference/reports.md) 10 says what is measured and how. Errors are those from
-the truth of the scene (nothing snapped, nothing stored), in 1/255. Times are ratios to the cheapest cell of their column; the spread is
-that of the rounds, so on a machine that does other things it is wide.
+the truth of the scene (nothing snapped, nothing stored), in 1/255. Times are of the processor, on one thread, and ratios to the cheapest
+cell of their column; beside them stands the spread of the rounds.
 """
 COLUMN_NAMES = {"default": "by default", "literal": "literally", "modelled": "on the card"}
 
@@ -85,6 +85,10 @@ def asked_and_found(folders, twice):
         rows = rows_of(os.path.join(folder, "cost.csv"))
         counts = [f"{distinct_points(folder, picture, rows)} {COLUMN_NAMES[picture.split('.')[-2]]}" for picture in pictures_of(folder)]
         asked.append([f"{rows[0]['scene']}: a frontier of at least six distinct points", ", ".join(counts)])
+        drawn = [row for row in rows if row["outcome"] == "done" and row["knob"] not in ("chain", "alone")]
+        timed = [row for row in drawn if row["default"]]
+        asked.append([f"{rows[0]['scene']}: every knob, with its times",
+                      f"{len({row['knob'] for row in rows})} knobs in {len(rows)} cells; {len(timed)} of {len(drawn)} are timed"])
         last = next(row["rmse"] for row in rows if row["knob"] == "chain" and row["value"] == "store")
         asked.append([f"{rows[0]['scene']}: the link made exact last leaves 0", f"RMSE {rounded(last)}"])
     asked.append(["every sentence agrees with its row", "`tools_test \"every sentence agrees*\"` parses each and compares it"])

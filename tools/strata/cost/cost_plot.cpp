@@ -84,11 +84,11 @@ std::string frontier_svg(const std::vector<CostPoint>& points, const std::string
     const PowerAxis y = power_axis(
         points, [](const CostPoint& p) { return p.error; }, plot_bottom, plot_top);
     std::string svg =
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"860\" height=\"470\" font-family=\"sans-serif\" "
-        "font-size=\"12\">\n<rect width=\"860\" height=\"470\" fill=\"#fff\"/>\n" +
-        words(plot_left, 20, "start", escaped(title)) + grid(x, y) +
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"960\" height=\"470\" font-family=\"sans-serif\" "
+        "font-size=\"12\">\n<rect width=\"960\" height=\"470\" fill=\"#fff\"/>\n" +
+        words(plot_left + 40, 20, "start", escaped(title)) + grid(x, y) +
         words((plot_left + plot_right) / 2, plot_bottom + 36, "middle", time_label) +
-        words(8, plot_top - 6, "start", "RMSE / 255");
+        words(8, 20, "start", "RMSE / 255");
     for (const CostPoint& p : points)
         svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"#999\"><title>{}</title></circle>\n",
                            x.at(p.time), y.at(p.error), p.name);

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 
+#include "peeling/registry.h"
 #include "peeling/truth/chain_list.h"
 #include "tools/strata/bench/bench_report.h"
 #include "tools/strata/cost/cost_run.h"
@@ -85,6 +86,13 @@ void relate_spread(std::vector<CostRow>& rows, std::optional<TimeSpread> CostRow
             TimeSpread& s = *(row.*column);
             s = {s.median * factor, s.least * factor, s.greatest * factor};
         });
+}
+
+// The oracle is no device's algorithm, and to sort triangles is the processor's work: the card's rates tell neither.
+[[nodiscard]] bool runs_on_a_card(const std::string& name) {
+    const peeling::Algorithm* const algorithm = peeling::find_algorithm(name);
+    if (algorithm == nullptr) return true;
+    return !algorithm->is_oracle && algorithm->order != peeling::ListOrder::back_to_front;
 }
 
 }  // namespace
@@ -170,10 +178,7 @@ std::vector<CostRow> cost_rows(const Lines& lines, const Lines& timings) {
             row.rmse = line.at("rmse");
             row.from_default = line.at("from_default");
         }
-        // The oracle is no device's algorithm: one pass of it on a card means nothing.
-        const peeling::Algorithm* const algorithm = peeling::find_algorithm(line.at("algorithm").get<std::string>());
-        const bool is_oracle = algorithm != nullptr && algorithm->is_oracle;
-        if (!is_oracle && !line.at("modelled_seconds").is_null())
+        if (runs_on_a_card(line.at("algorithm").get<std::string>()) && !line.at("modelled_seconds").is_null())
             row.modelled = line.at("modelled_seconds").get<double>();
         if (const auto timing = timing_of.find(line.at("cell")); timing != timing_of.end()) {
             row.usual = spread_in(*timing->second, "default");
