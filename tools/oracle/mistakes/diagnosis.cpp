@@ -134,9 +134,8 @@ Lineup::Judged Lineup::judge(std::span<const Mistake* const> mistakes, const Pic
     const Evidence evidence{candidate, tolerances, right_agrees, {}};
     const Finding right = evidence.of({}, laboratory_.right());
     Judged judged{.finding = evidence.of(made, *picture)};
-    Diagnosis scene{.pixels = right_agrees.size(), .differing = right_agrees.size() - right.agreeing};
-    judged.fits = judged.finding.agreeing == scene.pixels ||
-                  (right.nearly != scene.pixels && is_nearly_whole(judged.finding, scene));
+    const std::uint64_t pixels = right_agrees.size();
+    judged.fits = judged.finding.agreeing == pixels || (right.nearly != pixels && judged.finding.nearly == pixels);
     if (passes == nullptr || !judged.fits) return judged;
     const auto right_passes = laboratory_.compare_passes({}, *passes);
     if (!right_passes || right_passes->targets == 0) return judged;

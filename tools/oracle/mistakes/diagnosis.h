@@ -60,8 +60,8 @@ class Lineup {
                                      const ShowProgress& progress = {},
                                      const std::vector<PassPicture>* passes = nullptr) const;
 
-    // The machine with those of `mistakes` that can be made on this scene. It fits if the candidate's picture is its own, or nearly, and
-    // its passes do not contradict.
+    // The machine with those of `mistakes` that can be made on this scene. It fits if the candidate's picture is its own, or is so within
+    // one code where the right machine's is not, and its passes do not contradict.
     struct Judged {
         Finding finding{};
         bool fits = false;
