@@ -16,7 +16,8 @@ namespace {
 using pipeline::ChannelType;
 using pipeline::Image;
 
-constexpr int most_width_px = 160, space_px = 4, caption_px = letter_height_px + 2, left_px = 64;
+// Wide pictures lose pixels, small ones are enlarged: below 60 pixels a column has no room for its name.
+constexpr int most_width_px = 160, least_width_px = 60, space_px = 4, caption_px = letter_height_px + 2, left_px = 64;
 
 // Of sample 0.
 double value_of(const Image& image, int x, int y, int c) {
@@ -59,18 +60,21 @@ std::array<std::uint32_t, 3> shown(const Image& image, const Range& range, int x
     return {grey, grey, grey};
 }
 
-// Every step-th pixel of every step-th row.
-Image thinned(const Image& image) {
+// Every step-th pixel of every step-th row, or each as a square.
+Image fitted(const Image& image) {
     const int step = (image.width + most_width_px - 1) / most_width_px;
-    Image small{pipeline::Format::rgba8, (image.width + step - 1) / step, (image.height + step - 1) / step};
+    const int square =
+        std::clamp((least_width_px + image.width - 1) / image.width, 1, std::max(1, most_width_px / image.height));
+    Image cell{pipeline::Format::rgba8, (image.width + step - 1) / step * square,
+               (image.height + step - 1) / step * square};
     const Range range = image.channels() == 1 ? range_of(image) : Range{};
-    for (int y = 0; y < small.height; ++y)
-        for (int x = 0; x < small.width; ++x) {
-            const auto rgb = shown(image, range, x * step, y * step);
-            for (std::size_t c = 0; c < 3; ++c) small.codes[small.index(x, y, static_cast<int>(c))] = rgb[c];
-            small.codes[small.index(x, y, 3)] = 255;
+    for (int y = 0; y < cell.height; ++y)
+        for (int x = 0; x < cell.width; ++x) {
+            const auto rgb = shown(image, range, x / square * step, y / square * step);
+            for (std::size_t c = 0; c < 3; ++c) cell.codes[cell.index(x, y, static_cast<int>(c))] = rgb[c];
+            cell.codes[cell.index(x, y, 3)] = 255;
         }
-    return small;
+    return cell;
 }
 
 void fill(Image& image, int x0, int y0, int x1, int y1, std::uint32_t grey) {
@@ -85,7 +89,7 @@ void ContactSheet::add(const PassShown& pass) {
     Row row{fmt::format("{} {}", pass.number, pass.kind == PassKind::full_screen ? "quad" : name(pass.kind)), {}};
     for (const NamedImage& target : pass.targets) {
         const bool is_written = std::ranges::find(pass.writes, target.name) != pass.writes.end();
-        row.cells.push_back({target.name, thinned(target.image), is_written});
+        row.cells.push_back({target.name, fitted(target.image), is_written});
         width_ = std::max(width_, row.cells.back().picture.width);
         height_ = std::max(height_, row.cells.back().picture.height);
         if (std::ranges::find(columns_, target.name) == columns_.end()) columns_.push_back(target.name);

@@ -5,7 +5,7 @@
 
 Drawn are 15 single mistakes that the catalogue has, 5 that it has not, and 5 pairs of such as it has; for each three scenes with their sizes, formats,
 backgrounds and opacities, as a port's author has more than one. A scene is drawn again while the port's own picture of it does not change: the oracle is
-not asked for that, and its answers change nothing. A mistake that 60 scenes do not show three times is listed, and another one is drawn for it. The diagnosis has the packs
+not asked for that, and its answers change nothing. A mistake that 30 scenes do not show three times is listed, and another one is drawn for it. The diagnosis has the packs
 and the candidates' files alone. No row is left out or made again. Exit status 1: a right port is not named right.
 """
 import argparse
@@ -22,7 +22,7 @@ import packs  # noqa: E402
 
 HERE, ROOT = mistaken.HERE, mistaken.ROOT
 SCENES = 3
-DRAWS = 60  # scenes for one mistake at most
+DRAWS = 30  # scenes for one mistake at most
 WANTED = {"single": 15, "outside": 5, "pair": 5}
 
 

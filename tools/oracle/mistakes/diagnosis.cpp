@@ -60,6 +60,14 @@ Finding finding(std::vector<const Mistake*> mistakes, const Agreement& agrees, c
     return found;
 }
 
+// Whether all pixels of a picture are alike: nothing is drawn in it.
+bool is_blank(const Picture& picture) {
+    return std::ranges::all_of(picture.targets, [](const Target& t) {
+        const auto channels = static_cast<std::ptrdiff_t>(t.channels);
+        return std::equal(t.codes.begin() + channels, t.codes.end(), t.codes.begin());
+    });
+}
+
 // body(i) for i below count, on all cores.
 void for_all(std::size_t count, const ShowProgress& progress, const std::function<void(std::size_t)>& body) {
     std::atomic<std::size_t> done = 0;
@@ -126,9 +134,8 @@ Lineup::Judged Lineup::judge(std::span<const Mistake* const> mistakes, const Pic
     const Evidence evidence{candidate, tolerances, right_agrees, {}};
     const Finding right = evidence.of({}, laboratory_.right());
     Judged judged{.finding = evidence.of(made, *picture)};
-    Diagnosis scene{.pixels = right_agrees.size(), .differing = right_agrees.size() - right.agreeing};
-    judged.fits = judged.finding.agreeing == scene.pixels ||
-                  (right.nearly != scene.pixels && is_nearly_whole(judged.finding, scene));
+    const std::uint64_t pixels = right_agrees.size();
+    judged.fits = judged.finding.agreeing == pixels || (right.nearly != pixels && judged.finding.nearly == pixels);
     if (passes == nullptr || !judged.fits) return judged;
     const auto right_passes = laboratory_.compare_passes({}, *passes);
     if (!right_passes || right_passes->targets == 0) return judged;
@@ -316,7 +323,8 @@ void Lineup::try_pairs(const Evidence& evidence, const ShowProgress& progress, D
     std::ranges::stable_sort(pairs, [](const TwoSuspects& x, const TwoSuspects& y) {
         return std::pair{x.against, y.known} < std::pair{y.against, x.known};
     });
-    pairs.resize(std::min(pairs.size(), most_pairs));
+    // Where nothing is drawn, all who draw nothing fit, and two mistakes more easily than one. What became of the background says more.
+    pairs.resize(is_blank(evidence.candidate) ? 0 : std::min(pairs.size(), most_pairs));
     pairs.insert(pairs.begin(), finished.begin(), finished.end());
     std::vector<std::optional<Finding>> found(pairs.size());
     for_all(pairs.size(), progress, [&](std::size_t i) {

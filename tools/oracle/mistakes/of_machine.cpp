@@ -1,4 +1,5 @@
 // tools/oracle/mistakes/of_machine.cpp - mistakes in formats, rasterizer state and the options of a peel.
+#include "rasterizer/base/fused.h"
 #include "tools/oracle/mistakes/catalogue.h"
 
 namespace strata::oracle {
@@ -27,15 +28,21 @@ bool takes_color(Experiment& e, Format format) {
     return true;
 }
 
-// Clip x and y move by so many pixels' share of w, to the right and up: behind the vertex stage, so that no product of it rounds otherwise.
+// Clip x and y move by so many pixels' share of w, to the right and up: behind the vertex stage, so that no product of it rounds otherwise. A
+// device that fuses the viewport's sums fuses those of its shaders, too.
 bool moves(Experiment& e, double right_px, double up_px) {
     const auto x = static_cast<float>(2 * right_px / e.options.width);
     const auto y = static_cast<float>(2 * up_px / e.options.height);
-    e.alter_vertices({.vertices = [x, y](rasterizer::TriangleSoup& soup) {
+    const bool fuses = e.profile.raster.viewport != rasterizer::ViewportArithmetic::separate;
+    const auto moved = [fuses](float c, float by, float w) {
+        if (fuses) return rasterizer::fused_multiply_add(by, w, c);
+        const float distance = by * w;
+        return c + distance;
+    };
+    e.alter_vertices({.vertices = [x, y, moved](rasterizer::TriangleSoup& soup) {
         for (rasterizer::ClipVertex& v : soup.vertices) {
-            const float dx = x * v.w, dy = y * v.w;
-            v.x += dx;
-            v.y += dy;
+            v.x = moved(v.x, x, v.w);
+            v.y = moved(v.y, y, v.w);
         }
     }});
     return true;

@@ -1,5 +1,6 @@
 // tools/oracle/mistakes/of_scene.cpp - mistakes in what is handed to the machine: materials, textures, colours, order.
 #include <algorithm>
+#include <memory>
 
 #include "peeling/prepared_lists.h"
 #include "pipeline/vertices/prepare.h"
@@ -55,11 +56,35 @@ bool has_quotient_depth(const Experiment& e) {
     return peeling::takes_quotient({.path = e.algorithm->stores.value_or(own), .reference = compared});
 }
 
-// Attributes run linearly over the window; positions and depths stay as they are to the last bit.
+// Attributes run linearly over the window; positions and depths stay as they are to the last bit. What is cut is linear in clip space:
+// values times w are so where the values are linear over the window. Vertices that no cut made get their own values back.
 void make_affine(Experiment& e) {
-    e.alter_vertices({.corners = [](rasterizer::Geometry& geometry) {
-        for (rasterizer::WindowCorner& corner : geometry.corners) corner.inverse_w = 1.0f;
-    }});
+    using rasterizer::ClipVertex;
+    const auto times = [](ClipVertex& v, float factor) {
+        for (float& c : v.front) c *= factor;
+        for (float& c : v.back) c *= factor;
+        for (float& c : v.texcoord) c *= factor;
+    };
+    const auto given = std::make_shared<std::vector<ClipVertex>>();
+    e.alter_vertices({.vertices =
+                          [times, given](rasterizer::TriangleSoup& soup) {
+                              given->assign(soup.vertices.begin(), soup.vertices.end());
+                              for (ClipVertex& v : soup.vertices) times(v, v.w);
+                          },
+                      .corners =
+                          [times, given](rasterizer::Geometry& geometry) {
+                              for (std::size_t i = 0; i < geometry.vertices.size(); ++i) {
+                                  ClipVertex& v = geometry.vertices[i];
+                                  if (i >= given->size()) {
+                                      times(v, 1.0f / v.w);
+                                      continue;
+                                  }
+                                  v.front = (*given)[i].front;
+                                  v.back = (*given)[i].back;
+                                  v.texcoord = (*given)[i].texcoord;
+                              }
+                              for (rasterizer::WindowCorner& corner : geometry.corners) corner.inverse_w = 1.0f;
+                          }});
 }
 
 enum class Weighting : std::uint8_t { affine, unnormalised };

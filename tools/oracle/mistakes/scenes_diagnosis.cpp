@@ -83,7 +83,9 @@ ScenesDiagnosis diagnose_scenes(const std::vector<SceneEvidence>& scenes, const 
     gather_alike(result.findings);
     const ScenesFinding& best = result.findings.front();
     const bool fits_all = std::ranges::find(best.fits, false) == best.fits.end();
-    result.verdict = !fits_all                   ? Verdict::none_of_mine
+    // Within one code is not enough for most pixels.
+    const bool is_explained = fits_all && 2 * best.explained >= result.differing;
+    result.verdict = !is_explained               ? Verdict::none_of_mine
                      : best.mistakes.empty()     ? Verdict::right
                      : best.mistakes.size() == 1 ? Verdict::one_mistake
                                                  : Verdict::two_mistakes;

@@ -2,7 +2,8 @@
 //
 // Rule     Every scene is diagnosed by itself. Whoever is named in one of them, or explains all of its pixels there, is judged in all the others: who fits
 //          the most scenes is named, of several the one with fewer mistakes, then the one whose passes agree further. In a scene in
-//          which a mistake cannot be made, or hides, the right machine stands for it.
+//          which a mistake cannot be made, or hides, the right machine stands for it. Half of the pixels of all scenes that are not the right
+//          machine's have to be explained to the last code, and all within one.
 // Tests    tests/tools/oracle/mistakes/scenes_diagnosis_test.cpp
 #pragma once
 #include <string>

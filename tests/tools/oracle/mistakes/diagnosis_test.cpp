@@ -100,6 +100,19 @@ TEST_CASE("a picture that nobody knows is none of mine, and the best finding say
     CHECK(document["comparison"]["equal"] == false);
 }
 
+TEST_CASE("a picture in which nothing is drawn is no evidence of two mistakes") {
+    const Bench bench{"showroom.dual"};
+    const Lineup lineup{bench.laboratory};
+    Picture blank = bench.laboratory.right();
+    auto& codes = blank.targets[0].codes;
+    for (std::size_t i = 4; i < codes.size(); ++i) codes[i] = codes[i % 4];
+    const Diagnosis found = lineup.diagnose(blank);
+    CHECK(found.verdict == Verdict::none_of_mine);
+    for (const Finding& f : found.findings) CHECK((f.mistakes.size() < 2 || f.mistakes[1]->place == Place::picture));
+    codes[codes.size() / 2] ^= 1;
+    CHECK(lineup.diagnose(blank).pairs_tried > found.pairs_tried);
+}
+
 TEST_CASE("colours that are forgiven count as equal, and nothing is forgiven by itself") {
     const Bench bench{"showroom.weighted_sum"};
     const Lineup lineup{bench.laboratory};

@@ -83,6 +83,21 @@ TEST_CASE("two mistakes at once are named over several scenes") {
     CHECK(first_names(found) == FirstNames{"culls_all_backs", "red_for_blue"});
 }
 
+TEST_CASE("a scene whose colours are off by one code everywhere is explained by what explains the others") {
+    const Picture peeled = random_peel().bench.with("red_for_blue");
+    const auto off_by_one = [](Picture picture) {
+        for (std::uint32_t& code : picture.targets[0].codes) code = code < 255 ? code + 1 : 254;
+        return picture;
+    };
+    const Picture planes = off_by_one(planes_peel().bench.with("red_for_blue"));
+    CHECK(planes_peel().lineup.diagnose(planes).verdict == Verdict::none_of_mine);
+    const ScenesDiagnosis found = diagnosed(random_peel(), peeled, planes_peel(), planes);
+    CHECK(found.verdict == Verdict::one_mistake);
+    CHECK(first_names(found) == FirstNames{"red_for_blue"});
+    // Off by one in both, nobody explains most pixels to the last code.
+    CHECK(diagnosed(random_peel(), off_by_one(peeled), planes_peel(), planes).verdict == Verdict::none_of_mine);
+}
+
 TEST_CASE("a port that goes wrong in each scene by another mistake is none of mine") {
     const ScenesDiagnosis found = diagnosed(random_peel(), random_peel().bench.with("not_premultiplied"), planes_peel(),
                                             planes_peel().bench.with("upside_down"));
