@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""Makes tools/docs/gallery.md and its pictures: every built-in scene by every algorithm, with its error.
+
+    tools/docs/gallery.py build/release                 writes them anew
+    tools/docs/gallery.py build/release --check [SCENE] compares them, or one scene's, with what the program draws; exit status 1 if they differ
+
+A picture of the gallery is what an algorithm draws, above four times its difference from the exact A-buffer. Needs no package.
+"""
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+PICTURES = os.path.join(FOLDER, "pictures", "gallery")
+VIEW = ["--profile", "ideal", "--size", "96x72", "--background", "1,1,1"]
+SCENES = [  # name in the page, arguments, what to look at
+    ("teapot", ["teapot", "--alpha", "0.75", "--camera", os.path.join(FOLDER, "pictures", "teapot.json")],
+     "the inside is green: where it covers the outside, triangles were blended as they came"),
+    ("volume-beam", ["volume-beam:slices=16"], "planes that come far to near, and a cone across them"),
+    ("random", ["random:triangles=150"], "triangles that cross one another, and exact ties"),
+    ("planes", ["planes"], "six planes one behind the other that arrive far to near, so that `unsorted` is right, too"),
+    ("shadow-demo", ["shadow-demo"], "one transparent pane before an opaque teapot, lit by a shadow map"),
+    ("cyclic-overlap", ["hard:case=cyclic-overlap"], "three triangles, each before the next: no order of them is right"),
+]
+
+
+def rows_of_png(path):
+    """Width, and rows of red, green, blue bytes, of an 8-bit PNG without a palette."""
+    with open(path, "rb") as file:
+        data = file.read()
+    place, packed, width, channels = 8, b"", 0, 0
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        body = data[place + 8:place + 8 + length]
+        if kind == b"IHDR":
+            width, _, _, color = struct.unpack(">IIBB", body[:10])
+            channels = {2: 3, 6: 4}[color]
+        elif kind == b"IDAT":
+            packed += body
+        place += 12 + length
+    raw, step, before, rows = zlib.decompress(packed), width * channels, bytes(width * channels), []
+    for start in range(0, len(raw), step + 1):
+        row = bytearray(raw[start + 1:start + 1 + step])
+        for i in range(step):
+            left, up, corner = (row[i - channels], before[i], before[i - channels]) if i >= channels else (0, before[i], 0)
+            nearest = min((left, up, corner), key=lambda v: abs(left + up - corner - v))
+            row[i] = row[i] + (0, left, up, (left + up) // 2, nearest)[raw[start]] & 255
+        rows.append(bytes(v for i in range(0, step, channels) for v in row[i:i + 3]))
+        before = row
+    return width, rows
+
+
+def png_of(width, rows):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows), 9)) + chunk(b"IEND", b""))
+
+
+def drawn(program, arguments):
+    """Of each algorithm its picture above its error, and its entry of the statistics."""
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        run = [program, "render", *arguments, *VIEW, "--algorithm", "all", "-o", os.path.join(folder, "x.png"), "--stats", "-"]
+        entries = json.loads(subprocess.run(run, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout)
+        read = {e["algorithm"]: rows_of_png(os.path.join(folder, f"x.{e['algorithm']}.png")) for e in entries}
+    exact = read["a_buffer"][1]
+    for entry in entries:
+        width, rows = read[entry["algorithm"]]
+        errors = [bytes(min(255, 4 * abs(a - b)) for a, b in zip(row, right)) for row, right in zip(rows, exact)]
+        found.append((entry, width, rows + errors))
+    return found
+
+
+def caption(entry):
+    """What the audit says of a run."""
+    off = entry["max_difference_from_a_buffer"]
+    said = [f"{off:.1f}" if off is not None else "-"]
+    if entry["order_errors"]:
+        said.append(f"{entry['order_errors']} out of order")
+    if entry["lost_by_ties"]:
+        said.append(f"{entry['lost_by_ties']} lost by ties")
+    return ", ".join(said)
+
+
+def page_of(shown):
+    lines = ["# Gallery", "",
+             "Every built-in scene by every algorithm on the profile `ideal`: above what the algorithm draws, below four times its difference from the",
+             "exact A-buffer (black: none). The figure is the greatest difference of a channel in 1/255; beside it stand fragments blended out of order",
+             "and fragments lost at equal depths. Made by `tools/docs/gallery.py build/release`.", ""]
+    lines += [f"- **{name}**: `strata render {' '.join(arguments).replace(FOLDER + os.sep, 'tools/docs/')}`: {what}." for name, arguments, what in SCENES]
+    lines += ["", "| | " + " | ".join(name for name, _, _ in SCENES) + " |", "|---" * (len(SCENES) + 1) + "|"]
+    for i, (entry, _, _) in enumerate(shown[SCENES[0][0]]):
+        algorithm = entry["algorithm"]
+        cells = [f"![{name} by {algorithm}](pictures/gallery/{name}.{algorithm}.png) {caption(shown[name][i][0])}" for name, _, _ in SCENES]
+        lines.append(f"| `{algorithm}` | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def check(shown, whole):
+    """Which parts of the gallery are not what the program draws."""
+    wrong = []
+    for name, pictures in shown.items():
+        for entry, width, rows in pictures:
+            path = os.path.join(PICTURES, f"{name}.{entry['algorithm']}.png")
+            cell = f"({os.path.relpath(path, FOLDER)}) {caption(entry)} |"
+            if not os.path.exists(path) or rows_of_png(path) != (width, rows):
+                wrong.append(f"{path}: expected what the program draws")
+            elif cell not in whole:
+                wrong.append(f"gallery.md: expected {cell}")
+    size = sum(os.path.getsize(os.path.join(PICTURES, file)) for file in os.listdir(PICTURES))
+    return wrong + ([f"{PICTURES}: expected at most 2 MiB, found {size} bytes"] if size > 2 << 20 else [])
+
+
+def main():
+    program, asked = os.path.join(os.path.abspath(sys.argv[1]), "strata"), sys.argv[3:]
+    if not os.access(program, os.X_OK):
+        print(f"SKIPPED: no program {program}")
+        return 77
+    shown = {name: drawn(program, arguments) for name, arguments, _ in SCENES if not asked or name in asked}
+    if sys.argv[2:3] == ["--check"]:
+        with open(os.path.join(FOLDER, "gallery.md"), encoding="utf-8") as file:
+            wrong = check(shown, file.read())
+        print("\n".join(wrong) if wrong else f"{sum(map(len, shown.values()))} pictures are what the program draws")
+        return 1 if wrong or not shown else 0
+    os.makedirs(PICTURES, exist_ok=True)
+    for name, pictures in shown.items():
+        for entry, width, rows in pictures:
+            with open(os.path.join(PICTURES, f"{name}.{entry['algorithm']}.png"), "wb") as file:
+                file.write(png_of(width, rows))
+    with open(os.path.join(FOLDER, "gallery.md"), "w", encoding="utf-8") as file:
+        file.write(page_of(shown))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
