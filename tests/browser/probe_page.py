@@ -103,12 +103,13 @@ def main():
         with open(os.path.join(folder, "inferred.json"), "w", encoding="utf-8") as file:
             json.dump(found, file, indent=1)
         states = {f["field"]: f["state"] for f in found["fields"]}
-        wrong += [f"{key} is {states[key]}" for key in COVERAGE if states[key] != "inferred"]
+        # Colours of slivers rest on the same fields, by rules of planes that SwiftShader does not share.
+        broken = {f["field"]: f["broken_at"]["scene"] for f in found["fields"] if f["state"] == "broken"}
+        wrong += [f"{key} is {states[key]}" for key in COVERAGE
+                  if states[key] not in ("inferred", "broken") or broken.get(key, "").startswith("coverage.")]
         for scene in compared(strata, beside, profile, 10):
             print(json.dumps(scene))
-            # A device inferred rightly would differ in none. In Chromium 156 three scenes differ in up to 3 pixels, which nothing
-            # explains yet (tools/probe/README.md): this bound holds what was seen, it is no promise.
-            if scene["coverage_differ"] > 3:
+            if scene["coverage_differ"] != 0:
                 wrong.append(f"{scene['name']}: the coverage of {scene['coverage_differ']} pixels differs")
         print(json.dumps({"fields": {s: list(states.values()).count(s) for s in set(states.values())},
                           "pixels": found["pixels"], "agree": found["agree"]}))

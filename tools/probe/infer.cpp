@@ -103,6 +103,30 @@ class Evidence {
             finding.runners_up.push_back({pipeline::text_of(f, others[v]), agree[v]});
         std::ranges::stable_sort(finding.runners_up, std::ranges::greater{}, &ValueCount::agree);
         conclude(finding);
+        explain_coverage(f, others, items, finding);
+    }
+
+    // A value that explains fewer pixels than another, but more of which are covered, is the one that was found (search.cpp).
+    void explain_coverage(const ProfileField& f, const std::vector<DeviceProfile>& others,
+                          const std::vector<std::size_t>& items, FieldFinding& finding) const {
+        if (finding.runners_up.empty() || finding.runners_up.front().agree <= finding.agree) return;
+        const ValueCount& best = finding.runners_up.front();
+        const auto same = [&](const DeviceProfile& other) { return pipeline::text_of(f, other) == best.value; };
+        const DeviceProfile& other = *std::ranges::find_if(others, same);
+        std::uint64_t own = 0, its = 0;
+        for (const std::size_t item : items) {
+            own += coverage_wrong(drawn_[item], item);
+            its += coverage_wrong(device_.drawn(other, item), item);
+        }
+        if (own >= its) return;
+        finding.state = FieldState::broken;
+        finding.reason =
+            fmt::format("{} explains more pixels, but which are covered in {} fewer", best.value, its - own);
+    }
+
+    [[nodiscard]] std::uint64_t coverage_wrong(const Reply& drawn, std::size_t item) const {
+        const Answer& own = device_.answer(item);
+        return drawn.answer ? difference(own, *drawn.answer).coverage : own.color.codes.size();
     }
 
     [[nodiscard]] Hypothesis hypothesis(const DeviceProfile& profile, std::size_t item) const {

@@ -32,7 +32,7 @@ struct FieldFinding {
     std::uint64_t agree = 0, places = 0;    // k of n
     std::vector<ValueCount> runners_up{};   // best first; equal k first if the field is open
     std::optional<Contradiction> broken{};  // the first, if k < n
-    std::string reason{};                   // of a field that is neither inferred, broken nor stated
+    std::string reason{};                   // of a field that is neither inferred nor stated; of few that are broken
 };
 
 // A scene that the profile does not explain.

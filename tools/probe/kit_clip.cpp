@@ -6,7 +6,8 @@ namespace strata::probe {
 
 namespace {
 
-const std::vector<std::string> clip_fields{"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"};
+const std::vector<std::string> clip_fields{"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport",
+                                           "raster.window_z_rule"};
 
 Item plain_item(const std::string& name, const std::vector<std::string>& decides) {
     return {.name = name, .decides = decides, .width = 61, .height = 47};
@@ -15,12 +16,12 @@ Item plain_item(const std::string& name, const std::vector<std::string>& decides
 // One corner beyond: left or right, up or down, near or far, behind the eye.
 enum class Beyond : std::uint8_t { side, near_far, eye, all };
 
-Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const std::string& name) {
+Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const std::string& name, int triangles = 24) {
     Item item = plain_item(name, clip_fields);
     item.depth = format;
     Draw draw;
     Dice dice{seed};
-    for (int i = 0; i < 24; ++i) {
+    for (int i = 0; i < triangles; ++i) {
         std::array<Place, 3> p;
         for (std::size_t k = 0; k < 3; ++k) {
             const bool leaves = k == 0 || (beyond == Beyond::all && dice.below(2) == 0);
@@ -33,6 +34,39 @@ Item beyond_item(Beyond beyond, DepthFormat format, std::uint64_t seed, const st
         const Color color = code_color(i);
         add_triangle(item, draw, p, {color, color, color});
         if (beyond == Beyond::eye) draw.corners[draw.corners.size() - 3].w = -dice.between(0.1f, 2.0f);
+    }
+    item.draws = {draw};
+    return item;
+}
+
+// The same in a larger frame of other sides, with a depth range that is no power of two: the last bit of a new corner's
+// window position shows in x, y and z.
+Item corners_item(Beyond beyond, std::uint64_t seed, const std::string& name) {
+    Item item = beyond_item(beyond, DepthFormat::d32f, seed, name, 90);
+    item.width = 149;
+    item.height = 131;
+    item.depth_near = 0.1f;
+    item.depth_far = 0.9f;
+    return item;
+}
+
+// Slopes of a few codes that cross the near or the far plane: whether a fragment is outside is a matter of the last bit.
+Item skimming_item(DepthFormat format, std::uint64_t seed, const std::string& name) {
+    Item item = plain_item(name, {"raster.z_clip", "raster.window_z_rule", "raster.weights", "raster.sum_bits",
+                                  "raster.reciprocal_bits", "raster.reciprocal_deficit"});
+    item.depth = format;
+    Draw draw;
+    Dice dice{seed};
+    const float code = format == DepthFormat::d16 ? 0x1p-15f : 0x1p-23f;
+    for (int i = 0; i < 40; ++i) {
+        std::array<Place, 3> p;
+        const float plane = dice.below(2) == 0 ? -1.0f : 1.0f;
+        for (Place& place : p) {
+            place = random_place(dice, item, 0.0f);
+            place.z = plane + code * dice.between(-4, 4);
+        }
+        const Color color = code_color(i);
+        add_triangle(item, draw, p, {color, color, color});
     }
     item.draws = {draw};
     return item;
@@ -76,6 +110,11 @@ void add_clip(std::vector<Item>& items) {
     items.push_back(beyond_item(Beyond::eye, DepthFormat::d24, 45, "clip.eye-d24"));
     items.push_back(beyond_item(Beyond::all, DepthFormat::d32f, 46, "clip.all"));
     items.push_back(beyond_item(Beyond::all, DepthFormat::d24, 47, "clip.all-d24"));
+    items.push_back(corners_item(Beyond::side, 48, "clip.corners-of-sides"));
+    items.push_back(corners_item(Beyond::near_far, 49, "clip.corners-of-near-far"));
+    items.push_back(corners_item(Beyond::all, 50, "clip.corners-of-all"));
+    items.push_back(skimming_item(DepthFormat::d24, 54, "clip.skimming-d24"));
+    items.push_back(skimming_item(DepthFormat::d16, 55, "clip.skimming-d16"));
     items.push_back(guard_item(DepthFormat::d32f, "clip.guard-band"));
     items.push_back(guard_item(DepthFormat::d24, "clip.guard-band-d24"));
 }

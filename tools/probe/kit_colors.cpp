@@ -15,12 +15,19 @@ const std::vector<std::string> color_fields{
     "raster.weights",     "raster.reciprocal_bits", "raster.reciprocal_deficit", "raster.plane_rule",
     "raster.plane_origin"};
 
+struct Frame {
+    int width = 61, height = 47, triangles = 30;
+};
+// A few pixels of ten thousand tell one reciprocal from another.
+constexpr Frame large{251, 199, 250};
+
 // Colours at every corner; w is 1 or differs.
-Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const std::string& name) {
-    Item item{.name = name, .decides = color_fields, .width = 61, .height = 47, .color = format};
+Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const std::string& name,
+                 const Frame& frame = {}) {
+    Item item{.name = name, .decides = color_fields, .width = frame.width, .height = frame.height, .color = format};
     Draw draw;
     Dice dice{seed};
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < frame.triangles; ++i) {
         std::array<Place, 3> p;
         std::array<Color, 3> c;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -30,6 +37,55 @@ Item slopes_item(Format format, bool in_perspective, std::uint64_t seed, const s
         }
         add_triangle(item, draw, p, c);
     }
+    item.draws = {draw};
+    return item;
+}
+
+// Corners on pixel centres: a weight that is a whole number of 256ths lies on the edge of its 8 bits, whichever the area, and
+// the last bits of a reciprocal decide it. With a w of powers of two, too.
+Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = color_fields, .width = 128, .height = 128};
+    Draw draw;
+    Dice dice{seed};
+    for (int i = 0; i < 160; ++i) {
+        std::array<Place, 3> p;
+        std::array<Color, 3> c;
+        const int x = dice.below(96), y = dice.below(96);
+        for (std::size_t k = 0; k < 3; ++k) {
+            p[k].x = static_cast<float>(x + dice.below(32)) + 0.5f;
+            p[k].y = static_cast<float>(y + dice.below(32)) + 0.5f;
+            if (in_perspective) p[k].w = static_cast<float>(1 << dice.below(3));
+            c[k] = random_color(dice);
+        }
+        add_triangle(item, draw, p, c);
+    }
+    item.draws = {draw};
+    return item;
+}
+
+// Triangles of a pixel and less: which way round they are is a matter of their snapped corners.
+Item slivers_item(std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = color_fields, .width = 96, .height = 96, .color = Format::rgba32f};
+    item.decides.emplace_back("raster.subpixel_bits");
+    item.decides.emplace_back("raster.snap");
+    Draw draw;
+    Dice dice{seed};
+    for (int y = 0; y < item.height; ++y)
+        for (int x = 0; x < item.width; ++x) {
+            std::array<Place, 3> p;
+            std::array<Color, 3> c;
+            const bool lies = dice.below(2) == 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                // Around the centre, in a strip that is thin one way.
+                const float thin = 1.0f / static_cast<float>(4 << dice.below(7));
+                const float along = dice.between(-1.0f, 1.0f), across = dice.between(-thin, thin);
+                p[k].x = static_cast<float>(x) + 0.5f + (lies ? along : across);
+                p[k].y = static_cast<float>(y) + 0.5f + (lies ? across : along);
+                p[k].w = dice.between(0.5f, 4.0f);
+                c[k] = random_color(dice);
+            }
+            add_triangle(item, draw, p, c);
+        }
     item.draws = {draw};
     return item;
 }
@@ -82,6 +138,11 @@ void add_colors(std::vector<Item>& items) {
     items.push_back(slopes_item(Format::rgba32f, true, 60, "color.perspective-float"));
     items.push_back(slopes_item(Format::rgba8, false, 64, "color.flat-w"));
     items.push_back(slopes_item(Format::rgba8, true, 61, "color.perspective"));
+    items.push_back(slopes_item(Format::rgba8, false, 65, "color.flat-w-large", large));
+    items.push_back(slopes_item(Format::rgba8, true, 66, "color.perspective-large", large));
+    items.push_back(even_weights_item(false, 67, "color.even-weights"));
+    items.push_back(even_weights_item(true, 68, "color.even-weights-perspective"));
+    items.push_back(slivers_item(69, "color.slivers"));
     items.push_back(codes_item());
     items.push_back(halves_item());
 }

@@ -243,6 +243,18 @@ DeviceProfile with_features(DeviceProfile profile, const ProbePack& pack) {
     return profile;
 }
 
+DeviceProfile covered_first(const Comparison& device, const DeviceProfile& start) {
+    Scores scores{device};
+    const Numbers all = device.items_of({""});
+    const View coverage{scores, all, Part::coverage}, both{scores, all, Part::both};
+    std::vector<DeviceProfile> tried{start};
+    if (coverage.points(start) == scores.most(all, Part::coverage)) return start;
+    combine({"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"}, 0, start, tried);
+    return *std::ranges::max_element(tried, {}, [&](const DeviceProfile& profile) {
+        return std::pair{coverage.points(profile), both.points(profile)};
+    });
+}
+
 DeviceProfile searched(const Comparison& device, const ProbePack& pack) {
     Scores scores{device};
     const View all{scores, device.items_of({""}), Part::both};
@@ -255,7 +267,7 @@ DeviceProfile searched(const Comparison& device, const ProbePack& pack) {
         Candidate found = searched_from(scores, ranked[i].profile);
         if (found.points > best.points) best = std::move(found);
     }
-    return best.profile;
+    return all.is_perfect(best) ? best.profile : covered_first(device, best.profile);
 }
 
 }  // namespace strata::probe

@@ -15,6 +15,10 @@ namespace strata::probe {
 // What the pack says of features and limits, put into a profile. InputError for values that fields cannot have.
 [[nodiscard]] DeviceProfile with_features(DeviceProfile profile, const ProbePack& pack);
 
+// A device may cut its triangles by one rule and make their planes by another, which no profile says: where it draws comes
+// before what it draws there. The values of the clip that cover most of its pixels; of equal ones the best.
+[[nodiscard]] DeviceProfile covered_first(const Comparison& device, const DeviceProfile& start);
+
 [[nodiscard]] DeviceProfile searched(const Comparison& device, const ProbePack& pack);
 
 }  // namespace strata::probe

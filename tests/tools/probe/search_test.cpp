@@ -26,7 +26,7 @@ std::optional<DeviceProfile> turned(const DeviceProfile& profile, const ProfileF
 
 TEST_CASE("three devices that nobody built come back from their answers alone") {
     const std::vector<Item> unseen = unseen_scenes(100, 20);
-    for (const int number : {0, 2, 4}) {
+    for (const int number : {2, 4, 6}) {
         const RoundTrip trip = round_trip(random_profile(number), unseen, YDirection::down);
         INFO("profile " << number << other_values_of(trip));
         CHECK(trip.is_equal());
@@ -35,11 +35,42 @@ TEST_CASE("three devices that nobody built come back from their answers alone") 
     }
 }
 
+TEST_CASE("where a device draws comes before what it draws there: the clip that covers its pixels is found") {
+    // Cut at the view volume, with the planes of triangles that are not: no profile is like this.
+    DeviceProfile device = *pipeline::find_profile("geforce8_dx101");
+    device.raster.subpixel_bits = 4;
+    std::vector<Item> items;
+    for (const Item& item : kit())
+        if (item.name.starts_with("coverage.s") || item.name == "clip.sides" || item.name == "clip.all-d24")
+            items.push_back(item);
+    ProbePack pack = answer(device, items, {YDirection::down});
+    DeviceProfile covers = device;
+    covers.raster.clip = rasterizer::ClipVolume::view_volume;
+    for (const Item& item : items) {
+        Answer& own = *pack.answers[YDirection::down][item.name].answer;
+        const Answer covered = *draw_item(covers, item, YDirection::down).answer;
+        if (!item.depth) continue;
+        const std::uint32_t cleared = rasterizer::max_code(*item.depth);
+        for (std::size_t i = 0; i < own.depth->codes.size(); ++i) {
+            if (own.depth->codes[i] != cleared && covered.depth->codes[i] != cleared) continue;
+            own.depth->codes[i] = covered.depth->codes[i];
+            for (std::size_t c = 4 * i; c < 4 * i + 4; ++c) own.color.codes[c] = covered.color.codes[c];
+        }
+    }
+    const DeviceProfile found = covered_first({pack, items, YDirection::down}, device);
+    CHECK(found.raster.clip == rasterizer::ClipVolume::view_volume);
+    Difference sum;
+    for (const Item& item : items)
+        sum += difference(*pack.answers[YDirection::down][item.name].answer,
+                          *draw_item(found, item, YDirection::down).answer);
+    CHECK(sum.coverage == 0);
+}
+
 TEST_CASE("a field that matters not, or cannot change a scene, changes no bit of it") {
     for (int number = 0; number < 8; ++number) {
         const DeviceProfile profile = random_profile(number);
         for (const Item& item : kit()) {
-            if (item.width == 256) continue;
+            if (item.width > 128 || item.name == "color.slivers") continue;  // the others are small
             const Reply drawn = draw_item(profile, item, YDirection::down);
             for (const ProfileField* f : probed_fields()) {
                 const std::optional<DeviceProfile> other = turned(profile, *f);

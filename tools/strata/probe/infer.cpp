@@ -38,7 +38,9 @@ std::string runners_up(const FieldFinding& finding) {
 
 std::string evidence(const FieldFinding& finding) {
     if (finding.places == 0) return finding.reason;
-    return fmt::format("{} of {}", finding.agree, finding.places);
+    const bool says_why = finding.state == FieldState::broken && !finding.reason.empty();
+    return fmt::format("{} of {}{}{}", finding.agree, finding.places, says_why ? "; " : "",
+                       says_why ? finding.reason : "");
 }
 
 std::size_t count(const Inference& result, FieldState state) {
