@@ -6,12 +6,14 @@
 #include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
+#include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
 #include "tools/strata/tolerances.h"
 
@@ -25,6 +27,7 @@ struct DiagnoseOptions {
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
     int limit = 0;  // geometry passes after which the candidate gives up
+    std::string report;
     bool json = false;
 };
 
@@ -64,6 +67,7 @@ std::vector<oracle::PassPicture> read_passes(const DiagnoseOptions& options, con
 
 // Right: 0. Whatever else made the picture, known or not: 1.
 int diagnose(DiagnoseOptions& options) {
+    check_outputs({{"--report", options.report, {".html"}}});
     choose_algorithm(options.run);
     complete(options.run);
     if (options.run.algorithms.size() != 1)
@@ -85,6 +89,17 @@ int diagnose(DiagnoseOptions& options) {
     const oracle::Diagnosis found =
         lineup.diagnose(candidate, options.tolerances, shown_by(pairs), passes.empty() ? nullptr : &passes);
     const oracle::Comparison comparison = oracle::compare(laboratory.right(), candidate, options.tolerances);
+    if (!options.report.empty()) {
+        PlainPage page{"Diagnosis", canonical_command("render", options.run, options.run.algorithms)};
+        page.heading("What was found");
+        page.lines(to_text(found, comparison));
+        page.heading("Pictures");
+        page.picture(oracle::as_shown(laboratory.right()), "As it should be");
+        page.picture(oracle::as_shown(candidate), "The candidate");
+        page.picture(oracle::heat_map(comparison),
+                     "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
+        write_page(options.report, page);
+    }
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));
     return found.verdict == oracle::Verdict::right ? 0 : 1;
 }
@@ -108,6 +123,7 @@ Command add_diagnose(CLI::App& root) {
                    const auto number = to_int<int>(text);
                    return number && *number >= 1 ? number : std::nullopt;
                });
+    add_report_option(*app, options->report);
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
         "The scene is drawn at the candidate's size, whatever --size says; strata mistakes lists what is tried.\n"

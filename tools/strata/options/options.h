@@ -9,6 +9,7 @@
 #include "peeling/render_options.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/camera.h"
+#include "scenes/files/image_io.h"
 #include "scenes/scene.h"
 #include "tools/strata/options/values.h"
 
@@ -31,8 +32,9 @@ struct RunOptions {
     peeling::RenderOptions render;
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     Simd simd = Simd::best;
-    std::string stats;   // --stats; empty: none, "-": standard output
-    std::string output;  // -o; empty: none
+    std::string stats;                        // --stats; empty: none, "-": standard output
+    std::string output;                       // -o; empty: none, "-": standard output
+    std::optional<scenes::ImageFile> format;  // --format: what a picture to standard output is
 };
 
 // SCENE, --scene, --colour, --no-light.
@@ -60,6 +62,9 @@ void check_simd(Simd simd);
 
 // Where results go: --stats, -o, --no-audit.
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);
+
+// --format, beside -o -.
+void add_format_option(CLI::App& app, RunOptions& options, const std::string& help);
 
 // Checks exclusions and fills in defaults that are lists, which needs all options together. Throws
 // CLI::ValidationError.
