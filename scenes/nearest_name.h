@@ -7,7 +7,7 @@
 namespace strata::scenes {
 
 // The candidate with the smallest edit distance (insert, delete, replace, exchange of neighbours; the first of equals),
-// or "" if even that one differs in more than half of its letters.
+// or "" if even that one is no near miss: more than a third of its letters differ, and more than one of two.
 [[nodiscard]] std::string_view nearest_name(std::string_view name, std::span<const std::string_view> candidates);
 
 // "'nam' (did you mean 'name'?)", without the question if nothing is near.

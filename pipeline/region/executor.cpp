@@ -40,6 +40,7 @@ class FrameRun {
             static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
         regions_.resize(extent_ == Extent::frame ? 1 : tiles);
         twin_.assign(regions_.size(), no_twin);
+        for (std::size_t r = 0; r < regions_.size(); ++r) weight_of_all_ += weight(r);
         const rasterizer::Rect rect = frame.rect();
         result_.color =
             Image::for_overwrite(frame.published_format.value_or(frame.color_format), rect.width(), rect.height());
@@ -117,7 +118,24 @@ class FrameRun {
         regions_[r].fragments = regions_[r].books.fragments_visited = 0;
         copy(twin_[r], r, result_.color);
         if (watch_.alike) watch_.alike(twin_[r], r);
+        show(r);
         if (frame_.nearest_depth) copy(twin_[r], r, result_.depth);
+    }
+
+    // What a region counts for in the progress: its triangles of every list, and one. All regions together come to the whole.
+    [[nodiscard]] std::size_t weight(std::size_t r) const {
+        if (extent_ == Extent::frame) return 1;
+        std::size_t triangles = 1;
+        for (const PreparedDraw* list : {frame_.transparent, frame_.second, frame_.opaque})
+            if (list != nullptr) triangles += list->geometry.bin(r).size();
+        return triangles;
+    }
+
+    // Region `r` is done. One that runs again counts again: never more than the whole.
+    void show(std::size_t r) {
+        if (!progress_) return;
+        const std::size_t done = weight_done_ += weight(r);
+        progress_(std::min(1.0, static_cast<double>(done) / static_cast<double>(weight_of_all_)));
     }
 
     // Copies tile `from` of a frame's image to tile `to`, which has the same size.
@@ -150,8 +168,7 @@ class FrameRun {
         if (watch_.ended) watch_.ended(region, r, result_.color);
         time_in_bodies_ += (ended - start).count();
         time_in_watch_ += (Clock::now() - ended).count();
-        if (progress_)  // runs again count as well: never more than the whole
-            progress_(std::min(1.0, static_cast<double>(++finished_) / static_cast<double>(regions_.size())));
+        show(r);
     }
 
     void run(const std::vector<std::size_t>& which, const Answers& script) {
@@ -342,7 +359,8 @@ class FrameRun {
     std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
     std::vector<int> passes_before_;          // by loop, once a limit has asked for them
     FrameResult result_;
-    std::atomic<std::size_t> finished_{0};
+    std::size_t weight_of_all_ = 0;
+    std::atomic<std::size_t> weight_done_{0};
     // Sums over all threads, in ticks of the clock. Only their ratio is told: no result bit knows the time.
     std::atomic<Clock::rep> time_in_bodies_{0}, time_in_watch_{0};
 };

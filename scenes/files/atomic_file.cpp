@@ -20,6 +20,7 @@ namespace strata::scenes {
 namespace {
 
 constexpr std::size_t buffer_bytes = 65536;
+std::atomic<void (*)(const std::string& path)> told_of_files{nullptr};
 constexpr std::string_view temporary_ending = ".tmp";
 
 // The process and a counter make the name its own; the same folder makes the later rename one step of one file
@@ -50,6 +51,7 @@ bool write_all(int descriptor, const std::byte* bytes, std::size_t size) noexcep
 // Whether a finished file cannot take this one's place. A folder, or a name that no folder takes, is an error here: a
 // rename would tell it only after all the work of rendering.
 bool leads_to_stream(const std::string& path) {
+    if (is_standard_output(path)) return true;
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) {
         if (S_ISDIR(status.st_mode)) throw SystemError(path, "write", reason(EISDIR));
@@ -141,7 +143,8 @@ void AtomicFile::put_in_place() {
 }
 
 void AtomicFile::send() noexcept {
-    const int stream = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    // Standard output may be a file that is open at some place: only its own descriptor knows where.
+    const int stream = is_standard_output(path_) ? ::dup(STDOUT_FILENO) : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     if (stream < 0) return note_failure();
     bool done = ::lseek(descriptor_, 0, SEEK_SET) == 0;
     while (done) {
@@ -157,6 +160,7 @@ void AtomicFile::send() noexcept {
 void AtomicFile::commit() {
     if (flush()) is_stream_ ? send() : put_in_place();
     if (failure_ != 0) throw SystemError(path_, "write", reason(failure_));  // the destructor removes what is there
+    if (const auto told = told_of_files.load()) told(path_);
 }
 
 void AtomicFile::discard() noexcept {
@@ -166,6 +170,12 @@ void AtomicFile::discard() noexcept {
     ::unlink(temporary_.c_str());
     forget_unfinished_file(slot_);
     slot_ = -1;
+}
+
+void tell_written_files(void (*told)(const std::string& path)) noexcept { told_of_files = told; }
+
+bool is_standard_output(std::string_view path) noexcept {
+    return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

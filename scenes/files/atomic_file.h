@@ -4,7 +4,7 @@
 //          commit() puts the bytes on the disk (fsync), renames, and puts the new name on the disk (fsync of the folder).
 //          What was not committed is removed: by the destructor, or by unfinished_files.h when the process is interrupted.
 //          A symbolic link is replaced, not followed, unless it leads to a pipe or a device: commit() writes the finished
-//          bytes to these.
+//          bytes to these. The path "-" is the process's own standard output, whatever that is.
 // Tests    tests/scenes/files/atomic_file_test.cpp
 #pragma once
 #include <cstdint>
@@ -54,6 +54,12 @@ class AtomicFile {
     int slot_ = -1;
     int failure_ = 0;  // errno of the first failure
 };
+
+// `told` is called with the path of every file that is in its place from now on, by the thread that wrote it.
+void tell_written_files(void (*told)(const std::string& path)) noexcept;
+
+// "-", or a name by which Linux calls standard output.
+[[nodiscard]] bool is_standard_output(std::string_view path) noexcept;
 
 // The whole file at once.
 void write_file(const std::string& path, std::string_view bytes);

@@ -17,6 +17,7 @@
 #include "rasterizer/base/enum_values.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/files/atomic_file.h"
 #include "scenes/files/image_formats.h"
 
 namespace strata::scenes {
@@ -197,7 +198,7 @@ void write_exr(const std::string& path, const OutputColor& image) {
 
 void write_layers(const std::string& path, std::span<const OutputColor> layers) {
     assert(!layers.empty() && "a file without parts is none");
-    if (image_file(path) != ImageFile::exr)
+    if (!is_standard_output(path) && image_file(path) != ImageFile::exr)
         throw InputError(path, "name", "a file name that ends in .exr", "another ending");
     const FloatEnvironment environment;
     std::vector<PartSource> parts;

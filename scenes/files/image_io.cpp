@@ -103,11 +103,13 @@ Attributes described(const OutputColor& image) {
     return attributes;
 }
 
-void write_image(const std::string& path, const OutputColor& image) {
+void write_image(const std::string& path, const OutputColor& image) { write_image(path, image, image_file(path)); }
+
+void write_image(const std::string& path, const OutputColor& image, ImageFile kind) {
     const FloatEnvironment environment;
     // Samples are resolved before: an image file has one value a pixel.
     assert(pipeline::is_color(image.color.format) && image.color.samples == 1);
-    switch (image_file(path)) {
+    switch (kind) {
         case ImageFile::png: return write_png(path, image);
         case ImageFile::exr: return write_exr(path, image);
     }

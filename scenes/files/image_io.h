@@ -35,8 +35,10 @@ enum class ImageFile : std::uint8_t { png, exr };
 // By the name's ending; InputError if it is neither .png nor .exr. Call it before rendering.
 [[nodiscard]] ImageFile image_file(const std::string& path);
 
-// One target, with its depths in an .exr; a .png leaves depths out.
+// One target, with its depths in an EXR; a PNG leaves depths out. The second one is for a path whose ending says nothing, such as "-",
+// standard output.
 void write_image(const std::string& path, const OutputColor& image);
+void write_image(const std::string& path, const OutputColor& image, ImageFile kind);
 
 // Part `layer.000`, `layer.001` ... of one EXR file, or as each says; all of one size, and at least one.
 void write_layers(const std::string& path, std::span<const OutputColor> layers);

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstring>
@@ -23,10 +24,33 @@ struct Slot {
 Slot slots[16];
 static_assert(std::atomic<int>::is_always_lock_free);
 
-// Async-signal-safe calls alone: unlink and _exit. 128 + the signal is what a shell reports for a process that
+// Two sentences in turn: one is written while the handler may read the other.
+struct Sentence {
+    std::size_t size = 0;
+    char text[1000] = {};
+};
+Sentence sentences[2];
+std::atomic<int> current{0};
+bool starts_line = false;  // standard error is a terminal
+
+// A new line first, where a terminal has "^C" or a bar on its line.
+void say_interrupted() noexcept {
+    const Sentence& sentence = sentences[current];
+    const bool is_empty = sentence.size == 0;
+    const auto put = [](const char* text, std::size_t size) { static_cast<void>(!::write(STDERR_FILENO, text, size)); };
+    constexpr std::string_view begin = "strata: interrupted", between = "; ";
+    if (starts_line) put("\n", 1);
+    put(begin.data(), begin.size());
+    if (!is_empty) put(between.data(), between.size());
+    put(sentence.text, sentence.size);
+    put("\n", 1);
+}
+
+// Async-signal-safe calls alone: write, unlink and _exit. 128 + the signal is what a shell reports for a process that
 // a signal ended.
 extern "C" void on_interrupt(int signal) {
     remove_unfinished_files();
+    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) say_interrupted();
     ::_exit(128 + signal);
 }
 
@@ -76,7 +100,17 @@ void remove_unfinished_files() noexcept {
     }
 }
 
+void tell_when_interrupted(std::string_view sentence) noexcept {
+    const int next = 1 - current;
+    Sentence& to = sentences[next];
+    to.size = std::min(sentence.size(), sizeof to.text);
+    std::transform(sentence.begin(), sentence.begin() + static_cast<std::ptrdiff_t>(to.size), to.text,
+                   [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f ? '?' : c; });
+    current = next;
+}
+
 void remove_unfinished_files_when_interrupted() noexcept {
+    starts_line = ::isatty(STDERR_FILENO) == 1;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGXCPU, SIGALRM, SIGVTALRM, SIGPROF, SIGUSR1,
                              SIGUSR2, SIGIO, SIGPWR, SIGSTKFLT})
         handle_interrupt(signal);

@@ -4,6 +4,7 @@
 // Tests    tests/scenes/files/unfinished_files_test.cpp, tests/tools/interrupt_test.cpp
 #pragma once
 #include <string>
+#include <string_view>
 
 namespace strata::scenes {
 
@@ -15,6 +16,10 @@ void forget_unfinished_file(int place) noexcept;
 
 // Unlinks every file of the table. Async-signal-safe.
 void remove_unfinished_files() noexcept;
+
+// What standard error is told when an interrupt (SIGINT, SIGTERM, SIGHUP) ends the process: "strata: interrupted; ...", one line of
+// at most 1,000 bytes; control characters become '?'. The last call counts; an empty sentence leaves "strata: interrupted".
+void tell_when_interrupted(std::string_view sentence) noexcept;
 
 // On a signal that asks the process to end (SIGINT, SIGTERM, SIGALRM, SIGUSR1, real-time signals and their kin):
 // remove_unfinished_files(), then _exit(128 + signal), which is 130 for SIGINT; one that the process was told to ignore

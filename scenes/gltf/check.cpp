@@ -54,11 +54,12 @@ void check_asset(const JsonAt& root) {
     if (needed.minor > 0) least->fail("UNKNOWN_ASSET_MINOR_VERSION", "a reader of glTF 2.0 to be enough");
 }
 
-void check_every_name(const JsonAt& root) {  // of the objects that reach the scene
+void check_every_name(const JsonAt& root, Faults& faults) {  // of the objects that reach the scene
     for (const char* kind : {"accessors", "bufferViews", "buffers", "cameras", "images", "materials", "meshes", "nodes",
                              "samplers", "scenes", "textures"})
-        for (const JsonAt& object : root.elements(kind))
+        faults.collect_each(root, kind, [](const JsonAt& object) {
             if (const auto name = object.find("name")) (void)name->string();
+        });
 }
 
 }  // namespace
@@ -75,32 +76,38 @@ std::optional<std::size_t> check_reference(const JsonAt& owner, const char* key,
     return reference->index(root.size(target));
 }
 
-void check_extensions(const JsonAt& root, Warnings& warnings) {
-    for (const JsonAt& required : root.elements("extensionsRequired"))
+void check_extensions(const JsonAt& root, Warnings& warnings, Faults& faults) {
+    faults.collect_each(root, "extensionsRequired", [](const JsonAt& required) {
         if (!is_implemented(required.string()))
             required.fail(
                 "UNSUPPORTED_EXTENSION",
                 "no required extension but KHR_materials_unlit, KHR_mesh_quantization and KHR_texture_transform" +
                     way_out_of(required.string()));
-    for (const JsonAt& used : root.elements("extensionsUsed"))
+    });
+    faults.collect_each(root, "extensionsUsed", [&](const JsonAt& used) {
         if (!is_implemented(used.string()))
             warnings.add(used.place().pointer, "extension " + one_line(used.string()) + " is ignored");
+    });
 }
 
 // Each part counts on those before it: accessors on the lengths of the views, meshes on the formats of the
 // accessors.
 void check_document(const JsonAt& root, Warnings& warnings) {
     (void)root.object();
-    check_asset(root);
-    check_extensions(root, warnings);
-    check_every_name(root);
-    check_buffers(root);
-    check_accessors(root);
-    check_images(root);
-    check_materials(root, warnings);
-    check_meshes(root, warnings);
-    check_cameras(root);
-    check_nodes(root, warnings);
+    Faults faults, of_data;
+    faults.collect([&] { check_asset(root); });
+    check_extensions(root, warnings, faults);
+    check_every_name(root, faults);
+    check_buffers(root, of_data);
+    check_accessors(root, of_data);
+    check_images(root, of_data);
+    check_materials(root, warnings, of_data);
+    // A primitive is compared with what its accessors and its material say.
+    if (of_data.empty()) check_meshes(root, warnings, of_data);
+    faults.add(of_data);
+    check_cameras(root, faults);
+    check_nodes(root, warnings, faults);
+    faults.report();
     if (root.size("animations") > 0) warnings.add("/animations", "animations are ignored: nodes stand as written");
 }
 

@@ -111,18 +111,19 @@ void check_accessor(const JsonAt& accessor, const JsonAt& root) {
 
 }  // namespace
 
-void check_buffers(const JsonAt& root) {
+void check_buffers(const JsonAt& root, Faults& faults) {
     std::vector<std::uint64_t> lengths;
-    for (const JsonAt& buffer : root.elements("buffers")) {
-        lengths.push_back(buffer.member("byteLength").integer(1, max_bytes));
+    faults.collect_each(root, "buffers", [&](const JsonAt& buffer) {
+        lengths.push_back(max_bytes);  // of a buffer that does not say it: its views have no further fault
+        lengths.back() = buffer.member("byteLength").integer(1, max_bytes);
         if (const auto uri = buffer.find("uri")) (void)uri->string();
-    }
+    });
     // The views come second: each is compared with the length of its buffer.
-    for (const JsonAt& view : root.elements("bufferViews")) check_view(view, root, lengths);
+    faults.collect_each(root, "bufferViews", [&](const JsonAt& view) { check_view(view, root, lengths); });
 }
 
-void check_accessors(const JsonAt& root) {
-    for (const JsonAt& accessor : root.elements("accessors")) check_accessor(accessor, root);
+void check_accessors(const JsonAt& root, Faults& faults) {
+    faults.collect_each(root, "accessors", [&](const JsonAt& accessor) { check_accessor(accessor, root); });
 }
 
 }  // namespace strata::scenes

@@ -92,22 +92,22 @@ void check_material(const JsonAt& material, const JsonAt& root, Warnings& warnin
 
 }  // namespace
 
-void check_images(const JsonAt& root) {
-    for (const JsonAt& image : root.elements("images")) check_image(image, root);
-    for (const JsonAt& sampler : root.elements("samplers")) {
+void check_images(const JsonAt& root, Faults& faults) {
+    faults.collect_each(root, "images", [&](const JsonAt& image) { check_image(image, root); });
+    faults.collect_each(root, "samplers", [](const JsonAt& sampler) {
         check_listed(sampler, "magFilter", {9728, 9729}, "9728 or 9729");
         check_listed(sampler, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987}, "9728, 9729 or 9984 to 9987");
         check_listed(sampler, "wrapS", {33071, 33648, 10497}, "33071, 33648 or 10497");
         check_listed(sampler, "wrapT", {33071, 33648, 10497}, "33071, 33648 or 10497");
-    }
-    for (const JsonAt& texture : root.elements("textures")) {
+    });
+    faults.collect_each(root, "textures", [&](const JsonAt& texture) {
         check_reference(texture, "sampler", root, "samplers");
         check_reference(texture, "source", root, "images");
-    }
+    });
 }
 
-void check_materials(const JsonAt& root, Warnings& warnings) {
-    for (const JsonAt& material : root.elements("materials")) check_material(material, root, warnings);
+void check_materials(const JsonAt& root, Warnings& warnings, Faults& faults) {
+    faults.collect_each(root, "materials", [&](const JsonAt& material) { check_material(material, root, warnings); });
 }
 
 }  // namespace strata::scenes

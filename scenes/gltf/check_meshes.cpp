@@ -147,13 +147,14 @@ struct MeshChecker {
 
 }  // namespace
 
-void check_meshes(const JsonAt& root, Warnings& warnings) {
+void check_meshes(const JsonAt& root, Warnings& warnings, Faults& faults) {
     const MeshChecker checker{root, uses_extension(root, "KHR_mesh_quantization"), root.size("accessors"),
                               root.size("materials")};
-    for (const JsonAt& mesh : root.elements("meshes")) {
+    faults.collect_each(root, "meshes", [&](const JsonAt& mesh) {
         (void)mesh.member("primitives");
-        for (const JsonAt& primitive : mesh.elements("primitives")) checker.check_primitive(primitive, warnings);
-    }
+        faults.collect_each(mesh, "primitives",
+                            [&](const JsonAt& primitive) { checker.check_primitive(primitive, warnings); });
+    });
 }
 
 }  // namespace strata::scenes

@@ -90,22 +90,22 @@ void check_loops(const JsonAt& root, const std::vector<std::size_t>& parents) {
 }
 
 // A scene lists roots, each once: else a node could be drawn twice.
-void check_scenes(const JsonAt& root, const std::vector<std::size_t>& parents) {
-    for (const JsonAt& scene : root.elements("scenes")) {
+void check_scenes(const JsonAt& root, const std::vector<std::size_t>& parents, Faults& faults) {
+    faults.collect_each(root, "scenes", [&](const JsonAt& scene) {
         std::set<std::size_t> seen;
         for (const JsonAt& node : scene.elements("nodes")) {
             const std::size_t index = node.index(parents.size());
             if (parents[index] != no_parent) node.fail("SCENE_NON_ROOT_NODE", "a node without a parent");
             if (!seen.insert(index).second) node.fail("DUPLICATE_ELEMENTS", "each node once");
         }
-    }
-    check_reference(root, "scene", root, "scenes");
+    });
+    faults.collect([&] { check_reference(root, "scene", root, "scenes"); });
 }
 
 }  // namespace
 
-void check_cameras(const JsonAt& root) {
-    for (const JsonAt& camera : root.elements("cameras")) {
+void check_cameras(const JsonAt& root, Faults& faults) {
+    faults.collect_each(root, "cameras", [](const JsonAt& camera) {
         const JsonAt type = camera.member("type");
         if (type.string() == "perspective")
             check_perspective(camera.member("perspective"));
@@ -113,13 +113,15 @@ void check_cameras(const JsonAt& root) {
             check_orthographic(camera.member("orthographic"));
         else
             type.fail("VALUE_NOT_IN_LIST", "perspective or orthographic");
-    }
+    });
 }
 
-void check_nodes(const JsonAt& root, Warnings& warnings) {
-    std::vector<std::size_t> parents(root.size("nodes"), no_parent);
-    std::size_t index = 0;
-    for (const JsonAt& node : root.elements("nodes")) {
+void check_nodes(const JsonAt& root, Warnings& warnings, Faults& faults) {
+    std::vector<std::size_t> parents;
+    faults.collect([&] { parents.assign(root.size("nodes"), no_parent); });
+    std::size_t next = 0;
+    faults.collect_each(root, "nodes", [&](const JsonAt& node) {
+        const std::size_t index = next++;
         check_transform(node);
         check_reference(node, "mesh", root, "meshes");
         check_reference(node, "camera", root, "cameras");
@@ -127,10 +129,10 @@ void check_nodes(const JsonAt& root, Warnings& warnings) {
             warnings.add(node.place().under("skin").pointer,
                          "skins are ignored: the mesh stands as stored, moved by its node");
         if (node.has("weights")) warnings.add(node.place().under("weights").pointer, "morph targets are ignored");
-        check_children(node, index++, parents);
-    }
-    check_loops(root, parents);
-    check_scenes(root, parents);
+        check_children(node, index, parents);
+    });
+    faults.collect([&] { check_loops(root, parents); });
+    check_scenes(root, parents, faults);
 }
 
 }  // namespace strata::scenes

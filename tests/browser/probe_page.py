@@ -7,25 +7,14 @@ inferred stay there. Exit status 77, said aloud, without Chromium, its driver or
 """
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
 
+import pages
+
 # The fields that coverage rests on.
 COVERAGE = ["raster.subpixel_bits", "raster.snap", "raster.coverage", "raster.tie_rule"]
-
-
-def browser(downloads):
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
-    options = Options()
-    for argument in ["--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=900,900"]:
-        options.add_argument(argument)
-    options.add_experimental_option("prefs", {"download.default_directory": downloads})
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
 
 
 def answers(driver, folder, downloads):
@@ -37,7 +26,7 @@ def answers(driver, folder, downloads):
     active().send_keys(Keys.TAB)
     assert active().get_attribute("id") == "start", "the first key leads to the button"
     active().send_keys(Keys.ENTER)
-    WebDriverWait(driver, 500).until(lambda d: d.execute_script("return document.body.dataset.ready"))
+    pages.wait_until_ready(driver, 500)
     status = driver.find_element("id", "status").text
     assert driver.execute_script("return document.body.dataset.ready") == "yes", status
     assert active().get_attribute("id") == "download", "the keyboard stands on the archive"
@@ -54,9 +43,7 @@ def answers(driver, folder, downloads):
 
 
 def check_quiet(driver):
-    errors = [e["message"] for e in driver.get_log("browser") if e["level"] in ("SEVERE", "WARNING")
-              and "ReadPixels" not in e["message"]]  # that reading back takes time is no error
-    loaded = driver.execute_script("return performance.getEntriesByType('resource').map((e) => e.name)")
+    errors, loaded = pages.console(driver, "ReadPixels"), pages.loaded(driver)  # that reading back takes time is no error
     return [f"the console says {errors}"] * bool(errors) + [f"the page loaded {loaded}"] * bool(loaded)
 
 
@@ -74,14 +61,9 @@ def compared(strata, archive, profile, count):
 
 def main():
     strata = os.path.abspath(sys.argv[1])
-    try:
-        import selenium  # noqa: F401
-    except ImportError:
-        print("SKIPPED: python3-selenium was not found")
-        return 77
-    if not shutil.which("chromedriver") or not shutil.which("chromium"):
-        print("SKIPPED: chromium or chromium-driver was not found")
-        return 77
+    if pages.missing():
+        print(pages.missing())
+        return pages.SKIPPED
     wrong = []
     with tempfile.TemporaryDirectory() as work:
         folder = os.environ.get("STRATA_KEEP", work)
@@ -90,7 +72,7 @@ def main():
         kit, unseen, profile = os.path.join(folder, "kit"), os.path.join(folder, "unseen"), os.path.join(folder, "profile.json")
         subprocess.run([strata, "probe", "-o", kit], check=True)
         subprocess.run([strata, "probe", "--unseen", "10", "-o", unseen], check=True)
-        driver = browser(downloads)
+        driver = pages.browser("--use-angle=swiftshader", "--enable-unsafe-swiftshader", size="900,900", downloads=downloads)
         try:
             archive, status = answers(driver, kit, downloads)
             wrong += check_quiet(driver)

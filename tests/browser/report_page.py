@@ -9,27 +9,17 @@ chromium, chromium-driver, python3-selenium).
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
+
+import pages
 
 SCENES = [
     ["teapot", "--size", "96x72"],
     ["volume-beam:slices=8", "--size", "64x48", "--profile", "ideal", "--colour", "linear"],
     ["random:triangles=200", "--size", "48x64", "--profile", "geforce3"],
 ]
-
-
-def browser():
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
-    options = Options()
-    for argument in ["--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,1000"]:
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
 
 
 class Page:
@@ -39,8 +29,7 @@ class Page:
         self.driver, self.strata, self.scene, self.wrong = driver, strata, scene, []
         subprocess.run([strata, "report", *scene, "-o", folder], check=True, stdout=subprocess.DEVNULL)
         driver.get("file://" + os.path.join(folder, "report.html"))
-        from selenium.webdriver.support.ui import WebDriverWait
-        WebDriverWait(driver, 60).until(lambda d: d.execute_script("return document.body.dataset.ready"))
+        pages.wait_until_ready(driver)
 
     def expect(self, what, found, expected):
         if found != expected:
@@ -132,22 +121,12 @@ class Page:
 
     def check_access(self):
         """No rule of axe-core is broken, where STRATA_AXE names its axe.min.js."""
-        if "STRATA_AXE" not in os.environ:
-            return
-        with open(os.environ["STRATA_AXE"], encoding="utf-8") as file:
-            self.js(file.read())
-        self.driver.set_script_timeout(120)
-        broken = self.driver.execute_async_script(
-            "const done = arguments[0]; axe.run().then((r) => done(r.violations.map((v) => v.id + ': ' + v.help)))")
-        self.expect("axe-core finds nothing", broken, [])
+        self.expect("axe-core finds nothing", pages.violations(self.driver), [])
 
     def check_quiet(self):
         # That pictures are read back is this test's own doing.
-        errors = [e["message"] for e in self.driver.get_log("browser")
-                  if e["level"] in ("SEVERE", "WARNING") and "willReadFrequently" not in e["message"]]
-        self.expect("the console is empty", errors, [])
-        self.expect("nothing was loaded", self.js("return performance.getEntriesByType('resource').map((e) => e.name)"
-                                                 ".filter((n) => !n.startsWith('data:'))"), [])
+        self.expect("the console is empty", pages.console(self.driver, "willReadFrequently"), [])
+        self.expect("nothing was loaded", pages.loaded(self.driver), [])
 
 
 def base64_of(path):
@@ -158,17 +137,12 @@ def base64_of(path):
 
 def main():
     strata = os.path.abspath(sys.argv[1])
-    try:
-        import selenium  # noqa: F401
-    except ImportError:
-        print("SKIPPED: python3-selenium was not found")
-        return 77
-    if not shutil.which("chromedriver") or not shutil.which("chromium"):
-        print("SKIPPED: chromium or chromium-driver was not found")
-        return 77
+    if pages.missing():
+        print(pages.missing())
+        return pages.SKIPPED
     if "STRATA_AXE" not in os.environ:
         print("SKIPPED: axe-core, for STRATA_AXE names no file")
-    driver, wrong = browser(), []
+    driver, wrong = pages.browser("--disable-gpu"), []
     try:
         for number, scene in enumerate(SCENES):
             with tempfile.TemporaryDirectory() as folder:

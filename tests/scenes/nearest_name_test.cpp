@@ -42,7 +42,8 @@ std::string_view nearest(std::string_view name, const Words& candidates) {
 
 }  // namespace
 
-TEST_CASE("a name is near if at most half of its letters have to change, whatever the two words are") {
+TEST_CASE(
+    "a name is near if at most a third of its letters have to change, or one of two, whatever the two words are") {
     // A common ending changes no distance, and makes the limit higher: the distance itself shows.
     std::string wrong;
     const Words words = words_of_abc(3);
@@ -51,7 +52,8 @@ TEST_CASE("a name is near if at most half of its letters have to change, whateve
         for (const std::string& b : words)
             for (std::size_t more = 0; more <= 7; ++more) {
                 const std::string ending(more, 'x'), candidate = b + ending;
-                const bool is_near = 2 * letters_apart(a, b) <= candidate.size();
+                const std::size_t apart = letters_apart(a, b);
+                const bool is_near = 3 * apart <= candidate.size() || (candidate.size() == 2 && apart == 1);
                 const bool found = !nearest_name(a + ending, std::vector<std::string_view>{candidate}).empty();
                 if (found != (is_near && !candidate.empty()) && wrong.empty())
                     wrong.append(a).append(ending).append(" for ").append(candidate);
@@ -79,7 +81,8 @@ TEST_CASE("of several near names the nearest is offered, of equally near ones th
                 std::string expected;
                 for (const std::string& candidate : list) {
                     const std::size_t distance = letters_apart(name, candidate);
-                    if (distance * 2 > candidate.size() || distance >= least) continue;
+                    const bool is_near = 3 * distance <= candidate.size() || (candidate.size() == 2 && distance == 1);
+                    if (candidate.empty() || !is_near || distance >= least) continue;
                     least = distance;
                     expected = candidate;
                 }

@@ -148,7 +148,7 @@ TEST_CASE("a wrong word ends in exit status 2 and one sentence that says what wa
          "strata: --deep: expected another file than that of -o, found 'x.exr'"},
         {{"layers", "teapot", "-o", "x.exr", "--deep", "./x.exr"},
          "strata: --deep: expected another file than that of -o, found './x.exr'"},
-        {{"render", "teapot", "-o", ""}, "strata: -o: expected a file name, found ''"},
+        {{"render", "teapot", "-o", ""}, "strata: -o: expected a file name or -, found ''"},
         {{"layers", "teapot", "--deep", ""}, "strata: --deep: expected a file name, found ''"},
         {{"render", "teapot", "--stats", ""}, "strata: --stats: expected a file name or -, found ''"},
         {{"render", "teapot", "--camera", ""}, "strata: --camera: expected a camera's name or file, found ''"},

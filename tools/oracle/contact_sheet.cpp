@@ -86,9 +86,15 @@ void fill(Image& image, int x0, int y0, int x1, int y1, std::uint32_t grey) {
 }  // namespace
 
 void ContactSheet::add(const PassShown& pass) {
-    Row row{fmt::format("{} {}", pass.number, pass.kind == PassKind::full_screen ? "quad" : name(pass.kind)), {}};
-    for (const NamedImage& target : pass.targets) {
-        const bool is_written = std::ranges::find(pass.writes, target.name) != pass.writes.end();
+    add(fmt::format("{} {}", pass.number, pass.kind == PassKind::full_screen ? "quad" : name(pass.kind)), pass.targets,
+        pass.writes);
+}
+
+void ContactSheet::add(const std::string& caption, const std::vector<NamedImage>& targets,
+                       const std::vector<std::string>& framed) {
+    Row row{caption, {}};
+    for (const NamedImage& target : targets) {
+        const bool is_written = std::ranges::find(framed, target.name) != framed.end();
         row.cells.push_back({target.name, fitted(target.image), is_written});
         width_ = std::max(width_, row.cells.back().picture.width);
         height_ = std::max(height_, row.cells.back().picture.height);

@@ -14,6 +14,9 @@ namespace strata::oracle {
 class ContactSheet {
   public:
     void add(const PassShown& pass);
+    // A row of its own; those named in `framed` have a light frame.
+    void add(const std::string& caption, const std::vector<NamedImage>& targets,
+             const std::vector<std::string>& framed);
     [[nodiscard]] pipeline::Image image() const;  // rgba8
 
   private:

@@ -15,6 +15,7 @@
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
 #include "tools/strata/tolerances.h"
 
@@ -29,9 +30,12 @@ struct CompareOptions {
     oracle::Tolerances tolerances{};
     oracle::Background background{};  // empty: read from the pictures
     std::string algorithm;            // of packs; empty: all
-    std::string heat, side, junit;
+    std::string heat, side, junit, report;
     bool json = false;
 };
+
+// A page holds no path of this machine.
+std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 void write_png(const std::string& path, const pipeline::Image& image) {
     if (!path.empty()) scenes::write_image(path, {.color = image});
@@ -82,9 +86,10 @@ void draw_folders(const CompareOptions& options, const std::vector<oracle::PackP
 
 // A pack and the folder of a port: the end and the passes of every algorithm that both have.
 int compare_folders(const CompareOptions& options) {
-    if (!options.background.empty())
+    if (!options.background.empty() || !options.report.empty())
         throw CLI::ValidationError(
-            "--background", "expected a picture as the candidate, found a folder; compare its picture.npy alone");
+            !options.background.empty() ? "--background" : "--report",
+            "expected a picture as the candidate, found a folder; compare its picture.npy alone");
     const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
@@ -106,10 +111,29 @@ oracle::Picture reference_of(const CompareOptions& options) {
     return std::move(all[0].picture);
 }
 
+// What is printed, and the two pictures with the places and kinds of their differences.
+PlainPage page_of(const CompareOptions& options, const oracle::Picture& reference, const oracle::Picture& candidate,
+                  const oracle::Comparison& found) {
+    PlainPage page{found.equal      ? "Equal"
+                   : found.accepted ? "Within the tolerance"
+                                    : "Different",
+                   "strata compare " + file_name(options.reference) + " " + file_name(options.candidate)};
+    page.heading("What differs");
+    page.lines(oracle::to_text(found));
+    page.heading("Pictures");
+    page.picture(oracle::as_shown(reference), "The reference, " + file_name(options.reference));
+    page.picture(oracle::as_shown(candidate), "The candidate, " + file_name(options.candidate));
+    page.picture(oracle::heat_map(found),
+                 "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
+    return page;
+}
+
 // Files first: what stands on standard output has been written.
 int compare(const CompareOptions& options) {
-    check_outputs(
-        {{"--heat", options.heat, {".png"}}, {"--side", options.side, {".png"}}, {"--junit", options.junit, {".xml"}}});
+    check_outputs({{"--heat", options.heat, {".png"}},
+                   {"--side", options.side, {".png"}},
+                   {"--junit", options.junit, {".xml"}},
+                   {"--report", options.report, {".html"}}});
     if (scenes::is_pack(options.reference) && std::filesystem::is_directory(options.candidate))
         return compare_folders(options);
     const oracle::Picture reference = reference_of(options);
@@ -118,6 +142,7 @@ int compare(const CompareOptions& options) {
     write_png(options.heat, oracle::heat_map(found));
     write_png(options.side, oracle::side_by_side(reference, candidate, found));
     if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
+    if (!options.report.empty()) write_page(options.report, page_of(options, reference, candidate, found));
     print(options.json ? oracle::to_json(found) : oracle::to_text(found));
     return found.accepted ? 0 : 1;
 }
@@ -155,6 +180,7 @@ Command add_compare(CLI::App& root) {
         *app, options->junit,
         {"--junit", "FILE.xml",
          "a test case a kind, or of a folder picture, layers and passes, for continuous integration", "a file name"});
+    add_report_option(*app, options->report);
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
         "Examples:\n"

@@ -1,6 +1,5 @@
 // tools/strata/digest.cpp - strata digest: one string a target, equal exactly if the bits are.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -10,8 +9,8 @@
 #include "scenes/files/image_io.h"
 #include "tools/oracle/picture.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
-#include "tools/strata/options/printable.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -73,7 +72,7 @@ std::optional<Digests> digests_or_reason(const std::string& file, bool channels)
     try {
         return channels ? channels_of(file) : digests_of(file);
     } catch (const InputError& error) {
-        std::fprintf(stderr, "strata: %s\n", error.what());
+        say_error(error.what());
         return std::nullopt;
     }
 }
@@ -106,10 +105,10 @@ int digest(const DigestOptions& options) {
         }
     }
     if (options.json) print(document.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n');
-    if (!options.json && !table.rows.empty()) print(to_text(table));
+    if (!options.json && !table.rows.empty()) print(titled(to_text(table)));
     if (!all_read) return 2;
     if (options.expected.empty() || is_found) return 0;
-    std::fprintf(stderr, "strata: --expect: expected %s, found no such digest\n", printable(options.expected).c_str());
+    say_error("--expect: expected " + options.expected + ", found no such digest");
     return 1;
 }
 

@@ -8,6 +8,7 @@
 #include "peeling/render.h"
 #include "tools/oracle/mistakes/suite_packs.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
@@ -57,8 +58,7 @@ oracle::Golden golden_of(RunOptions& options) {
         if (result.outcome == peeling::Outcome::done)
             golden.algorithms.push_back(algorithm);
         else
-            std::fprintf(stderr, "strata: %s: %s\n", algorithm->name.c_str(),
-                         result.refusal->sentence(golden.profile).c_str());
+            say_error(algorithm->name + ": " + result.refusal->sentence(golden.profile));
     }
     return golden;
 }

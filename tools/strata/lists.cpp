@@ -73,7 +73,7 @@ int list_algorithms(const ListOptions& options) {
             {a.name, a.pass_formula, std::string(peeling::name(a.ties)), a.exact ? "yes" : "no", where, paper});
         summaries.rows.push_back({a.name, a.summary});
     }
-    print(options.json ? document.dump(2) + '\n' : to_text(table) + '\n' + to_text(summaries));
+    print(options.json ? document.dump(2) + '\n' : titled(to_text(table)) + '\n' + to_text(summaries));
     return 0;
 }
 
@@ -86,7 +86,8 @@ int list_scenes(const ListOptions& options) {
         table.rows.push_back(
             {scene.parameters.empty() ? scene.name : scene.name + ":" + scene.parameters, scene.description});
     }
-    print(options.json ? document.dump(2) + '\n' : to_text(table) + "Every .gltf and .glb file is a scene, too.\n");
+    print(options.json ? document.dump(2) + '\n'
+                       : titled(to_text(table)) + "Every .gltf and .glb file is a scene, too.\n");
     return 0;
 }
 
@@ -98,7 +99,7 @@ int list_profiles(const ListOptions& options) {
         table.rows.push_back({profile.name, profile.description});
     }
     print(options.json ? document.dump(2) + '\n'
-                       : to_text(table) + "strata profiles NAME prints its numbers and where each is from.\n");
+                       : titled(to_text(table)) + "strata profiles NAME prints its numbers and where each is from.\n");
     return 0;
 }
 
@@ -113,7 +114,7 @@ int show_profile(const ListOptions& options) {
     }
     Table table{{{"key"}, {"value"}, {"source"}}, {}};
     for (const auto& entry : pipeline::describe(profile)) table.rows.push_back({entry.key, entry.value, entry.source});
-    print(profile.name + ": " + profile.description + "\n\n" + to_text(table));
+    print(profile.name + ": " + profile.description + "\n\n" + titled(to_text(table)));
     return 0;
 }
 

@@ -2,8 +2,11 @@
 //
 // Rule     One line "strata: ..." on standard error and the exit status: 2 bad input or usage, 3 the system failed, 130
 //          interrupted. Tests    tests/tools/errors_test.cpp, interrupt_test.cpp
+#include <fmt/format.h>
+#include <sys/resource.h>
+
 #include <algorithm>
-#include <cstdio>
+#include <chrono>
 #include <filesystem>
 #include <ios>
 #include <new>
@@ -11,11 +14,13 @@
 #include "pipeline/device/check.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/input_errors.h"
 #include "scenes/files/unfinished_files.h"
 #include "tools/strata/command.h"
 #include "tools/strata/manual/manual.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/names.h"
-#include "tools/strata/options/printable.h"
 #include "tools/strata/recorded_command.h"
 #include "tools/strata/table.h"
 
@@ -27,7 +32,7 @@ enum Exit : int { bad_input = 2, system_failed = 3 };
 
 // Prints the one line of a failure and answers its status.
 int fail(const std::string& sentence, Exit status) {
-    std::fprintf(stderr, "strata: %s\n", printable(sentence).c_str());
+    say_error(sentence);
     return status;
 }
 
@@ -35,13 +40,31 @@ int fail(const std::string& sentence, Exit status) {
 void warn_of_threads() {
     const ThreadShortage threads = thread_shortage();
     if (threads.had < threads.asked)
-        std::fprintf(stderr, "strata: warning: --threads: the system refused %d threads; %d worked\n", threads.asked,
-                     threads.had);
+        say_warning(fmt::format("--threads: the system refused {} threads; {} worked", threads.asked, threads.had));
 }
 
-std::vector<std::string> names_of(const std::vector<Command>& commands) {
+using Clock = std::chrono::steady_clock;
+
+// A broken file may have thousands of faults: those that fit a screen are told.
+int fail_of(const std::vector<std::string>& sentences) {
+    constexpr std::size_t most = 20;
+    for (std::size_t i = 0; i < std::min(sentences.size(), most); ++i) say_error(sentences[i]);
+    if (sentences.size() > most) say_error(std::to_string(sentences.size() - most) + " more faults are not told");
+    return bad_input;
+}
+
+// What all of it took, for -v. Kilobytes are how Linux counts a process's memory.
+void tell_effort(Clock::time_point start) {
+    const std::chrono::duration<double> passed = Clock::now() - start;
+    rusage used{};
+    if (getrusage(RUSAGE_SELF, &used) == 0)
+        say_detail(fmt::format("done in {}, with at most {} MiB of memory", seconds_text(passed.count()),
+                               (used.ru_maxrss + 1023) / 1024));
+}
+
+std::vector<std::string> names_of(CLI::App& root) {
     std::vector<std::string> names;
-    for (const Command& command : commands) names.push_back(command.app->get_name());
+    for (const CLI::App* command : commands_of(root)) names.push_back(command->get_name());
     return names;
 }
 
@@ -65,6 +88,8 @@ std::string sentence(const CLI::ParseError& error, CLI::App& root) {
     const CLI::App& app = parsed_app(root);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
         const std::string extra = root.remaining(true).front();
+        if (!extra.starts_with('-') && &app == &root)
+            return "expected a command, found " + found_but_near(extra, names_of(root));
         if (!extra.starts_with('-'))
             return "strata " + app.get_name() + ": expected no further argument, found '" + extra + "'";
         const std::string option = extra.substr(0, extra.find('='));
@@ -88,7 +113,7 @@ std::string short_help(const std::vector<Command>& commands) {
     Table table{{{"strata COMMAND"}, {"what it does"}}, {}};
     for (const Command& command : commands)
         table.rows.push_back({"  " + command.app->get_name(), command.app->get_description()});
-    return to_text(table) +
+    return titled(to_text(table)) +
            "Begin with: strata render teapot --size 400x300 -o teapot.png\n"
            "More about a command: strata COMMAND --help\n";
 }
@@ -119,7 +144,7 @@ void refuse_values_of_flags(const std::vector<Command>& commands) {
 
 // The first word is checked here: CLI11 would call a misspelt command an extra argument.
 int parse_and_run(CLI::App& root, const std::vector<Command>& commands, std::vector<std::string> words) {
-    const auto names = names_of(commands);
+    const auto names = names_of(root);
     if (words.empty()) {
         print(short_help(commands));
         return 0;
@@ -165,6 +190,8 @@ int run(int count, char** words) {
         add_infer(root),      add_algorithms(root), add_profiles(root),   add_scenes(root),
         add_info(root),       add_help(root),       add_man(root),        add_completions(root),
     };
+    add_message_options(root);
+    for (const Command& command : commands) add_message_options(*command.app);
     refuse_values_of_flags(commands);
     return parse_and_run(root, commands, {words + std::min(count, 1), words + count});
 }
@@ -174,11 +201,16 @@ int run(int count, char** words) {
 
 int main(int count, char** words) {
     using namespace strata::tools;
+    const Clock::time_point start = Clock::now();
     strata::scenes::remove_unfinished_files_when_interrupted();
+    strata::scenes::tell_written_files([](const std::string& path) { say_detail("wrote " + path); });
     try {
         const int status = run(count, words);
         warn_of_threads();
+        tell_effort(start);
         return status;
+    } catch (const strata::scenes::InputErrors& errors) {
+        return fail_of(errors.sentences);
     } catch (const strata::InputError& error) {
         return fail(error.what(), bad_input);
     } catch (const strata::pipeline::Refused& error) {

@@ -13,8 +13,10 @@
 #include "scenes/files/load_image_module.h"
 #include "tools/oracle/contact_sheet.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -22,6 +24,11 @@ namespace strata::tools {
 namespace {
 
 using nlohmann::ordered_json;
+
+struct PassesOptions {
+    RunOptions run;
+    std::string report;  // --report; empty: none
+};
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
@@ -64,8 +71,8 @@ std::vector<std::string> to_row(const oracle::PassShown& pass) {
             queries.empty() ? "-" : queries};
 }
 
-// One algorithm's files; their names begin with its own if there are several.
-void show(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm) {
+// One algorithm's files; their names begin with its own if there are several. Its section of the page.
+void show(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm, PlainPage& page) {
     const std::string prefix = options.algorithms.size() == 1 ? "" : algorithm.name + ".";
     const auto path = [&](const std::string& name) {
         return (std::filesystem::path(options.output) / (prefix + name)).string();
@@ -93,23 +100,33 @@ void show(const RunOptions& options, const Session& session, const peeling::Algo
                    });
     scenes::write_image(path("contact.png"), {.color = sheet.image()});
     scenes::write_file(path("passes.json"), document.dump(2) + '\n');
-    print((prefix.empty() ? "" : algorithm.name + ":\n") + to_text(table));
+    page.heading(algorithm.name);
+    page.paragraph(
+        algorithm.summary +
+        ". The sheet has a row a pass and a column a target; a light frame is round what the pass has written.");
+    page.table(table, "The passes of " + algorithm.name);
+    page.picture(sheet.image(), "Every target of " + algorithm.name + " after every pass");
+    print((prefix.empty() ? "" : algorithm.name + ":\n") + titled(to_text(table)));
 }
 
 // A refused algorithm writes nothing; 2 if all of them are.
-int passes(RunOptions& options) {
+int passes(PassesOptions& command) {
+    RunOptions& options = command.run;
     complete(options);
+    check_outputs({{"--report", command.report, {".html"}}});
     if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the files, found none");
     static_cast<void>(scenes::image_module());  // else it would be missed after the first pass
     const Session session = open_session(options);
     std::filesystem::create_directories(options.output);
     int status = 2;
+    PlainPage page{"Passes of " + options.scene, canonical_command("passes", options, options.algorithms)};
     for (const peeling::Algorithm* algorithm : options.algorithms) try {
-            show(options, session, *algorithm);
+            show(options, session, *algorithm, page);
             status = 0;
         } catch (const pipeline::Refused& refused) {
-            std::fprintf(stderr, "strata: %s: %s\n", algorithm->name.c_str(), refused.what());
+            say_error(algorithm->name + ": " + refused.what());
         }
+    if (status == 0) write_page(command.report, page);
     return status;
 }
 
@@ -118,9 +135,10 @@ int passes(RunOptions& options) {
 Command add_passes(CLI::App& root) {
     auto* app =
         root.add_subcommand("passes", "write every target of an algorithm after every pass, and a contact sheet");
-    const auto options = std::make_shared<RunOptions>();
-    add_picture_options(*app, *options);
-    add_path(*app, options->output,
+    const auto options = std::make_shared<PassesOptions>();
+    add_picture_options(*app, options->run);
+    add_report_option(*app, options->report);
+    add_path(*app, options->run.output,
              {"-o", "FOLDER",
               "gets pass.000.exr ..., passes.json and contact.png; NAME.pass.000.exr with several algorithms",
               "a folder's name"});

@@ -1,26 +1,28 @@
 #include "tools/strata/progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include "tools/strata/messages.h"
 
 namespace strata::tools {
 
 Progress::Progress(std::string label, Remaining remaining)
     : label_{std::move(label)},
       remaining_{remaining},
-      is_terminal_{isatty(STDERR_FILENO) == 1},
+      is_shown_{shows_progress()},
       start_{std::chrono::steady_clock::now()} {}
 
 Progress::~Progress() {
     // Spaces over the line, and back to its beginning.
     if (shown_ > 0) std::fprintf(stderr, "\r%*s\r", static_cast<int>(shown_), "");
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    say_detail(label_ + ": " + seconds_text(passed.count()));
 }
 
 void Progress::show(double share) {
-    if (!is_terminal_) return;
+    if (!is_shown_) return;
     const std::lock_guard lock(mutex_);
     const int percent = static_cast<int>(std::clamp(share, 0.0, 1.0) * 100);
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;

@@ -11,8 +11,8 @@ namespace strata::tools {
 // Whether the line tells how much longer it takes, if the rest goes like the part that is done.
 enum class Remaining : std::uint8_t { hidden, shown };
 
-// A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard
-// error is a terminal and a second has passed, and wipes its line when it ends.
+// A bar for one piece of work, which lasts as long as the object. It shows nothing unless standard error is a terminal, a second
+// has passed and nobody asked for quiet, and wipes its line when it ends. Under -v the end tells how long the work took.
 class Progress {
   public:
     explicit Progress(std::string label, Remaining remaining = Remaining::hidden);
@@ -26,7 +26,7 @@ class Progress {
   private:
     std::string label_;
     Remaining remaining_;
-    bool is_terminal_;
+    bool is_shown_;
     std::chrono::steady_clock::time_point start_;
     std::mutex mutex_;
     // Characters on the line: what must be wiped.

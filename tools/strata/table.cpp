@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "scenes/files/system_error.h"
+#include "tools/strata/messages.h"
 
 namespace strata::tools {
 
@@ -48,7 +49,13 @@ std::string to_text(const Table& table) {
     return text;
 }
 
-void print(std::string_view text) {
+std::string titled(const std::string& table) {
+    const std::size_t end = std::min(table.find('\n'), table.size());
+    return painted(table.substr(0, end), Paint::bold, Stream::output) + table.substr(end);
+}
+
+void print(std::string_view given) {
+    const std::string text = shown_text(given, Stream::output);
     // The flush is what finds a full disk: fwrite() fills a buffer first.
     const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!written) throw SystemError("standard output", "write", std::generic_category().message(errno));

@@ -23,7 +23,10 @@ struct Table {
 // Two spaces between columns, no space at a line's end; a character counts as one place wide (UTF-8).
 [[nodiscard]] std::string to_text(const Table& table);
 
-// Writes all of `text` to standard output and flushes it. Throws SystemError where that fails (a full disk).
+// The text of a table, with its first line bold where standard output shows colours.
+[[nodiscard]] std::string titled(const std::string& table);
+
+// Writes all of `text`, as shown_text has it (messages.h), to standard output and flushes it. Throws SystemError where that fails (a full disk).
 void print(std::string_view text);
 
 }  // namespace strata::tools

@@ -10,11 +10,13 @@ import functools
 import http.server
 import json
 import os
-import shutil
 import subprocess
 import sys
 import threading
 import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tests", "browser"))
+import pages  # noqa: E402
 
 # With the options that the command takes; the page's questions carry the same.
 SCENES = [
@@ -55,19 +57,6 @@ def serve(folder):
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=folder))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     return f"http://127.0.0.1:{server.server_port}/"
-
-
-def browser():
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
-    options = Options()
-    for argument in ["--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1280,1600"]:
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
-    driver.set_script_timeout(300)
-    return driver
 
 
 class Page:
@@ -143,10 +132,7 @@ class Page:
         if "STRATA_AXE" not in os.environ:
             print("SKIPPED: axe-core, for STRATA_AXE names no file")
             return
-        with open(os.environ["STRATA_AXE"], encoding="utf-8") as file:
-            self.js(file.read())
-        self.expect("axe-core finds nothing", self.driver.execute_async_script(
-            "const done = arguments[0]; axe.run().then((r) => done(r.violations.map((v) => v.id + ': ' + v.help)))"), [])
+        self.expect("axe-core finds nothing", pages.violations(self.driver), [])
 
 
 def told_by_one(strata, scene, question):
@@ -157,16 +143,12 @@ def told_by_one(strata, scene, question):
 
 def main():
     strata, folder = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
-    try:
-        import selenium  # noqa: F401
-    except ImportError:
-        print("SKIPPED: python3-selenium was not found")
-        return 77
-    if not shutil.which("chromedriver") or not shutil.which("chromium"):
-        print("SKIPPED: chromium or chromium-driver was not found")
-        return 77
+    if pages.missing():
+        print(pages.missing())
+        return pages.SKIPPED
     size = sum(os.path.getsize(os.path.join(folder, name)) for name in os.listdir(folder))
-    driver = browser()
+    driver = pages.browser("--disable-gpu", size="1280,1600")
+    driver.set_script_timeout(300)
     page = Page(driver, strata)
     try:
         page.expect("at most 3 MiB", size <= 3 << 20, True)
@@ -179,7 +161,7 @@ def main():
         page.check_digests()
         page.check_mistakes()
         page.check_model()
-        page.expect("the console is empty", [e["message"] for e in driver.get_log("browser") if e["level"] in ("SEVERE", "WARNING")], [])
+        page.expect("the console is empty", pages.console(driver), [])
     finally:
         driver.quit()
     print("\n".join(page.wrong))

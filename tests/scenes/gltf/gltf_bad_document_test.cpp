@@ -202,6 +202,7 @@ TEST_CASE("each fault of a glTF document is refused at its JSON pointer with the
             continue;
         }
         CHECK(message.starts_with("test.gltf: " + std::string(change.pointer) + ": expected "));
-        CHECK(message.ends_with(" [" + code + "]"));
+        // A change may make two places wrong: the first one is what is changed.
+        CHECK(message.substr(0, message.find(" (and ")).ends_with(" [" + code + "]"));
     }
 }

@@ -6,6 +6,7 @@
 #include "scenes/files/atomic_file.h"
 #include "tools/strata/bench/bench_report.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/parse.h"
 #include "tools/strata/table.h"
@@ -74,7 +75,7 @@ std::vector<BenchScene> open_scenes(const BenchOptions& options) {
 // 1 if a way of running changed a bit, 2 if every job was refused.
 int exit_status(const std::vector<BenchResult>& results) {
     const auto wrong = differing(results);
-    for (const std::string& name : wrong) std::fprintf(stderr, "strata: %s: the picture differs\n", name.c_str());
+    for (const std::string& name : wrong) say_error(name + ": the picture differs");
     if (!wrong.empty()) return 1;
     return std::all_of(results.begin(), results.end(), [](const BenchResult& r) { return r.is_refused(); }) ? 2 : 0;
 }

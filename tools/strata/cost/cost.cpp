@@ -11,6 +11,8 @@
 #include "tools/strata/cost/cost_row.h"
 #include "tools/strata/cost/cost_run.h"
 #include "tools/strata/options/choices.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
 #include "tools/strata/sweep/sweep.h"
 
 namespace strata::tools {
@@ -22,6 +24,7 @@ struct CostOptions {
     std::vector<std::string> scenes;
     std::vector<std::string> knobs = cost_knobs();
     CostTiming timing;
+    std::string report;
     Shard shard;
     int merge = 0;
     bool dry_run = false;
@@ -135,9 +138,11 @@ int cost(CostOptions& options) {
         throw CLI::ValidationError("-o", "expected a folder for the results, found none");
     if (options.merge > 0 && options.shard.count > 1)
         throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
+    check_outputs({{"--report", options.report, {".html"}}});
     complete(options.run);
     CostSweep sweep = planned(options);
-    const Work work = work_of(options, sweep);
+    Work work = work_of(options, sweep);
+    work.report = options.report;
     if (options.dry_run) return dry_run(work, options.shard), 0;
     const std::string& folder = options.run.output;
     if (options.merge > 0) return merge_shards(work, folder, static_cast<std::size_t>(options.merge));
@@ -179,6 +184,7 @@ Command add_cost(CLI::App& root) {
         *app, options->run.output,
         {"-o,--output", "FOLDER",
          "a folder: results.jsonl, results.csv, timings.jsonl, cost.csv, sentences.txt, frontier.*.svg", "a folder"});
+    add_report_option(*app, options->report);
     add_option(*app, options->shard,
                {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
     add_option(*app, options->merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},

@@ -7,6 +7,7 @@
 #include "peeling/algorithms/algorithm.h"
 #include "rasterizer/base/input_error.h"
 #include "scenes/packs/pack_scene.h"
+#include "tools/oracle/drawings.h"
 #include "tools/oracle/mistakes/diagnosis_report.h"
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
 #include "tools/oracle/pack/pack_pictures.h"
@@ -15,6 +16,7 @@
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
 #include "tools/strata/tolerances.h"
 
@@ -28,6 +30,7 @@ struct DiagnoseOptions {
     std::optional<oracle::RawLayout> layout{};
     oracle::Tolerances tolerances{};
     int limit = 0;  // geometry passes after which the candidate gives up
+    std::string report;
     bool json = false;
 };
 
@@ -117,7 +120,19 @@ int diagnose_one(const DiagnoseOptions& options) {
     Progress pairs("pairs of mistakes");
     const oracle::Diagnosis found =
         opened->lineup->diagnose(opened->candidate, options.tolerances, shown_by(pairs), opened->passes_or_null());
-    print(options.json ? to_json(found, opened->comparison()) : to_text(found, opened->comparison()));
+    const oracle::Comparison comparison = opened->comparison();
+    if (!options.report.empty()) {
+        PlainPage page{"Diagnosis", canonical_command("render", opened->options.run, opened->options.run.algorithms)};
+        page.heading("What was found");
+        page.lines(to_text(found, comparison));
+        page.heading("Pictures");
+        page.picture(oracle::as_shown(opened->laboratory->right()), "As it should be");
+        page.picture(oracle::as_shown(opened->candidate), "The candidate");
+        page.picture(oracle::heat_map(comparison),
+                     "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
+        write_page(options.report, page);
+    }
+    print(options.json ? to_json(found, comparison) : to_text(found, comparison));
     return status_of(found.verdict);
 }
 
@@ -179,6 +194,7 @@ void check_several(const CLI::App& app) {
 
 int diagnose(const CLI::App& app, const DiagnoseOptions& options) {
     const std::vector<std::string> packs = packs_in(options.run.scene);
+    check_outputs({{"--report", options.report, {".html"}}});
     if (packs.empty()) return diagnose_one(options);
     check_several(app);
     return diagnose_several(options, packs);
@@ -205,6 +221,7 @@ Command add_diagnose(CLI::App& root) {
                    const auto number = to_int<int>(text);
                    return number && *number >= 1 ? number : std::nullopt;
                });
+    add_report_option(*app, options->report);
     app->add_flag("--json", options->json, "one JSON document instead of text");
     app->footer(
         "The scene is drawn at the candidate's size, whatever --size says; strata mistakes lists what is tried.\n"

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
@@ -15,6 +14,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/system_error.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
@@ -105,7 +105,7 @@ int reduce(const ReduceOptions& options) {
     scene.algorithms.resize(1);
     Runner runner{options};
     runner.use(options.pack);
-    const bool is_terminal = isatty(STDERR_FILENO) != 0;
+    const bool is_terminal = shows_progress();
     int runs = 0;
     const auto show = [&](const oracle::Golden& tried) {
         ++runs;

@@ -10,6 +10,8 @@
 #include "tools/strata/hard_cases/hard_page.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -20,7 +22,7 @@ using nlohmann::ordered_json;
 
 struct HardOptions {
     std::vector<std::string> names;
-    std::string folder;
+    std::string folder, report;
     std::vector<std::string> profiles{"geforce3", "geforce8", "ideal", "llvmpipe"};
     std::vector<std::string> formats{"d16", "d24", "d32f"};
     std::vector<std::string> algorithms;  // empty: all
@@ -46,7 +48,7 @@ int list_cases(const HardOptions& options) {
         table.rows.push_back({std::string{hard.name}, fmt::format("{}x{}", hard.width, hard.height),
                               fmt::format("{}", hard.counts.layers), std::string{hard.hard}});
     }
-    print(options.json ? document.dump(2) + '\n' : to_text(table));
+    print(options.json ? document.dump(2) + '\n' : titled(to_text(table)));
     return 0;
 }
 
@@ -90,7 +92,9 @@ int hard_cases_command(const HardOptions& options) {
     if (options.merge > 0 && options.shard.count > 1)
         throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
     const HardSweep sweep = sweep_of(options);
+    check_outputs({{"--report", options.report, {".html"}}});
     Work work = hard_work(sweep);
+    work.report = options.report;
     bool failed = false;
     // A shard's lines are a part of the page that --merge writes.
     work.summary = [&](const Lines& lines) {
@@ -138,6 +142,7 @@ Command add_hard_cases(CLI::App& root) {
     add_names(*app, "--profile", options->profiles, profiles, "devices (default geforce3,geforce8,ideal,llvmpipe)");
     add_names(*app, "--depth", options->formats, names_of(depth_formats), "depth formats (default d16, d24 and d32f)");
     add_names(*app, "--algorithm", options->algorithms, algorithm_names(), "algorithms (default all)");
+    add_report_option(*app, options->report);
     add_option(*app, options->shard,
                {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
     add_option(*app, options->merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},

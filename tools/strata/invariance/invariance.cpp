@@ -12,6 +12,8 @@
 #include "tools/strata/invariance/invariance_row.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/options.h"
+#include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
 #include "tools/strata/sweep/sweep.h"
 
 namespace strata::tools {
@@ -23,7 +25,7 @@ namespace {
 struct InvarianceOptions {
     RunOptions run;
     KeyValues keys;
-    std::string plan;
+    std::string plan, report;
     Shard shard;
     int merge = 0;
     bool dry_run = false, images = true, hypotheses = false;
@@ -99,12 +101,14 @@ Work work_of(const InvarianceOptions& options, const std::vector<Cell>& cells, C
 
 int invariance(InvarianceOptions& options) {
     check_usage(options);
+    check_outputs({{"--report", options.report, {".html"}}});
     if (!options.run.scene.empty()) options.keys["scene"] = {options.run.scene};
     if (options.hypotheses) options.keys["hypothesis"] = {"all"};
     CellRunner runner(options.run.scene_options, options.run.render);
     const std::vector<Cell> cells = all_cells(options, runner);
     for (const Cell& cell : cells) runner.check(cell);
-    const Work work = work_of(options, cells, runner);
+    Work work = work_of(options, cells, runner);
+    work.report = options.report;
     if (options.dry_run) return dry_run(work, options.shard), 0;
     const std::string& folder = options.run.output;
     if (options.merge > 0) return merge_shards(work, folder, static_cast<std::size_t>(options.merge));
@@ -115,6 +119,7 @@ void add_sweep_options(CLI::App& app, InvarianceOptions& options) {
     add_path(app, options.plan, {"--plan", "FILE", "a JSON plan of cells (tools/invariance/README.md)", "a file name"});
     add_path(app, options.run.output,
              {"-o,--output", "FOLDER", "a folder: results.jsonl, results.csv, timings.jsonl, images/", "a folder"});
+    add_report_option(app, options.report);
     add_option(app, options.shard,
                {"--shard", "I/N", "only the cells I, I + N, ... (from 1)", "I/N with I from 1 to N"}, to_shard);
     add_option(app, options.merge, {"--merge", "N", "put the results of N shards together", "a whole number from 1"},

@@ -20,7 +20,10 @@ const std::vector<Group>& groups() {
     static const std::vector<Group> all{
         {"What is drawn", Shown::usual, {"scene", "colour", "no-light", "algorithm", "profile", "depth", "from"}},
         {"The view", Shown::usual, {"size", "camera", "orbit", "alpha", "background"}},
-        {"Results", Shown::usual, {"output", "stats", "no-audit", "json", "csv", "expect", "channels"}},
+        {"Results",
+         Shown::usual,
+         {"output", "format", "stats", "no-audit", "json", "csv", "expect", "channels", "report", "map", "region"}},
+        {"Messages", Shown::usual, {"quiet", "verbose", "color"}},
         {"Depths and positions, rarely needed",
          Shown::all,
          {"depth-path", "reference-path", "compare-epsilon", "no-quantize-reference", "vertex-path", "polygon-offset",

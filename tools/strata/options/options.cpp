@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "peeling/registry.h"
+#include "scenes/files/atomic_file.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/choices.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/pack_options.h"
@@ -307,7 +308,7 @@ void accept_tiled(CLI::Option& execution, RunOptions& options) {
             throw CLI::ValidationError(
                 "expected replay once, found it beside 'tiled', which is replay "
                 "with --fragment-memory 0");
-        if (has_tiled) std::fputs("strata: warning: --execution tiled is replay with --fragment-memory 0\n", stderr);
+        if (has_tiled) say_warning("--execution tiled is replay with --fragment-memory 0");
         options.keeps_no_fragments = has_tiled;
         return words;
     });
@@ -338,7 +339,7 @@ void check_simd(Simd simd) {
 }
 
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help) {
-    add_path(app, options.output, {"-o,--output", "FILE", output_help, "a file name"});
+    add_path(app, options.output, {"-o,--output", "FILE", output_help, "a file name or -"});
     add_path(
         app, options.stats,
         {"--stats", "FILE|-", "statistics as JSON, one object an algorithm; - is standard output", "a file name or -"});
@@ -352,12 +353,29 @@ void add_output_options(CLI::App& app, RunOptions& options, const std::string& o
         to_bytes);
 }
 
+void add_format_option(CLI::App& app, RunOptions& options, const std::string& help) {
+    const std::vector<Choice<scenes::ImageFile>> kinds{{"png", scenes::ImageFile::png},
+                                                       {"exr", scenes::ImageFile::exr}};
+    add_choice(app, options.format, "--format", kinds, help);
+}
+
 void complete(RunOptions& options) {
+    const bool is_piped = scenes::is_standard_output(options.output);
+    if (options.format && !is_piped)
+        throw CLI::ValidationError(
+            "--format",
+            "expected -o - beside it, for another file's name says what it is, found '" + options.output + "'");
+    if (is_piped && scenes::is_standard_output(options.stats))
+        throw CLI::ValidationError("--stats",
+                                   "expected a file beside -o -, found standard output, which the picture takes");
     if (options.keeps_no_fragments) options.render.fragment_memory = 0;
     if (options.algorithms.empty()) options.algorithms = to_algorithms(options.default_algorithm);
     if (options.orbit && !options.camera.empty()) {
         throw CLI::ValidationError("--orbit", "expected either --orbit or --camera, found both");
     }
+    if (is_piped && options.algorithms.size() > 1)
+        throw CLI::ValidationError("-o", "expected one algorithm for standard output, found " +
+                                             std::to_string(options.algorithms.size()) + "; name a file instead");
 }
 
 }  // namespace strata::tools

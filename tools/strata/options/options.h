@@ -9,6 +9,7 @@
 #include "peeling/render_options.h"
 #include "rasterizer/base/simd.h"
 #include "scenes/camera.h"
+#include "scenes/files/image_io.h"
 #include "scenes/scene.h"
 #include "tools/strata/options/values.h"
 
@@ -32,8 +33,9 @@ struct RunOptions {
     bool keeps_no_fragments = false;  // --execution tiled: replay without memory, whatever --fragment-memory says
     std::optional<std::uint64_t> max_memory{};  // --max-memory in bytes; none: what the machine has free
     Simd simd = Simd::best;
-    std::string stats;   // --stats; empty: none, "-": standard output
-    std::string output;  // -o; empty: none
+    std::string stats;                        // --stats; empty: none, "-": standard output
+    std::string output;                       // -o; empty: none, "-": standard output
+    std::optional<scenes::ImageFile> format;  // --format: what a picture to standard output is
 };
 
 // SCENE, --scene, --colour, --no-light.
@@ -61,6 +63,9 @@ void check_simd(Simd simd);
 
 // Where results go and what they may take: --stats, -o, --no-audit, --max-memory.
 void add_output_options(CLI::App& app, RunOptions& options, const std::string& output_help);
+
+// --format, beside -o -.
+void add_format_option(CLI::App& app, RunOptions& options, const std::string& help);
 
 // Checks exclusions and fills in defaults that are lists, which needs all options together. Throws
 // CLI::ValidationError.

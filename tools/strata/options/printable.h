@@ -1,6 +1,7 @@
 // tools/strata/options/printable.h - text from outside as it may stand in a sentence: one line of UTF-8.
 //
-// Rule     A control character and a byte that is no part of a UTF-8 character become \xNN. A file's name and a word of the
+// Rule     A control character below U+0020 and a byte that is no part of a UTF-8 character become \xNN; U+007F to U+009F, which JSON does
+//          not escape and some terminals obey, become \u00NN. A file's name and a word of the
 //          command line may hold any byte but 0. Source   RFC 3629 4. Tests    tests/tools/errors_test.cpp
 #pragma once
 #include <cstdint>
@@ -32,7 +33,12 @@ namespace strata::tools {
     while (!text.empty()) {
         const std::size_t length = utf8_length(text);
         const auto first = static_cast<std::uint8_t>(text.front());
-        if (length == 0 || first < 0x20 || first == 0x7f)
+        const bool is_delete = first == 0x7f,
+                   is_c1 = length == 2 && first == 0xc2 && static_cast<std::uint8_t>(text[1]) < 0xa0;
+        const auto last = static_cast<std::uint8_t>(text[is_c1 ? 1 : 0]);
+        if (is_delete || is_c1)
+            shown += {'\\', 'u', '0', '0', digits[last >> 4], digits[last & 15u]};
+        else if (length == 0 || first < 0x20)
             shown += {'\\', 'x', digits[first >> 4], digits[first & 15u]};
         else
             shown += text.substr(0, length);

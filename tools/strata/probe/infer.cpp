@@ -9,6 +9,7 @@
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/profile_json.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/probe/items.h"
 #include "tools/strata/table.h"
 
@@ -123,7 +124,8 @@ int run(const InferOptions& options) {
                          "answers of that orientation (--y names another)", "none");
     const Inference result = probe::infer(pack, items, options.orientation);
     if (!options.output.empty()) scenes::write_file(options.output, scenes::to_json(result.profile));
-    print(options.json ? to_json(result).dump(1) + "\n" : to_text(result));
+    const std::string told = options.json ? to_json(result).dump(1) + "\n" : to_text(result);
+    scenes::is_standard_output(options.output) ? say_note(told) : print(told);
     return 0;
 }
 
@@ -134,7 +136,8 @@ Command add_infer(CLI::App& root) {
     const auto options = std::make_shared<InferOptions>();
     add_path(*app, options->pack, {"PACK", "", "answers: a folder or a tar archive of it", "a folder or an archive"})
         ->required();
-    add_path(*app, options->output, {"-o", "FILE.json", "the profile, as --profile takes it", "a file's name"});
+    add_path(*app, options->output,
+             {"-o", "FILE.json", "the profile, as --profile takes it; - is standard output", "a file's name"});
     add_orientation(*app, options->orientation, "the answers that count (default up)");
     app->add_flag("--json", options->json, "print one JSON object instead of the table");
     app->footer(

@@ -62,7 +62,7 @@ int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) 
                                       {"color_differ", one.color}});
     }
     table.rows.push_back(row("all", sum));
-    print(options.json ? document.dump(1) + "\n" : to_text(table));
+    print(options.json ? document.dump(1) + "\n" : titled(to_text(table)));
     return sum.is_none() ? 0 : 1;
 }
 

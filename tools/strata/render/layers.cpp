@@ -8,6 +8,7 @@
 
 #include "peeling/render.h"
 #include "scenes/files/image_io.h"
+#include "tools/oracle/contact_sheet.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/recorded_command.h"
@@ -61,6 +62,17 @@ std::vector<scenes::OutputColor> ordered_layers(const Finished& finished) {
     return front;
 }
 
+// A row a layer, from near to far, with its colours and its depths.
+pipeline::Image contact_sheet(const std::vector<scenes::OutputColor>& layers) {
+    oracle::ContactSheet sheet;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        std::vector<oracle::NamedImage> targets{{"colour", layers[i].color}};
+        if (!layers[i].depth.codes.empty()) targets.push_back({"depth - near is bright", layers[i].depth});
+        sheet.add(layers[i].part.empty() ? fmt::format("layer {}", i) : layers[i].part, targets, {});
+    }
+    return sheet.image();
+}
+
 // Writes the layers (-o) and the fragments (--deep) of one algorithm.
 void write_layers(const LayersOptions& options, const Finished& finished) {
     const scenes::Attributes attributes = attributes_of("layers", options.run, finished);
@@ -77,7 +89,12 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
                  .space = options.run.scene_options.color_space,
                  .attributes = attributes});
         }
-        scenes::write_layers(path_for(options.run.output, options.run, finished.algorithm), layers);
+        const std::string path = path_for(options.run.output, options.run, finished.algorithm);
+        if (kind_of(options.run, scenes::ImageFile::exr) == scenes::ImageFile::png)
+            scenes::write_image(path, {.color = contact_sheet(layers), .attributes = attributes},
+                                scenes::ImageFile::png);
+        else
+            scenes::write_layers(path, layers);
     }
     if (!options.deep.empty()) {
         scenes::write_deep(path_for(options.deep, options.run, finished.algorithm),
@@ -86,7 +103,7 @@ void write_layers(const LayersOptions& options, const Finished& finished) {
 }
 
 int layers(LayersOptions& options) {
-    check_outputs({{"-o", options.run.output, {".exr"}}, {"--deep", options.deep, {".exr"}}});
+    check_outputs({{"-o", options.run.output, {".exr", ".png"}, Piped::possibly}, {"--deep", options.deep, {".exr"}}});
     if (options.run.output.empty() && options.deep.empty()) {
         throw CLI::ValidationError("-o",
                                    "expected a file for the layers, or --deep one for the fragments, found neither");
@@ -104,15 +121,18 @@ Command add_layers(CLI::App& root) {
     add_picture_options(*app, options->run);
     add_from_option(*app);
     add_execution_options(*app, options->run);
-    add_output_options(*app, options->run,
-                       "the layers, .exr: part layer.000 is the nearest; of a dual peel front.000 and back.000");
+    add_output_options(
+        *app, options->run,
+        "the layers: .exr has part layer.000, the nearest, and so on, of a dual peel front.000 and back.000; .png is "
+        "one sheet with all of them; - is standard output");
+    add_format_option(*app, options->run, "what -o - writes (default exr)");
     add_path(*app, options->deep,
              {"--deep", "FILE", "every fragment as a deep EXR, in submission order", "a file name"});
     app->footer(
         footer("  strata layers teapot --size 200x150 -o layers.exr\n"
                "  strata layers volume-beam:slices=4 --algorithm depth_units --size 64x64 -o beam.exr --deep "
                "fragments.exr\n"
-               "  strata layers teapot --algorithm dual --size 64x64 -o dual.exr\n"));
+               "  strata layers teapot --algorithm dual --size 160x120 -o dual.png\n"));
     return {app, [options] { return layers(*options); }};
 }
 

@@ -7,13 +7,34 @@
 #include "tools/oracle/mistakes/catalogue.h"
 #include "tools/oracle/mistakes/laboratory.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/recorded_command.h"
+#include "tools/strata/render/map.h"
 #include "tools/strata/render/run.h"
+#include "tools/strata/report/plain_page.h"
+#include "tools/strata/report/report_page.h"
 
 namespace strata::tools {
 
 namespace {
+
+struct RenderCommand {
+    RunOptions run;
+    std::vector<const oracle::Mistake*> mistakes;
+    std::optional<Map> map;
+    std::string report;  // --report; empty: none
+};
+
+// A map stands in the picture's place, and its command makes the map again.
+void write_map(const RunOptions& options, Map map, const Finished& finished) {
+    const MapPicture picture = map_of(map, options, finished);
+    scenes::Attributes attributes = attributes_of("render", options, finished);
+    attributes["command"] += " --map " + name_of(map_names(), map);
+    scenes::write_image(path_for(options.output, options, finished.algorithm),
+                        {.color = picture.image, .attributes = attributes}, scenes::ImageFile::png);
+    say_note(legend_of(map, picture));
+}
 
 // Without -o nothing is written: the statistics are the result.
 void write_picture(const RunOptions& options, const Finished& finished) {
@@ -23,13 +44,9 @@ void write_picture(const RunOptions& options, const Finished& finished) {
                          .depth = finished.result.frame.depth,
                          .premultiplied = true,  // a finished frame's alpha is 1
                          .space = options.scene_options.color_space,
-                         .attributes = attributes_of("render", options, finished)});
+                         .attributes = attributes_of("render", options, finished)},
+                        kind_of(options, scenes::ImageFile::png));
 }
-
-struct RenderCommand {
-    RunOptions run;
-    std::vector<const oracle::Mistake*> mistakes;
-};
 
 // Names with commas between, as `strata mistakes` lists them.
 std::vector<const oracle::Mistake*> to_mistakes(const std::string& text) {
@@ -72,9 +89,17 @@ int render_mistaken(RunOptions& options, const std::vector<const oracle::Mistake
 
 int render(RenderCommand& command) {
     RunOptions& options = command.run;
-    check_outputs({{"-o", options.output, {".exr", ".png"}}});
+    const std::vector<std::string> pictures{".exr", ".png"}, map_endings{".png"};
+    check_outputs({{"-o", options.output, command.map ? map_endings : pictures, Piped::possibly},
+                   {"--report", command.report, {".html"}}});
+    if (command.map && options.output.empty())
+        throw CLI::ValidationError("--map", "expected -o FILE.png beside it, found none");
     if (!command.mistakes.empty()) return render_mistaken(options, command.mistakes);
-    return run_algorithms(options, [&](const Finished& finished) { write_picture(options, finished); });
+    const int status = run_algorithms(options, [&](const Finished& finished) {
+        command.map ? write_map(options, *command.map, finished) : write_picture(options, finished);
+    });
+    if (status == 0 && !command.report.empty()) write_report(options, command.report);
+    return status;
 }
 
 }  // namespace
@@ -86,11 +111,17 @@ Command add_render(CLI::App& root) {
     add_picture_options(*app, options->run);
     add_from_option(*app);
     add_execution_options(*app, options->run);
-    add_output_options(*app, options->run, "the picture, .exr or .png; with several algorithms out.NAME.png");
+    add_output_options(*app, options->run,
+                       "the picture, .exr or .png; with several algorithms out.NAME.png; - is standard output");
+    add_format_option(*app, options->run, "what -o - writes (default png)");
     app->add_option_function<std::string>(
            "--mistake", [options = options.get()](const std::string& text) { options->mistakes = to_mistakes(text); },
            "draw like a machine with these mistakes, to try strata diagnose (strata mistakes lists them)")
         ->type_name("NAME[,NAME...]");
+    add_choice(*app, options->map, "--map", map_names(),
+               "write a map as the .png of -o: fragments a pixel, fragments at another one's depth, or the difference "
+               "from the exact A-buffer");
+    add_report_option(*app, options->report);
     app->footer(
         footer("  strata render teapot --size 400x300 -o teapot.png\n"
                "  strata render volume-beam:slices=16 --algorithm all --profile ideal --size 200x150\n"

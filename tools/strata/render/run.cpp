@@ -1,6 +1,8 @@
 #include "tools/strata/render/run.h"
 
-#include <cstdio>
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <map>
 
@@ -9,9 +11,10 @@
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/load_image_module.h"
 #include "scenes/files/profile_json.h"
+#include "scenes/files/unfinished_files.h"
 #include "scenes/numbers/srgb_encode.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/names.h"
-#include "tools/strata/options/printable.h"
 #include "tools/strata/progress.h"
 #include "tools/strata/render/memory.h"
 #include "tools/strata/render/stats.h"
@@ -65,11 +68,9 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
         return !scene.list.meshes[instance.mesh].indices.empty();
     };
     if (std::none_of(scene.list.instances.begin(), scene.list.instances.end(), has_triangles)) {
-        std::fprintf(
-            stderr,
-            "strata: warning: %s: nothing is drawn, for the scene has no triangles; strata scene tells what it "
-            "holds, and --scene chooses another one of the file\n",
-            printable(options.scene).c_str());
+        say_warning(options.scene +
+                    ": nothing is drawn, for the scene has no triangles; strata scene tells what it "
+                    "holds, and --scene chooses another one of the file");
         return;
     }
     if (options.render.alpha) return;
@@ -77,10 +78,9 @@ void warn_of_opaque(const RunOptions& options, const scenes::Scene& scene) {
         return scene.list.materials[instance.material].alpha_mode == pipeline::AlphaMode::blend;
     };
     if (std::any_of(scene.list.instances.begin(), scene.list.instances.end(), is_transparent)) return;
-    std::fprintf(stderr,
-                 "strata: warning: %s: nothing is transparent, so there is nothing to peel; "
-                 "--alpha 0.5 draws everything as half transparent\n",
-                 options.scene.c_str());
+    say_warning(
+        options.scene +
+        ": nothing is transparent, so there is nothing to peel; --alpha 0.5 draws everything as half transparent");
 }
 
 }  // namespace
@@ -91,9 +91,12 @@ Session open_session(RunOptions& options) {
     Session session;
     // Profile first: it is small, and an error in it is told before a large scene is read.
     session.profile = scenes::load_profile(options.profile);
+    const auto start = std::chrono::steady_clock::now();
     session.scene = scenes::load_scene(options.scene, options.scene_options);
-    for (const std::string& warning : session.scene.warnings)
-        std::fprintf(stderr, "strata: warning: %s\n", warning.c_str());
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    say_detail(fmt::format("read {}: meshes: {}, drawn: {}, in {}", options.scene, session.scene.list.meshes.size(),
+                           session.scene.list.instances.size(), seconds_text(taken.count())));
+    for (const std::string& warning : session.scene.warnings) say_warning(warning);
     warn_of_opaque(options, session.scene);
     options.takes_own_view = options.camera.empty() && !options.orbit && session.scene.own_view.has_value();
     const scenes::ClipConvention own = options.takes_own_view ? options.view_convention : scenes::ClipConvention{};
@@ -108,6 +111,18 @@ Session open_session(RunOptions& options) {
 }
 
 namespace {
+
+// What an interrupt leaves undone while algorithm number `current` runs.
+std::string undone(const RunOptions& options, std::size_t current) {
+    const std::size_t count = options.algorithms.size();
+    std::string text = count == 1 ? "" : fmt::format("{} of {} algorithms are done", current, count);
+    std::string files;
+    for (std::size_t i = current; i < count && !options.output.empty(); ++i)
+        files += (files.empty() ? "" : ", ") + path_for(options.output, options, *options.algorithms[i]);
+    if (!options.stats.empty()) files += (files.empty() ? "" : ", ") + options.stats;
+    if (!files.empty()) text += (text.empty() ? "" : "; ") + ("not written: " + files);
+    return text;
+}
 
 // Keeps the numbers, lets the pixels go.
 RunSummary summarize(const peeling::Algorithm& algorithm, peeling::RenderResult&& result) {
@@ -131,8 +146,11 @@ RunSummary run_one(const Session& session, const peeling::Algorithm& algorithm, 
     return summarize(algorithm, std::move(result));
 }
 
-// A file of that name would be written beside it and renamed onto it.
-bool is_standard_output(const std::string& path) { return path == "-" || path == "/dev/stdout"; }
+// The table is the result of a run that writes no picture, and a note on the picture beside one.
+void tell_table(const RunOptions& options, const std::string& table) {
+    if (scenes::is_standard_output(options.output)) return say_note(table);
+    if (options.output.empty() || !is_quiet()) print(titled(table));
+}
 
 // Tells the statistics once all algorithms have run: as JSON, as a table, or both.
 void report(const RunOptions& options, const std::vector<RunSummary>& runs, const std::string& profile) {
@@ -145,9 +163,9 @@ void report(const RunOptions& options, const std::vector<RunSummary>& runs, cons
                              .fragment_memory = options.render.fragment_memory,
                              .audited = options.render.audit,
                              .total_seconds = total.count()};
-    if (is_standard_output(options.stats)) return print(to_json(runs, context));
+    if (scenes::is_standard_output(options.stats)) return print(to_json(runs, context));
     if (!options.stats.empty()) scenes::write_file(options.stats, to_json(runs, context));
-    print(to_table(runs, context));
+    tell_table(options, to_table(runs, context));
 }
 
 // 2 if no algorithm ran. Every refusal is told on standard error.
@@ -157,8 +175,7 @@ int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfi
         if (run.result.outcome == peeling::Outcome::done)
             status = 0;
         else
-            std::fprintf(stderr, "strata: %s: %s\n", run.algorithm->name.c_str(),
-                         run.result.refusal->sentence(profile).c_str());
+            say_error(run.algorithm->name + ": " + run.result.refusal->sentence(profile));
     }
     return status;
 }
@@ -167,14 +184,18 @@ int exit_status(const std::vector<RunSummary>& runs, const pipeline::DeviceProfi
 
 int run_algorithms(RunOptions& options, const Writer& write) {
     complete(options);
-    check_outputs({{"--stats", is_standard_output(options.stats) ? "" : options.stats, {".json"}}});
+    check_outputs({{"--stats", scenes::is_standard_output(options.stats) ? "" : options.stats, {".json"}}});
+    scenes::tell_when_interrupted(undone(options, 0));
     const Session session = open_session(options);
     for (const peeling::Algorithm* algorithm : options.algorithms) check_memory(options, session, *algorithm);
     // One renderer serves all algorithms: geometry is transformed and set up once.
     peeling::Renderer renderer(session.scene.list, session.view, session.profile, options.render);
     std::vector<RunSummary> runs;
-    for (const peeling::Algorithm* algorithm : options.algorithms)
+    for (const peeling::Algorithm* algorithm : options.algorithms) {
+        scenes::tell_when_interrupted(undone(options, runs.size()));
         runs.push_back(run_one(session, *algorithm, renderer, write));
+    }
+    scenes::tell_when_interrupted("");
     report(options, runs, session.profile.name);
     return exit_status(runs, session.profile);
 }
@@ -185,6 +206,11 @@ std::string path_for(const std::string& path, const RunOptions& options, const p
     return path.substr(0, dot) + "." + algorithm.name + path.substr(dot);
 }
 
+scenes::ImageFile kind_of(const RunOptions& options, scenes::ImageFile fallback) {
+    if (scenes::is_standard_output(options.output)) return options.format.value_or(fallback);
+    return scenes::image_file(options.output);
+}
+
 scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options, const Finished& finished) {
     const auto one_line = [](const std::string& json) { return nlohmann::ordered_json::parse(json).dump(); };
     return {{"command", canonical_command(verb, options, finished.algorithm)},
@@ -192,9 +218,19 @@ scenes::Attributes attributes_of(const std::string& verb, const RunOptions& opti
             {"camera", one_line(scenes::to_json(finished.session.view))}};
 }
 
+bool Output::is_piped() const { return piped == Piped::possibly && scenes::is_standard_output(path); }
+
 namespace {
 
 void check_output(const Output& output) {
+    if (output.is_piped()) {
+        if (isatty(STDOUT_FILENO) == 1)
+            throw CLI::ValidationError(
+                output.option,
+                "expected standard output to be a pipe or a file, found a terminal, which cannot "
+                "show a picture's bytes");
+        return;
+    }
     const auto fits = [&](const std::string& ending) { return output.path.ends_with(ending); };
     if (std::none_of(output.endings.begin(), output.endings.end(), fits)) {
         throw CLI::ValidationError(
@@ -210,6 +246,7 @@ void check_output(const Output& output) {
 // One spelling for each file that a path can name: the folder with its links followed. The last name's own link is not,
 // for a finished file takes the link's place.
 std::filesystem::path place_of(const std::string& path) {
+    if (scenes::is_standard_output(path)) return "-";
     const auto absolute = std::filesystem::absolute(path);
     return std::filesystem::canonical(absolute.parent_path()) / absolute.filename();
 }
@@ -227,8 +264,9 @@ void check_outputs(const std::vector<Output>& outputs) {
                                                           ", found '" + output.path + "'");
         }
     }
-    const bool has_image = std::any_of(outputs.begin(), outputs.end(), [](const Output& output) {
-        return output.path.ends_with(".exr") || output.path.ends_with(".png");
+    const auto is_image = [](const std::string& name) { return name.ends_with(".exr") || name.ends_with(".png"); };
+    const bool has_image = std::any_of(outputs.begin(), outputs.end(), [&](const Output& output) {
+        return is_image(output.path) || (output.is_piped() && is_image(output.endings.front()));
     });
     if (has_image) static_cast<void>(scenes::image_module());  // else it would be missed after the last pixel
 }

@@ -42,14 +42,20 @@ using Writer = std::function<void(const Finished&)>;  // writes one algorithm's 
 [[nodiscard]] std::string path_for(const std::string& path, const RunOptions& options,
                                    const peeling::Algorithm& algorithm);
 
+// What -o asks for: by its ending, or what --format says of standard output, where `fallback` is usual.
+[[nodiscard]] scenes::ImageFile kind_of(const RunOptions& options, scenes::ImageFile fallback);
+
 // The attributes of every file: command, profile, camera. The writer adds digests and formats.
 [[nodiscard]] scenes::Attributes attributes_of(const std::string& verb, const RunOptions& options,
                                                const Finished& finished);
 
-// A file that a command is to write; an empty path is none.
+// A file that a command is to write; an empty path is none. Few may be "-", standard output.
+enum class Piped : std::uint8_t { never, possibly };
 struct Output {
     std::string option, path;
     std::vector<std::string> endings;
+    Piped piped = Piped::never;
+    [[nodiscard]] bool is_piped() const;
 };
 
 // Throws CLI::ValidationError unless each names a file with one of its endings in a folder that exists, and no two name

@@ -1,36 +1,10 @@
 #include "tools/strata/report/blobs.h"
 
-#include <zlib.h>
-
-#include <new>
+#include "tools/strata/report/picture_bytes.h"
 
 namespace strata::tools {
 
 namespace {
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-    static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = bytes.size() - i;
-        const std::uint32_t three = std::uint32_t{bytes[i]} << 16 | (left > 1 ? std::uint32_t{bytes[i + 1]} << 8 : 0) |
-                                    (left > 2 ? std::uint32_t{bytes[i + 2]} : 0);
-        for (std::size_t digit = 0; digit < 4; ++digit)
-            text += digit <= left ? digits[three >> (18 - 6 * digit) & 63] : '=';
-    }
-    return text;
-}
-
-std::vector<std::uint8_t> deflated(const std::uint8_t* bytes, std::size_t size) {
-    uLongf room = ::compressBound(static_cast<uLong>(size));
-    std::vector<std::uint8_t> packed(room);
-    // It fails for want of memory alone: the room is enough.
-    if (::compress2(packed.data(), &room, bytes, static_cast<uLong>(size), Z_BEST_COMPRESSION) != Z_OK)
-        throw std::bad_alloc();
-    packed.resize(room);
-    return packed;
-}
 
 template <class Word>
 std::vector<std::uint8_t> planes(std::span<const Word> values) {
@@ -41,14 +15,12 @@ std::vector<std::uint8_t> planes(std::span<const Word> values) {
     return bytes;
 }
 
-std::string packed(std::string_view text) {
-    return base64(deflated(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
-}
+std::string packed(std::string_view text) { return base64(deflated(text)); }
 
 }  // namespace
 
 std::size_t Blobs::add_bytes(const std::vector<std::uint8_t>& bytes) {
-    encoded_.push_back(base64(deflated(bytes.data(), bytes.size())));
+    encoded_.push_back(packed({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
     return encoded_.size() - 1;
 }
 

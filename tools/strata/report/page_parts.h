@@ -7,5 +7,6 @@ namespace strata::tools {
 [[nodiscard]] std::string_view page_html();
 [[nodiscard]] std::string_view page_css();
 [[nodiscard]] std::string_view page_js();
+[[nodiscard]] std::string_view plain_js();
 
 }  // namespace strata::tools

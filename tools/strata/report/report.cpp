@@ -1,10 +1,15 @@
 // tools/strata/report/report.cpp - strata report: one page that shows a scene by every algorithm, pixel by pixel.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/unfinished_files.h"
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/report/report_page.h"
 #include "tools/strata/table.h"
@@ -13,26 +18,64 @@ namespace strata::tools {
 
 namespace {
 
-constexpr int usual_width = 256, usual_height = 192;
+constexpr int usual_width = 256, usual_height = 192, most_side = 256;
 
-int report(RunOptions& options, bool has_size) {
-    if (!has_size) options.render.width = usual_width, options.render.height = usual_height;
+struct ReportOptions {
+    RunOptions run;
+    std::optional<rasterizer::Rect> region;
+};
+
+// X,Y,W,H.
+std::optional<rasterizer::Rect> to_region(std::string_view text) {
+    std::vector<int> numbers;
+    for (const std::string& part : split(text, ',')) {
+        const auto number = to_count(part);
+        if (!number || *number > 16384) return std::nullopt;
+        numbers.push_back(*number);
+    }
+    if (numbers.size() != 4 || numbers[2] < 1 || numbers[3] < 1) return std::nullopt;
+    return rasterizer::Rect{numbers[0], numbers[1], numbers[0] + numbers[2], numbers[1] + numbers[3]};
+}
+
+// What is asked for, which the frame holds; else all of it.
+rasterizer::Rect region_of(const ReportOptions& options) {
+    const int width = options.run.render.width, height = options.run.render.height;
+    const rasterizer::Rect region = options.region.value_or(rasterizer::Rect{0, 0, width, height});
+    if (region.x1 > width || region.y1 > height)
+        throw CLI::ValidationError("--region",
+                                   fmt::format("expected pixels within the frame of {}x{}, found columns {} to {} and "
+                                               "rows {} to {}",
+                                               width, height, region.x0, region.x1 - 1, region.y0, region.y1 - 1));
+    return region;
+}
+
+std::string checked_page(const ReportData& data) {
+    std::string page = report_page(data);
+    if (page.size() > most_bytes)
+        throw InputError("report", "size",
+                         "a page of at most 8 MiB; a smaller --size or --region or fewer algorithms have one",
+                         std::to_string(page.size()) + " bytes");
+    return page;
+}
+
+int report(ReportOptions& command, bool has_size) {
+    RunOptions& options = command.run;
+    if (!has_size && !command.region) options.render.width = usual_width, options.render.height = usual_height;
     complete(options);
     if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for report.html, found none");
+    const rasterizer::Rect region = region_of(command);
+    scenes::tell_when_interrupted("not written: " + (std::filesystem::path(options.output) / "report.html").string());
     const Session session = open_session(options);
-    const ReportData data = report_data(options, session);
+    const ReportData data = report_data(options, session, region);
     for (const auto& entry : data.document["algorithms"])
-        if (!data.has_run)
-            std::fprintf(stderr, "strata: %s: %s\n", entry["name"].get_ref<const std::string&>().c_str(),
-                         entry["refusal"].get_ref<const std::string&>().c_str());
+        if (!data.has_run) say_error(entry["name"].get<std::string>() + ": " + entry["refusal"].get<std::string>());
     if (!data.has_run) return 2;
-    const std::string page = report_page(data);
-    if (page.size() > most_bytes)
-        throw InputError("report", "size", "a page of at most 8 MiB; a smaller --size or fewer algorithms have one",
-                         std::to_string(page.size()) + " bytes");
+    const std::string page = checked_page(data);
     std::filesystem::create_directories(options.output);
     const std::string path = (std::filesystem::path(options.output) / "report.html").string();
     scenes::write_file(path, page);
+    scenes::tell_when_interrupted("");
+    if (is_quiet()) return 0;
     print(path + ": " + std::to_string((page.size() + 1023) / 1024) + " KiB, opens in any browser, needs no network\n");
     for (const auto& sentence : data.document["left_out"]) print("left out: " + sentence.get<std::string>() + "\n");
     return 0;
@@ -40,16 +83,31 @@ int report(RunOptions& options, bool has_size) {
 
 }  // namespace
 
+void write_report(RunOptions& options, const std::string& path) {
+    const int width = std::min(options.render.width, most_side), height = std::min(options.render.height, most_side);
+    const int x = (options.render.width - width) / 2, y = (options.render.height - height) / 2;
+    scenes::tell_when_interrupted("not written: " + path);
+    const Session session = open_session(options);
+    scenes::write_file(path, checked_page(report_data(options, session, {x, y, x + width, y + height})));
+    scenes::tell_when_interrupted("");
+}
+
 Command add_report(CLI::App& root) {
     auto* app = root.add_subcommand("report", "write one page that shows a scene by every algorithm, pixel by pixel");
-    const auto options = std::make_shared<RunOptions>();
-    options->default_algorithm = "all";
-    add_picture_options(*app, *options);
-    add_resource_options(*app, *options);
-    add_path(*app, options->output, {"-o", "FOLDER", "gets report.html: one file of at most 8 MiB", "a folder's name"});
-    app->get_option("--size")->description("pixels (default 256x192)");
+    const auto options = std::make_shared<ReportOptions>();
+    options->run.default_algorithm = "all";
+    add_picture_options(*app, options->run);
+    add_resource_options(*app, options->run);
+    add_option(*app, options->region,
+               {"--region", "X,Y,W,H", "show these pixels of the frame of --size alone (default: all)",
+                "four whole numbers such as 400,300,200,150: left, top, width and height"},
+               to_region);
+    add_path(*app, options->run.output,
+             {"-o", "FOLDER", "gets report.html: one file of at most 8 MiB", "a folder's name"});
+    app->get_option("--size")->description("pixels (default 256x192; beside --region 1024x1024)");
     app->footer(
         footer("  strata report teapot --size 64x48 -o report\n"
+               "  strata report teapot --size 640x480 --region 240,180,160,120 --algorithm dual,unsorted -o part\n"
                "  strata report volume-beam:slices=4 --algorithm dual,weighted_average --size 64x48 -o beam\n"));
     return {app, [app, options] { return report(*options, app->count("--size") > 0); }};
 }

@@ -90,11 +90,20 @@ ordered_json meshes_of(const RunOptions& options, const pipeline::DrawList& list
     return meshes;
 }
 
-ordered_json picture_of(const pipeline::Image& image, Blobs& blobs) {
+// The pixels of a part of the frame.
+pipeline::Image cropped(const pipeline::Image& image, const rasterizer::Rect& region) {
+    pipeline::Image part{image.format, region.width(), region.height()};
+    for (int y = 0; y < part.height; ++y)
+        std::copy_n(image.codes.begin() + static_cast<std::ptrdiff_t>(image.index(region.x0, region.y0 + y)),
+                    part.width * part.channels(), part.codes.begin() + static_cast<std::ptrdiff_t>(part.index(0, y)));
+    return part;
+}
+
+ordered_json picture_of(const pipeline::Image& image, const std::string& digest, Blobs& blobs) {
     return {{"format", pipeline::info(image.format).name},
             {"channels", pipeline::info(image.format).channels},
             {"codes", blobs.add(image.codes)},
-            {"digest", pipeline::digest(image)}};
+            {"digest", digest}};
 }
 
 ordered_json algorithm_of(const peeling::Algorithm& algorithm) {
@@ -104,9 +113,10 @@ ordered_json algorithm_of(const peeling::Algorithm& algorithm) {
 
 class Builder {
   public:
-    Builder(const RunOptions& options, const Session& session)
+    Builder(const RunOptions& options, const Session& session, const rasterizer::Rect& region)
         : options_{options},
           session_{session},
+          region_{region},
           renderer_{session.scene.list, session.view, session.profile, options.render} {}
 
     ReportData build() {
@@ -115,8 +125,10 @@ class Builder {
             {"scene", options_.scene},
             {"version", STRATA_VERSION},
             {"profile", session_.profile.name},
-            {"width", options_.render.width},
-            {"height", options_.render.height},
+            {"width", region_.width()},
+            {"height", region_.height()},
+            {"origin", {region_.x0, region_.y0}},
+            {"frame", {options_.render.width, options_.render.height}},
             {"depth_format", pipeline::info(pipeline::target_format(renderer_.depth_format())).name},
             {"colour", options_.scene_options.color_space == pipeline::ColorSpace::linear ? "linear" : "encoded"},
             {"most_bytes", most_bytes},
@@ -125,6 +137,9 @@ class Builder {
             {"fragments", nullptr},
             {"history", nullptr},
             {"algorithms", ordered_json::array()}};
+        if (region_.area() < rasterizer::Rect{0, 0, options_.render.width, options_.render.height}.area())
+            leave_out(fmt::format("pixels of the frame outside columns {} to {} and rows {} to {}", region_.x0,
+                                  region_.x1 - 1, region_.y0, region_.y1 - 1));
         add_fragments();
         for (const peeling::Algorithm* algorithm : options_.algorithms) add(*algorithm);
         if (inspected_ != nullptr) add_history(*inspected_);
@@ -141,9 +156,10 @@ class Builder {
 
     // By the A-buffer, which every device runs: all fragments, with the depth that this device gives them.
     void add_fragments() {
-        columns_ = columns_of(
+        frame_ = columns_of(
             renderer_.fragments(*peeling::find_algorithm("a_buffer")).all,
             static_cast<std::size_t>(options_.render.width) * static_cast<std::size_t>(options_.render.height));
+        take_region();
         kept_ = keep(columns_);
         data_.document["fragments"] = fragments_of(columns_, kept_, data_.blobs);
         if (kept_.fragments.size() < columns_.fragments.size())
@@ -151,6 +167,27 @@ class Builder {
                 "of {} fragments those behind the nearest {} of their pixel, {} in all: layers and "
                 "pixels show the nearest",
                 columns_.fragments.size(), kept_.nearest, columns_.fragments.size() - kept_.fragments.size()));
+    }
+
+    // The region's fragments, and the number that each has in the frame.
+    void take_region() {
+        columns_.first = {0};
+        for_region([&](std::size_t pixel) {
+            for (std::uint32_t f = frame_.first[pixel]; f < frame_.first[pixel + 1]; ++f) {
+                columns_.fragments.push_back(frame_.fragments[f]);
+                columns_.arrival.push_back(frame_.arrival[f]);
+                in_frame_.push_back(f);
+            }
+            columns_.first.push_back(static_cast<std::uint32_t>(in_frame_.size()));
+        });
+    }
+
+    // visit(number of the pixel in the frame), row by row.
+    void for_region(const auto& visit) const {
+        for (int y = region_.y0; y < region_.y1; ++y)
+            for (int x = region_.x0; x < region_.x1; ++x)
+                visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.render.width) +
+                      static_cast<std::size_t>(x));
     }
 
     void add(const peeling::Algorithm& algorithm) {
@@ -169,31 +206,35 @@ class Builder {
             {&algorithm, result, pipeline::digest(result.frame.color), ""},
             {.profile = session_.profile.name, .width = options_.render.width, .height = options_.render.height});
         entry["stats"].erase("seconds");  // the same command gives the same bytes
-        entry["picture"] = picture_of(result.frame.color, data_.blobs);
+        entry["picture"] =
+            picture_of(cropped(result.frame.color, region_), pipeline::digest(result.frame.color), data_.blobs);
         if (!algorithm.is_oracle) add_survey(algorithm, entry);
         data_.document["algorithms"].push_back(std::move(entry));
     }
 
     void add_survey(const peeling::Algorithm& algorithm, ordered_json& entry) {
-        const Survey found = survey(input(), algorithm, columns_);
-        entry["killer"] = data_.blobs.add(found.killer);
+        const Survey found = survey(input(), algorithm, frame_);
+        std::vector<std::uint8_t> killer;
+        for_region([&](std::size_t pixel) { killer.push_back(found.killer[pixel]); });
+        entry["killer"] = data_.blobs.add(killer);
         entry["taken"] = nullptr;
         if (found.has_taken)
-            entry["taken"] =
-                data_.blobs.add(of_kept<std::uint16_t>(kept_, [&](std::uint32_t f) { return found.taken[f]; }));
+            entry["taken"] = data_.blobs.add(
+                of_kept<std::uint16_t>(kept_, [&](std::uint32_t f) { return found.taken[in_frame_[f]]; }));
     }
 
+    // x and y within the region, here and below.
     [[nodiscard]] std::uint32_t count_at(int x, int y) const {
         const auto pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.render.width) + static_cast<std::size_t>(x);
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(region_.width()) + static_cast<std::size_t>(x);
         return columns_.first[pixel + 1] - columns_.first[pixel];
     }
 
     // Where there are fragments.
     [[nodiscard]] rasterizer::Rect drawn() const {
-        rasterizer::Rect box{options_.render.width, options_.render.height, 0, 0};
-        for (int y = 0; y < options_.render.height; ++y)
-            for (int x = 0; x < options_.render.width; ++x)
+        rasterizer::Rect box{region_.width(), region_.height(), 0, 0};
+        for (int y = 0; y < region_.height(); ++y)
+            for (int x = 0; x < region_.width(); ++x)
                 if (count_at(x, y) > 0)
                     box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
         return box;
@@ -231,7 +272,9 @@ class Builder {
     bool try_history(const peeling::Algorithm& algorithm, const rasterizer::Rect& box) {
         std::string text;
         std::vector<std::uint32_t> begin;
-        for (const oracle::History& history : oracle::explain(input(), algorithm, box)) {
+        const rasterizer::Rect there{box.x0 + region_.x0, box.y0 + region_.y0, box.x1 + region_.x0,
+                                     box.y1 + region_.y0};
+        for (const oracle::History& history : oracle::explain(input(), algorithm, there)) {
             begin.push_back(static_cast<std::uint32_t>(text.size()));
             if (!history.fragments.empty()) text += oracle::to_text(history);
         }
@@ -243,22 +286,26 @@ class Builder {
                                      {"text", data_.blobs.add_text(text)}};
         const rasterizer::Rect all = drawn();
         if (box.width() < all.width() || box.height() < all.height())
-            leave_out(fmt::format("whole histories outside columns {} to {} and rows {} to {}", box.x0, box.x1 - 1,
-                                  box.y0, box.y1 - 1));
+            leave_out(fmt::format("whole histories outside columns {} to {} and rows {} to {}", there.x0, there.x1 - 1,
+                                  there.y0, there.y1 - 1));
         return true;
     }
 
     const RunOptions& options_;
     const Session& session_;
+    rasterizer::Rect region_;
     peeling::Renderer renderer_;
     ReportData data_;
-    Columns columns_;
+    Columns frame_, columns_;              // of the whole frame, and of the region
+    std::vector<std::uint32_t> in_frame_;  // the number of each of the region's fragments among the frame's
     Kept kept_;
     const peeling::Algorithm* inspected_ = nullptr;  // dual where it runs, else the first that does
 };
 
 }  // namespace
 
-ReportData report_data(const RunOptions& options, const Session& session) { return Builder{options, session}.build(); }
+ReportData report_data(const RunOptions& options, const Session& session, const rasterizer::Rect& region) {
+    return Builder{options, session, region}.build();
+}
 
 }  // namespace strata::tools

@@ -19,6 +19,7 @@ struct ReportData {
     bool has_run = false;  // at least one algorithm did
 };
 
-[[nodiscard]] ReportData report_data(const RunOptions& options, const Session& session);
+// Of these pixels of the frame. Counts and statistics are the whole frame's.
+[[nodiscard]] ReportData report_data(const RunOptions& options, const Session& session, const rasterizer::Rect& region);
 
 }  // namespace strata::tools

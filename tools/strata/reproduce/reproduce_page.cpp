@@ -7,6 +7,7 @@
 
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
+#include "tools/strata/report/page_parts.h"
 
 namespace strata::tools {
 
@@ -56,32 +57,31 @@ std::string csv(const Sheet& sheet) {
 
 // The table and a link to its CSV.
 std::string html(const Sheet& sheet) {
-    std::string text = "<table>\n<tr>";
-    for (const auto& column : sheet.columns) text += fmt::format("<th>{}</th>", escaped(column));
+    std::string text = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table\"><table>\n<tr>";
+    for (const auto& column : sheet.columns) text += fmt::format("<th scope=\"col\">{}</th>", escaped(column));
     text += "</tr>\n";
     for (const auto& row : sheet.rows) {
         text += "<tr>";
         for (const auto& cell : row) text += fmt::format("<td>{}</td>", escaped(cell));
         text += "</tr>\n";
     }
-    return text + fmt::format("</table>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
+    return text + fmt::format("</table></div>\n<p><a href=\"{0}.csv\">{0}.csv</a></p>\n", sheet.file);
 }
 
-// The page needs no other file than its pictures. {0} is the title; braces of CSS are doubled for
-// fmt.
+// The page needs no other file than its pictures, and has the report's style. {0} is the title.
 constexpr auto head = R"(<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>{0}</title><style>
-body {{ font: 15px/1.4 sans-serif; max-width: 70em; margin: 2em auto; padding: 0 1em }}
-table {{ border-collapse: collapse }} th, td {{ border: 1px solid #bbb; padding: .2em .5em; text-align: left; vertical-align: top }}
-figure {{ display: inline-block; margin: .5em }} figcaption {{ font-size: 85%; max-width: 18em }} img {{ max-width: 18em }}
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1"><title>{0}</title><style>
+{1}figure {{ display: inline-block; max-width: 18em; vertical-align: top; margin-right: 1em }}
+td {{ white-space: normal }}
 </style></head><body>
-<h1>{0}</h1>
+<header><h1>{0}</h1></header>
+<main>
 )";
 
 }  // namespace
 
 void write_page(const std::string& folder, const Page& page) {
-    std::string text = fmt::format(head, escaped(page.title));
+    std::string text = fmt::format(head, escaped(page.title), page_css());
     for (const Section& section : page.sections) {
         text += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(section.title), escaped(section.text));
         // A section without rows leaves no table and no CSV.
@@ -93,7 +93,7 @@ void write_page(const std::string& folder, const Page& page) {
             text += fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n",
                                 picture.file, escaped(picture.caption));
     }
-    scenes::write_file(folder + "/index.html", text + "</body></html>\n");
+    scenes::write_file(folder + "/index.html", text + "</main></body></html>\n");
 }
 
 Picture write_picture(const std::string& folder, const std::string& file, const std::string& caption,

@@ -13,6 +13,9 @@ namespace strata::tools {
 
 [[nodiscard]] std::string csv_field(const nlohmann::ordered_json& value);
 
+// The fields of each row of a CSV as it is written here.
+[[nodiscard]] std::vector<std::vector<std::string>> csv_rows(const std::string& text);
+
 // The header and a row a line.
 [[nodiscard]] std::string csv_of_columns(const std::vector<std::string>& pointers, const Lines& lines);
 

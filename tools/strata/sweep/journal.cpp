@@ -15,6 +15,7 @@
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/system_error.h"
 #include "scenes/files/text_file.h"
+#include "tools/strata/messages.h"
 
 namespace strata::tools {
 
@@ -158,15 +159,11 @@ void warn_of(const std::string& path, const Found& found) {
     constexpr std::size_t most_named = 8;
     const std::size_t named = std::min(found.changed.size(), most_named);
     for (std::size_t i = 0; i < named; ++i)
-        std::fprintf(
-            stderr,
-            "strata: warning: %s: line %zu is not what was written; it is dropped, and its cell measured again\n",
-            path.c_str(), found.changed[i]);
+        say_warning(path + ": line " + std::to_string(found.changed[i]) +
+                    " is not what was written; it is dropped, and its cell measured again");
     if (found.changed.size() > named)
-        std::fprintf(stderr, "strata: warning: %s: the same of %zu further lines\n", path.c_str(),
-                     found.changed.size() - named);
-    if (found.torn)
-        std::fprintf(stderr, "strata: warning: %s: the last line was torn; its cell is measured again\n", path.c_str());
+        say_warning(path + ": the same of " + std::to_string(found.changed.size() - named) + " further lines");
+    if (found.torn) say_warning(path + ": the last line was torn; its cell is measured again");
 }
 
 Journal journal_behind(const std::string& path, const Found& found, const Lines& whole) {

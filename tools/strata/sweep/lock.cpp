@@ -14,6 +14,7 @@
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/system_error.h"
 #include "scenes/files/unfinished_files.h"
+#include "tools/strata/messages.h"
 
 namespace strata::tools {
 
@@ -51,7 +52,7 @@ Lock::Lock(const std::string& journal) {
             const int error = errno;
             const std::string holder = holder_of(descriptor_);
             if (error != EWOULDBLOCK) {
-                std::fprintf(stderr, "strata: warning: %s: cannot lock: %s\n", path_.c_str(), std::strerror(error));
+                say_warning(path_ + ": cannot lock: " + std::strerror(error));
                 return;
             }
             ::close(descriptor_);

@@ -9,7 +9,11 @@
 
 #include "rasterizer/base/input_error.h"
 #include "scenes/files/atomic_file.h"
+#include "scenes/files/unfinished_files.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/progress.h"
+#include "tools/strata/report/plain_page.h"
+#include "tools/strata/sweep/csv.h"
 #include "tools/strata/sweep/leftovers.h"
 #include "tools/strata/sweep/lock.h"
 #include "tools/strata/table.h"
@@ -34,8 +38,49 @@ std::string path_in(const std::string& folder, const char* name) {
 int exit_status(const Lines& lines) {
     for (const ordered_json& line : lines)
         if (line["outcome"] != "refused") return 0;
-    std::fprintf(stderr, "strata: every cell was refused: %s\n", lines[0]["refusal"].get<std::string>().c_str());
+    say_error("every cell was refused: " + lines[0]["refusal"].get<std::string>());
     return 2;
+}
+
+// Pictures that the sweep has left in the folder, by name.
+std::vector<std::filesystem::path> pictures_in(const std::string& folder) {
+    std::vector<std::filesystem::path> pictures;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".png" || entry.path().extension() == ".svg") pictures.push_back(entry.path());
+    std::sort(pictures.begin(), pictures.end());
+    return pictures;
+}
+
+// A row a cell; a page of thousands of rows helps nobody.
+PlainPage page_of(const Work& work, const std::string& folder, const std::string& csv, const std::string& summary) {
+    constexpr std::size_t most_rows = 1000;
+    PlainPage page{"strata " + work.name, fmt::format("{} cells; the whole table is results.csv", work.cells)};
+    page.heading("What was found");
+    page.lines(summary);
+    const auto pictures = pictures_in(folder);
+    if (!pictures.empty()) page.heading("Pictures");
+    for (const auto& picture : pictures)
+        page.picture_file(picture.string(), picture.lexically_relative(folder).string());
+    page.heading("Cells");
+    const auto rows = csv_rows(csv);
+    Table table;
+    for (const std::string& title : rows[0]) table.columns.push_back({title});
+    table.rows.assign(rows.begin() + 1,
+                      rows.begin() + 1 + static_cast<std::ptrdiff_t>(std::min(rows.size() - 1, most_rows)));
+    page.table(table, "A row a cell");
+    if (rows.size() - 1 > most_rows)
+        page.paragraph(
+            fmt::format("The first {} rows; {} more stand in results.csv.", most_rows, rows.size() - 1 - most_rows));
+    return page;
+}
+
+// What is made anew from all lines.
+int finish(const Work& work, const std::string& folder, const Lines& lines) {
+    const std::string csv = work.csv(lines), summary = work.summary(lines);
+    scenes::write_file(path_in(folder, "results.csv"), csv);
+    if (!work.report.empty()) write_page(work.report, page_of(work, folder, csv, summary));
+    print(summary);
+    return exit_status(lines);
 }
 
 // The line as the next run reads it, so that results.csv is the same from both.
@@ -58,6 +103,9 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
             continue;
         }
         progress.show(static_cast<double>(done) / static_cast<double>(missing));
+        scenes::tell_when_interrupted(fmt::format("{} of {} cells stand in {}; the same command measures the rest",
+                                                  lines.size() - static_cast<std::size_t>(missing - done), lines.size(),
+                                                  results));
         const Measured measured = work.measure(expected.cells[i]);
         // Pictures and the time are written first: a line in the journal means that its cell is complete.
         clock.append(measured.timing);
@@ -65,6 +113,7 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
         lines[i] = as_read(measured.line);
         ++done;
     }
+    scenes::tell_when_interrupted("");
     // Cells between others were missing, so their lines stand at the end: the finished file has all in order.
     if (!in_order) scenes::write_file(results, text_of(lines));
 }
@@ -86,9 +135,7 @@ int run_sweep(const Work& work, const std::string& folder, const Shard& shard) {
         return 0;
     }
     // results.csv is made anew from all lines; only the journal grows.
-    scenes::write_file(path_in(folder, "results.csv"), work.csv(lines));
-    print(work.summary(lines));
-    return exit_status(lines);
+    return finish(work, folder, lines);
 }
 
 // Lines go to the places of their cells, so the merged files are those of a sweep in one shard.
@@ -114,10 +161,8 @@ int merge_shards(const Work& work, const std::string& folder, std::size_t shards
         timings += text_of(read_journal(shard_file(folder, "timings", shard)).lines);
     }
     scenes::write_file(path_in(folder, "results.jsonl"), text_of(results));
-    scenes::write_file(path_in(folder, "results.csv"), work.csv(results));
     scenes::write_file(path_in(folder, "timings.jsonl"), timings);
-    print(work.summary(results));
-    return exit_status(results);
+    return finish(work, folder, results);
 }
 
 void dry_run(const Work& work, const Shard& shard) {

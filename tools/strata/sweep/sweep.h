@@ -33,6 +33,8 @@ struct Work {
     std::function<std::string(const Lines&)> csv, summary;
     // Cells of one text are taken to last equally long.
     std::function<std::string(std::size_t cell)> alike;
+    // --report: a page with the summary, the table and the pictures of the folder; empty: none.
+    std::string report{};
 };
 
 // Measures what is missing of the shard's cells. The exit status: 0, or 2 if every cell of the sweep was refused.

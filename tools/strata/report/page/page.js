@@ -2,7 +2,7 @@
 // Everything is drawn from the numbers in this file: #data is a document, and each .blob an array (byte planes, deflate, base64).
 const report = JSON.parse(document.getElementById("data").textContent);
 const blobs = [...document.querySelectorAll("script.blob")].map((element) => element.textContent);
-const { width, height } = report;
+const { width, height } = report, [originX, originY] = report.origin;
 const at = (id) => document.getElementById(id);
 const fates = ["none", "masked by its material's alpha", "discarded by the program", "alpha test", "sequential depth unit",
   "stencil test", "depth test"];
@@ -267,14 +267,15 @@ function historyAt(x, y) {
 
 function select(x, y) {
   pixel = { x: Math.max(0, Math.min(width - 1, x)), y: Math.max(0, Math.min(height - 1, y)) };
-  at("x").value = pixel.x; at("y").value = pixel.y;
+  const x0 = pixel.x + originX, y0 = pixel.y + originY;  // in the frame
+  at("x").value = x0; at("y").value = y0;
   const p = pixel.y * width + pixel.x;
-  at("pixel-text").textContent = `Pixel ${pixel.x},${pixel.y}: ${columns.all[p]} fragments` +
+  at("pixel-text").textContent = `Pixel ${x0},${y0}: ${columns.all[p]} fragments` +
     (columns.all[p] > columns.count[p] ? `, the nearest ${columns.count[p]} of them here.` : ".");
   showFragments(p);
   showStored(p);
   const algorithm = history ? history.algorithm : shown[0].name;
-  const command = named(algorithm).command.replace("strata render", "strata explain") + ` --pixel ${pixel.x},${pixel.y}`;
+  const command = named(algorithm).command.replace("strata render", "strata explain") + ` --pixel ${x0},${y0}`;
   at("history").textContent = historyAt(pixel.x, pixel.y) ||
     (columns.all[p] === 0 ? "Nothing was drawn here.\n" : "The whole history of this pixel is not in this page. It is what this command prints:\n") + command;
 }
@@ -349,7 +350,9 @@ function fillChoices() {
 async function start() {
   document.title = `Strata report: ${report.scene}`;
   at("title").textContent = report.scene;
-  at("subtitle").textContent = `${width} x ${height} pixels on ${report.profile}, depth ${report.depth_format}, ${report.colour} colours, Strata ${report.version}`;
+  const [frameWidth, frameHeight] = report.frame;
+  const part = frameWidth > width || frameHeight > height ? ` at ${originX},${originY} of ${frameWidth} x ${frameHeight}` : "";
+  at("subtitle").textContent = `${width} x ${height} pixels${part} on ${report.profile}, depth ${report.depth_format}, ${report.colour} colours, Strata ${report.version}`;
   showRest();
   if (shown.length === 0) { document.body.dataset.ready = "yes"; return; }
   await unpack();
@@ -362,7 +365,8 @@ async function start() {
   drawLayer();
   drawMap();
   showNumbers();
-  at("x").max = width - 1; at("y").max = height - 1;
+  at("x").min = originX; at("y").min = originY;
+  at("x").max = originX + width - 1; at("y").max = originY + height - 1;
   let deep = 0;
   for (let p = 0; p < width * height; ++p) if (columns.all[p] > columns.all[deep]) deep = p;
   select(deep % width, Math.floor(deep / width));
@@ -371,7 +375,7 @@ async function start() {
   for (const id of ["layer", "near", "far"]) at(id).addEventListener("input", drawLayer);
   at("fit").addEventListener("click", () => { fitDepth(); drawLayer(); });
   for (const id of ["map", "map-algorithm"]) at(id).addEventListener("input", drawMap);
-  for (const id of ["x", "y"]) at(id).addEventListener("change", () => select(Number(at("x").value), Number(at("y").value)));
+  for (const id of ["x", "y"]) at(id).addEventListener("change", () => select(Number(at("x").value) - originX, Number(at("y").value) - originY));
   for (const id of ["compare", "layer-color", "layer-depth", "map-canvas"]) {
     at(id).addEventListener("click", (event) => pick(event, at(id)));
     followKeys(at(id));

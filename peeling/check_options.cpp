@@ -1,0 +1,60 @@
+#include "peeling/check_options.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "rasterizer/base/require.h"
+
+namespace strata::peeling {
+
+using namespace pipeline;
+
+void check_options(const RenderOptions& o) {
+    const Requirements its{"render options"};
+    its.within("width", o.width, 1, 16384);
+    its.within("height", o.height, 1, 16384);
+    if (o.tile_size && std::find(std::begin(tile_sizes), std::end(tile_sizes), *o.tile_size) == std::end(tile_sizes))
+        its.fail(FieldName{"tile_size"}, "8, 16, 32, 64 or 128", *o.tile_size);
+    its.within("threads", o.threads, 0, 1024);
+    its.within("window_origin[0]", o.window_origin[0], 0, 32768 - o.width);
+    its.within("window_origin[1]", o.window_origin[1], 0, 32768 - o.height);
+    its.within("compare_epsilon.ulps", o.compare_epsilon.ulps, 0, 1 << 24);
+    if (!(o.compare_epsilon.absolute >= 0 && o.compare_epsilon.absolute <= 1))
+        its.fail(FieldName{"compare_epsilon.absolute"}, "a number from 0 to 1", o.compare_epsilon.absolute);
+    if (!has_simd(o.simd))
+        its.fail(FieldName{"simd"}, "an instruction set that this processor has", static_cast<int>(o.simd));
+    its.within("max_passes", o.max_passes, 0, 1000000);
+    its.listed("termination.rule", o.termination.rule);
+    if (o.termination.rule == TerminationRule::fixed)
+        its.within("termination.passes", o.termination.passes, 1, 1000000);
+    if (o.termination.rule == TerminationRule::ratio && !(o.termination.ratio >= 0))
+        its.fail(FieldName{"termination.ratio"}, "a number of at least 0", o.termination.ratio);
+    if (o.alpha) its.finite("alpha", *o.alpha);
+    if (o.depth) its.listed("depth", *o.depth);
+    if (o.depth_path) its.listed("depth_path", *o.depth_path);
+    if (o.reference_path) its.listed("reference_path", *o.reference_path);
+    if (o.color_format && (!is_listed(*o.color_format) || !is_color(*o.color_format)))
+        its.fail(FieldName{"color_format"}, "a colour format", static_cast<int>(*o.color_format));
+}
+
+Verdict check_depth(const DeviceProfile& profile, const rasterizer::DepthRequest& depth) {
+    using rasterizer::DepthPath;
+    if (auto lacking = check(profile, depth.format)) return lacking;
+    const bool has_chip_rule =
+        profile.raster.window_z == rasterizer::WindowZ::buffer_units && depth.format != DepthFormat::d32f;
+    const auto uses = [&](DepthPath path) { return depth.path == path || depth.reference == path; };
+    if (uses(DepthPath::window_z) && !has_chip_rule)
+        return Refusal{"GeForce3's depth interpolator window_z", "", "use --profile geforce3 with --depth d16 or d24"};
+    if (uses(DepthPath::w_buffer) && !has_chip_rule)
+        return Refusal{"w buffer", "", "use --profile geforce3 with --depth d16, d24, d16f or d24f"};
+    if (depth.reference)
+        if (auto lacking = check_reference(profile, *depth.reference)) return lacking;
+    return check(profile, depth.path);
+}
+
+bool compares_w_with_depth(const rasterizer::DepthRequest& depth) noexcept {
+    constexpr auto w = rasterizer::DepthPath::w_buffer;
+    return depth.reference && (depth.path == w) != (*depth.reference == w);
+}
+
+}  // namespace strata::peeling

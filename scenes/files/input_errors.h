@@ -1,0 +1,25 @@
+// scenes/files/input_errors.h - several faults of one file: `main` prints a line each.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "rasterizer/base/input_error.h"
+
+namespace strata::scenes {
+
+// what() has the first fault and the number of the others.
+struct InputErrors : InputError {
+    InputErrors(const InputError& first, std::vector<std::string> all)
+        : InputError(first), sentences(std::move(all)), text_(first.what()) {
+        if (sentences.size() > 1) text_ += " (and " + std::to_string(sentences.size() - 1) + " more)";
+    }
+    [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
+
+    std::vector<std::string> sentences;  // the first one, too
+
+  private:
+    std::string text_;
+};
+
+}  // namespace strata::scenes

@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Opens the page of every command with --report, and of reproduce, in headless Chromium: plain_pages.py STRATA
+
+Each must say something, show its pictures, load nothing, leave the console empty, break no rule of axe-core (STRATA_AXE), and its tables sort by
+keyboard. With STRATA_SCREENSHOTS=FOLDER it leaves pictures. Exit status 77, said aloud, without Chromium, its driver or Selenium.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+
+import pages
+
+# A line of shell, and the page that it leaves.
+PAGES = {
+    "render": ("strata render teapot --size 320x300 --algorithm dual,unsorted,a_buffer -q --report render.html", "render.html"),
+    "passes": ("strata passes teapot --size 96x72 -o passes --report passes.html", "passes.html"),
+    "compare": ("strata render teapot --size 96x72 -q --algorithm dual,unsorted -o t.png;"
+                "strata compare t.dual.png t.unsorted.png --report compare.html", "compare.html"),
+    "diagnose": ("strata render showroom --size 64x64 -q -o mine.png; strata diagnose showroom mine.png --report diagnose.html", "diagnose.html"),
+    "cost": ("strata cost planes:count=3 --size 32x24 --knob average_count --repeat 1 -o cost --report cost.html", "cost.html"),
+    "hard-cases": ("strata hard-cases coincident --algorithm dual,painter --profile ideal --depth d16,d32f --no-moves -o hard --report hard.html",
+                   "hard.html"),
+    "invariance": ("strata invariance planes:gap=8 --size 32x24 --remedy none,bias:4 -o pairs --report invariance.html", "invariance.html"),
+    "reproduce": ("strata reproduce everitt2001 --size 32 -o everitt", "everitt/index.html"),
+}
+
+
+def column(driver, number):
+    return driver.execute_script("return [...document.querySelector('table.sorts').tBodies[0].rows].map((r) => r.cells[arguments[0]].textContent)", number)
+
+
+def check_sorting(driver):
+    """By keyboard: the first heading of the first table, up and down."""
+    from selenium.webdriver.common.keys import Keys
+    buttons = driver.find_elements("css selector", "table.sorts th button")
+    if not buttons:
+        return []
+    before = column(driver, 0)
+    rising = sorted(before, key=float) if all(v.replace(".", "").isdigit() for v in before) else sorted(before)
+    wrong = []
+    for state in ("ascending", "descending"):
+        buttons[0].send_keys(Keys.ENTER)
+        wanted = rising if state == "ascending" else rising[::-1]
+        head = driver.find_element("css selector", "table.sorts th")
+        if head.get_attribute("aria-sort") != state or column(driver, 0) != wanted:
+            wrong.append(f"a heading does not sort, {state}")
+    return wrong
+
+
+def check(driver, name, path):
+    driver.get("file://" + path)
+    if name != "reproduce":  # which has no script
+        pages.wait_until_ready(driver)
+    wrong = [f"axe-core: {rule}" for rule in pages.violations(driver)]
+    broken = driver.execute_script("return [...document.images].filter((i) => !i.complete || i.naturalWidth === 0).map((i) => i.alt)")
+    wrong += [f"no picture of {alt}" for alt in broken]
+    if name != "reproduce":  # its pictures are files beside it
+        wrong += [f"loaded {what}" for what in pages.loaded(driver)]
+    if not driver.title or not driver.find_elements("tag name", "h1"):
+        wrong.append("no title")
+    if name != "render":  # report_page.py moves everything that is on it
+        wrong += check_sorting(driver)
+    wrong += [f"the console says {line}" for line in pages.console(driver)]
+    if "STRATA_SCREENSHOTS" in os.environ:
+        driver.save_screenshot(os.path.join(os.environ["STRATA_SCREENSHOTS"], f"page.{name}.png"))
+    return [f"{name}: {sentence}" for sentence in wrong]
+
+
+def main():
+    strata = os.path.abspath(sys.argv[1])
+    if pages.missing():
+        print(pages.missing())
+        return pages.SKIPPED
+    if "STRATA_AXE" not in os.environ:
+        print("SKIPPED: axe-core, for STRATA_AXE names no file")
+    driver, wrong = pages.browser("--disable-gpu"), []
+    environment = {**os.environ, "PATH": os.path.dirname(strata) + os.pathsep + os.environ["PATH"]}
+    try:
+        with tempfile.TemporaryDirectory() as folder:
+            for name, (line, page) in PAGES.items():
+                subprocess.run(["sh", "-c", line], cwd=folder, env=environment, check=False, stdout=subprocess.DEVNULL)
+                wrong += check(driver, name, os.path.join(folder, page))
+    finally:
+        driver.quit()
+    print("\n".join(wrong))
+    print(f"{len(PAGES)} pages, {len(wrong)} faults")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,108 @@
+// Model: pages of a few words whose text is typed out; the picture in a page is read back as a PNG by another reader; a CSV by RFC 4180.
+#include "tools/strata/report/plain_page.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/image_io.h"
+#include "tests/tools/program.h"
+#include "tools/strata/report/picture_bytes.h"
+#include "tools/strata/sweep/csv.h"
+
+using namespace strata::test;
+using namespace strata::tools;
+
+namespace {
+
+std::size_t times_in(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+strata::pipeline::Image checkered(int width, int height) {
+    strata::pipeline::Image image{strata::pipeline::Format::rgba8, width, height};
+    std::uint32_t state = 1;
+    for (std::uint32_t& code : image.codes) code = (state = state * 1664525u + 1013904223u) >> 24;
+    for (std::size_t i = 3; i < image.codes.size(); i += 4) image.codes[i] = 255;
+    return image;
+}
+
+// One file: nothing in it names another place.
+bool stands_alone(const std::string& page) {
+    return page.find("src=\"http") == std::string::npos && times_in(page, "href=\"") == times_in(page, "href=\"#") &&
+           page.find("<link") == std::string::npos && page.size() <= (std::size_t{8} << 20);
+}
+
+}  // namespace
+
+TEST_CASE("a plain page has its parts in their order, and every character of a text as text") {
+    PlainPage page{"Title <1>", "a & b"};
+    page.heading("First");
+    page.paragraph("x < y & \"z\"\x1b");
+    page.table({{{"n"}, {"m"}}, {{"1", "</td>"}}}, "numbers");
+    page.lines("one\ntwo");
+    const std::string html = page.html();
+    for (const std::string part : {"<title>Title &lt;1&gt;</title>", "<p>a &amp; b</p>", "<h2>First</h2>",
+                                   "<p>x &lt; y &amp; &quot;z&quot;\\x1b</p>", "<caption>numbers</caption>",
+                                   "<td>1</td><td>&lt;/td&gt;</td>", "one\ntwo</pre>"})
+        CHECK(times_in(html, part) == 1);
+    CHECK(html.find("First") < html.find("<caption>"));
+    CHECK(stands_alone(html));
+}
+
+TEST_CASE("a picture of a page is a PNG that another reader reads back") {
+    const Folder folder;
+    const auto image = checkered(7, 5);
+    std::ofstream(folder / "a.png", std::ios::binary) << png_bytes(image);
+    CHECK(strata::scenes::read_images(folder / "a.png").at(0).image.codes == image.codes);
+    CHECK(base64("") == "");
+    CHECK(base64("f") == "Zg==");
+    CHECK(base64("fo") == "Zm8=");
+    CHECK(base64("foobar") == "Zm9vYmFy");  // RFC 4648, 10
+}
+
+TEST_CASE("pictures that would make a page larger than 8 MiB are left out, and it says how many") {
+    PlainPage page{"t", "s"};
+    for (int i = 0; i < 5; ++i) page.picture(checkered(800, 600), "noise");
+    const std::string html = page.html();
+    CHECK(times_in(html, "<img") == 3);
+    CHECK(html.find("2 pictures, so that this page has at most 8 MiB") != std::string::npos);
+    CHECK(stands_alone(html));
+    page.lines(std::string(std::size_t{9} << 20, 'x'));
+    CHECK_THROWS_AS(page.html(), strata::InputError);
+}
+
+TEST_CASE("a CSV comes back as its fields") {
+    using Rows = std::vector<std::vector<std::string>>;
+    CHECK(csv_rows("a,b\n1,\n") == Rows{{"a", "b"}, {"1", ""}});
+    CHECK(csv_rows("a\n\"x,\"\"y\"\"\nz\"\n") == Rows{{"a"}, {"x,\"y\"\nz"}});
+    CHECK(csv_rows("").empty());
+}
+
+TEST_CASE("every command with --report leaves one page that stands alone") {
+    const Folder folder;
+    REQUIRE(shell(folder, "strata render planes:count=2 --size 16x12 -q --algorithm dual,unsorted -o t.png").status ==
+            0);
+    const std::vector<std::string> lines{
+        "strata render planes:count=2 --size 16x12 --algorithm dual,unsorted --report p.html",
+        "strata passes planes:count=2 --size 16x12 --algorithm front_to_back -o passes --report p.html",
+        "strata compare t.dual.png t.unsorted.png --report p.html",
+        "strata diagnose planes:count=2 t.dual.png --report p.html",
+        "strata invariance planes:count=2 --size 16x12 --remedy none -o i --report p.html",
+        "strata cost planes:count=2 --size 16x12 --knob average_count --repeat 1 -o c --report p.html",
+        "strata hard-cases coincident --algorithm dual --profile ideal --depth d32f --no-moves -o h --report p.html"};
+    for (const std::string& line : lines) {
+        const Ended ended = shell(folder, line + " && ls p.html");
+        INFO(line << "\n" << ended.out << ended.err);
+        CHECK(ended.status <= 1);
+        const std::string page = content_of(folder / "p.html");
+        CHECK(page.starts_with("<!doctype html>"));
+        CHECK(page.ends_with("</html>\n"));
+        CHECK(stands_alone(page));
+        std::filesystem::remove(folder / "p.html");
+    }
+    CHECK(run_strata(folder, {"compare", "t.dual.png", "t.dual.png", "--report", "p.txt"}).err ==
+          "strata: --report: expected a file that ends in .html, found 'p.txt'\n");
+}

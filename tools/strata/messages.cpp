@@ -1,0 +1,118 @@
+#include "tools/strata/messages.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tools/strata/options/option.h"
+#include "tools/strata/options/printable.h"
+
+namespace strata::tools {
+
+namespace {
+
+enum class Amount : std::uint8_t { quiet, usual, verbose };
+enum class Colors : std::uint8_t { automatic, always, never };
+
+// The process's own: set while its command line is read, before anything else runs.
+struct Wanted {
+    Amount amount = Amount::usual;
+    Colors colors = Colors::automatic;
+};
+Wanted& wanted() {
+    static Wanted of_process;
+    return of_process;
+}
+
+bool shows_colors(Stream stream) {
+    if (wanted().colors != Colors::automatic) return wanted().colors == Colors::always;
+    const char *no_color = std::getenv("NO_COLOR"), *terminal = std::getenv("TERM");
+    if (no_color != nullptr && *no_color != '\0') return false;
+    if (terminal == nullptr || std::string_view(terminal) == "dumb") return false;
+    return isatty(stream == Stream::output ? STDOUT_FILENO : STDERR_FILENO) == 1;
+}
+
+std::string_view code_of(Paint paint) {
+    switch (paint) {
+        case Paint::bold: return "\x1b[1m";
+        case Paint::red: return "\x1b[1;31m";
+        case Paint::yellow: return "\x1b[1;33m";
+        case Paint::green: return "\x1b[1;32m";
+    }
+    return "";  // unreachable: the enum is closed
+}
+
+// One call a line, so that lines of two threads do not mix.
+void say(const std::string& begin, std::string_view sentence) {
+    std::fprintf(stderr, "%s %s\n", begin.c_str(), printable(sentence).c_str());
+}
+
+}  // namespace
+
+void add_message_options(CLI::App& app) {
+    app.add_flag_callback(
+           "-q,--quiet", [] { wanted().amount = Amount::quiet; },
+           "no progress, no warnings and no notes: errors and the result alone")
+        ->trigger_on_parse();
+    app.add_flag_callback(
+           "-v,--verbose", [] { wanted().amount = Amount::verbose; },
+           "tell on standard error what is done, which files are written and how long it takes")
+        ->trigger_on_parse();
+    const std::vector<Choice<Colors>> choices{
+        {"auto", Colors::automatic}, {"always", Colors::always}, {"never", Colors::never}};
+    add_choice(app, wanted().colors, "--color", choices,
+               "colours of messages and tables, not of pictures (default auto: on a terminal, unless NO_COLOR is set)")
+        ->trigger_on_parse();
+}
+
+std::string painted(std::string_view text, Paint paint, Stream stream) {
+    if (!shows_colors(stream)) return std::string(text);
+    return fmt::format("{}{}\x1b[0m", code_of(paint), text);
+}
+
+bool is_quiet() noexcept { return wanted().amount == Amount::quiet; }
+bool is_verbose() noexcept { return wanted().amount == Amount::verbose; }
+bool shows_progress() noexcept { return !is_quiet() && isatty(STDERR_FILENO) == 1; }
+
+void say_error(std::string_view sentence) { say(painted("strata:", Paint::red, Stream::error), sentence); }
+
+void say_warning(std::string_view sentence) {
+    if (!is_quiet()) say("strata: " + painted("warning:", Paint::yellow, Stream::error), sentence);
+}
+
+void say_detail(std::string_view sentence) {
+    if (is_verbose()) say("strata:", sentence);
+}
+
+void say_note(std::string_view text) {
+    if (!is_quiet()) std::fprintf(stderr, "%s", shown_text(text, Stream::error).c_str());
+}
+
+std::string shown_text(std::string_view text, Stream stream) {
+    constexpr std::string_view codes[] = {"\x1b[0m", "\x1b[1m", "\x1b[1;31m", "\x1b[1;33m", "\x1b[1;32m"};
+    const bool has_colors = shows_colors(stream);
+    std::string shown;
+    shown.reserve(text.size());
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view rest = text.substr(i);
+        std::size_t taken = 0;
+        if (rest[0] == '\n' || rest[0] == '\t') taken = 1;
+        for (const std::string_view code : codes)
+            if (has_colors && rest.starts_with(code)) taken = code.size();
+        if (taken > 0) {
+            shown += rest.substr(0, taken);
+        } else {
+            taken = std::max<std::size_t>(utf8_length(rest), 1);
+            shown += printable(rest.substr(0, taken));
+        }
+        i += taken;
+    }
+    return shown;
+}
+
+std::string seconds_text(double seconds) { return fmt::format("{:.3f} s", seconds); }
+
+}  // namespace strata::tools

@@ -1,0 +1,99 @@
+#include "tools/strata/render/map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "peeling/audit/image_error.h"
+#include "peeling/registry.h"
+#include "peeling/render.h"
+#include "pipeline/device/check.h"
+#include "tools/strata/report/survey.h"
+
+namespace strata::tools {
+
+namespace {
+
+Columns columns_of_frame(const RunOptions& options, const Finished& finished) {
+    const auto pixels =
+        static_cast<std::size_t>(options.render.width) * static_cast<std::size_t>(options.render.height);
+    return columns_of(finished.renderer.fragments(*peeling::find_algorithm("a_buffer")).all, pixels);
+}
+
+std::vector<double> complexity(const Columns& columns) {
+    std::vector<double> numbers;
+    for (std::size_t pixel = 0; pixel + 1 < columns.first.size(); ++pixel)
+        numbers.push_back(columns.first[pixel + 1] - columns.first[pixel]);
+    return numbers;
+}
+
+// Neighbours in depth have equal codes where any two have.
+std::vector<double> ties(const Columns& columns) {
+    std::vector<double> numbers;
+    for (std::size_t pixel = 0; pixel + 1 < columns.first.size(); ++pixel) {
+        const std::uint32_t begin = columns.first[pixel], end = columns.first[pixel + 1];
+        const auto code = [&](std::uint32_t f) { return columns.fragments[f].code; };
+        int tied = 0;
+        for (std::uint32_t f = begin; f < end; ++f)
+            tied += (f > begin && code(f) == code(f - 1)) || (f + 1 < end && code(f) == code(f + 1)) ? 1 : 0;
+        numbers.push_back(tied);
+    }
+    return numbers;
+}
+
+std::vector<double> errors(const RunOptions& options, const Finished& finished) {
+    const peeling::RenderResult exact = finished.renderer.render(*peeling::find_algorithm("a_buffer"));
+    if (exact.refusal) throw pipeline::Refused{finished.session.profile, *exact.refusal};
+    const pipeline::Image difference = peeling::difference(finished.result.frame.color, exact.frame.color);
+    std::vector<double> numbers;
+    for (int y = 0; y < options.render.height; ++y)
+        for (int x = 0; x < options.render.width; ++x) {
+            double most = 0;
+            for (int c = 0; c < 3; ++c)
+                most = std::max(most, std::fabs(double{peeling::channel_value(difference, x, y, c)}));
+            numbers.push_back(255 * most);
+        }
+    return numbers;
+}
+
+std::vector<double> numbers_of(Map map, const RunOptions& options, const Finished& finished) {
+    switch (map) {
+        case Map::depth_complexity: return complexity(columns_of_frame(options, finished));
+        case Map::ties: return ties(columns_of_frame(options, finished));
+        case Map::error: return errors(options, finished);
+    }
+    return {};  // unreachable: the enum is closed
+}
+
+// Thirds of the range: red rises, then green, then blue.
+std::uint32_t heat(double share, int channel) {
+    return static_cast<std::uint32_t>(std::clamp(3 * share - channel, 0.0, 1.0) * 255 + 0.5);
+}
+
+}  // namespace
+
+MapPicture map_of(Map map, const RunOptions& options, const Finished& finished) {
+    const int width = options.render.width, height = options.render.height;
+    MapPicture picture{numbers_of(map, options, finished), 0, {pipeline::Format::rgba8, width, height}};
+    picture.most = *std::max_element(picture.numbers.begin(), picture.numbers.end());
+    for (std::size_t pixel = 0; pixel < picture.numbers.size(); ++pixel) {
+        const double share = picture.most > 0 ? picture.numbers[pixel] / picture.most : 0;
+        for (int c = 0; c < 4; ++c)
+            picture.image.codes[4 * pixel + static_cast<std::size_t>(c)] = c == 3 ? 255 : heat(share, c);
+    }
+    return picture;
+}
+
+std::string legend_of(Map map, const MapPicture& picture) {
+    return fmt::format("{}: black is 0, white is {:.6g}{}\n", name_of(map_names(), map), picture.most,
+                       map == Map::error ? " of 255" : "");
+}
+
+const std::vector<Choice<Map>>& map_names() {
+    static const std::vector<Choice<Map>> names{
+        {"depth-complexity", Map::depth_complexity}, {"ties", Map::ties}, {"error", Map::error}};
+    return names;
+}
+
+}  // namespace strata::tools

@@ -1,0 +1,110 @@
+#include "tools/strata/report/plain_page.h"
+
+#include <fmt/format.h>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/files/atomic_file.h"
+#include "scenes/files/text_file.h"
+#include "tools/strata/options/option.h"
+#include "tools/strata/options/printable.h"
+#include "tools/strata/report/page_parts.h"
+#include "tools/strata/report/picture_bytes.h"
+#include "tools/strata/report/report_data.h"
+
+namespace strata::tools {
+
+namespace {
+
+// Text and tables have the rest of the page.
+constexpr std::size_t most_picture_bytes = std::size_t{6} << 20;
+
+std::string cells_of(const std::vector<std::string>& texts) {
+    std::string row;
+    for (const std::string& text : texts) row += "<td>" + html_text(text) + "</td>";
+    return row;
+}
+
+}  // namespace
+
+std::string html_text(const std::string& text) {
+    std::string safe;
+    std::size_t begin = 0;
+    const auto flush = [&](std::size_t end) { safe += printable(std::string_view(text).substr(begin, end - begin)); };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char* const name = text[i] == '&'    ? "&amp;"
+                                 : text[i] == '<'  ? "&lt;"
+                                 : text[i] == '>'  ? "&gt;"
+                                 : text[i] == '"'  ? "&quot;"
+                                 : text[i] == '\n' ? "\n"
+                                                   : nullptr;
+        if (name == nullptr) continue;
+        flush(i);
+        safe += name;
+        begin = i + 1;
+    }
+    flush(text.size());
+    return safe;
+}
+
+PlainPage::PlainPage(const std::string& title, const std::string& subtitle) : title_{title}, subtitle_{subtitle} {}
+
+void PlainPage::heading(const std::string& text) { body_ += "<h2>" + html_text(text) + "</h2>\n"; }
+void PlainPage::paragraph(const std::string& text) { body_ += "<p>" + html_text(text) + "</p>\n"; }
+
+void PlainPage::lines(const std::string& text) { body_ += "<pre class=\"wrapped\" tabindex=\"0\">" + html_text(text) + "</pre>\n"; }
+
+void PlainPage::table(const Table& table, const std::string& name) {
+    body_ += fmt::format(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table class=\"sorts\">"
+        "<caption>{0}</caption>\n<thead><tr>",
+        html_text(name));
+    for (const Column& column : table.columns) body_ += "<th scope=\"col\">" + html_text(column.title) + "</th>";
+    body_ += "</tr></thead>\n<tbody>\n";
+    for (const auto& row : table.rows) body_ += "<tr>" + cells_of(row) + "</tr>\n";
+    body_ += "</tbody></table></div>\n";
+}
+
+void PlainPage::add_picture(const std::string& type, const std::string& bytes, const std::string& text) {
+    const std::string encoded = base64(bytes);
+    if (body_.size() + encoded.size() > most_picture_bytes) {
+        ++left_out_;
+        return;
+    }
+    body_ += fmt::format("<figure><img src=\"data:{};base64,{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
+                         type, encoded, html_text(text), html_text(text));
+}
+
+void PlainPage::picture(const pipeline::Image& image, const std::string& text) {
+    add_picture("image/png", png_bytes(image), text);
+}
+
+void PlainPage::picture_file(const std::string& path, const std::string& text) {
+    add_picture(path.ends_with(".svg") ? "image/svg+xml" : "image/png", scenes::read_text_file(path), text);
+}
+
+std::string PlainPage::html() const {
+    std::string page = fmt::format(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, "
+        "initial-scale=1\">\n<title>{0}</title>\n<style>\n{2}</style>\n"
+        "</head>\n<body>\n<header><h1>{0}</h1><p>{1}</p></header>\n<main>\n{3}",
+        html_text(title_), html_text(subtitle_), page_css(), body_);
+    if (left_out_ > 0)
+        page += fmt::format("<h2>Left out</h2>\n<p>{} pictures, so that this page has at most 8 MiB.</p>\n", left_out_);
+    page += fmt::format("</main>\n<script>\n{}</script>\n</body>\n</html>\n", plain_js());
+    if (page.size() > most_bytes)
+        throw InputError("--report", "size", "a page of at most 8 MiB", std::to_string(page.size()) + " bytes");
+    return page;
+}
+
+void add_report_option(CLI::App& app, std::string& path) {
+    add_path(
+        app, path,
+        {"--report", "FILE.html", "a page of at most 8 MiB with all of it, which needs no network", "a file name"});
+}
+
+void write_page(const std::string& path, const PlainPage& page) {
+    if (!path.empty()) scenes::write_file(path, page.html());
+}
+
+}  // namespace strata::tools
