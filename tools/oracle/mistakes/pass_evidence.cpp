@@ -35,6 +35,20 @@ std::uint32_t greatest_distance(const Target& a, const Target& b) {
     return greatest;
 }
 
+// The pixels with a channel that is further away than `forgiven`; of unequal shapes all.
+std::uint64_t far_pixels(const Target& a, const Target& b, std::uint32_t forgiven) {
+    if (!has_one_shape(a, b)) return a.pixels();
+    const auto channels = static_cast<std::size_t>(a.channels);
+    std::uint64_t far = 0;
+    for (std::size_t pixel = 0; pixel < a.pixels(); ++pixel) {
+        std::uint32_t apart = 0;
+        for (std::size_t i = pixel * channels; i < (pixel + 1) * channels; ++i)
+            apart = std::max(apart, distance({a.code, a.codes[i]}, {b.code, b.codes[i]}));
+        far += apart > forgiven ? 1 : 0;
+    }
+    return far;
+}
+
 // Whether the first difference comes behind that of the right machine, which has one.
 bool is_later(const std::optional<int>& machine, const std::optional<int>& right) {
     return right && (!machine || *machine > *right);
@@ -43,7 +57,10 @@ bool is_later(const std::optional<int>& machine, const std::optional<int>& right
 }  // namespace
 
 bool explains_origin(const PassAgreement& machine, const PassAgreement& right) {
-    return machine.is_whole() || is_later(machine.first_unlike, right.first_unlike) ||
+    const bool starts_there = machine.first_far && machine.first_far == right.first_far;
+    const auto pass = static_cast<std::size_t>(right.first_far.value_or(0));
+    const bool is_nearly = starts_there && 20 * machine.far[pass] <= right.far[pass];
+    return machine.is_whole() || is_nearly || is_later(machine.first_unlike, right.first_unlike) ||
            is_later(machine.first_far, right.first_far);
 }
 
@@ -67,7 +84,11 @@ void PassEvidence::add(const PassShown& pass, std::span<const Target> instead) {
             continue;
         }
         if (!found_.first_unlike) found_.first_unlike = pass.number;
-        if (!found_.first_far && (!fits || apart > rounding_of(ours.code))) found_.first_far = pass.number;
+        if (fits && apart <= rounding_of(ours.code)) continue;
+        if (!found_.first_far) found_.first_far = pass.number;
+        const auto number = static_cast<std::size_t>(pass.number);
+        if (found_.far.size() <= number) found_.far.resize(number + 1);
+        found_.far[number] += far_pixels(ours, *theirs, rounding_of(ours.code));
     }
 }
 

@@ -5,6 +5,7 @@
 //          binary32, 16 of 24 bits, 2 of fp16, 1 of fewer bits.
 // Tests    tests/tools/oracle/mistakes/pass_evidence_test.cpp
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,11 +21,13 @@ struct PassAgreement {
     int targets = 0, alike = 0;       // compared; equal to the last code
     std::optional<int> first_unlike;  // the first pass with a target that is not
     std::optional<int> first_far;     // the first pass with a target that is far off
+    std::vector<std::uint64_t> far;   // pixels of each pass that are far off, of all targets; by the number of the pass
     [[nodiscard]] bool is_whole() const noexcept { return !first_unlike; }
     friend bool operator==(const PassAgreement&, const PassAgreement&) = default;
 };
 
-// Whether a machine's passes are the candidate's, to the last code or nearly, where the right machine's first are not.
+// Whether a machine's passes are the candidate's, to the last code or nearly, where the right machine's first are not: nearly is also a
+// twentieth of the pixels that are far off there, as an edge of another rounding leaves them.
 [[nodiscard]] bool explains_origin(const PassAgreement& machine, const PassAgreement& right);
 
 // Takes a machine's passes one after the other.

@@ -116,6 +116,20 @@ TEST_CASE(
     CHECK(first_of(found).agreeing == found.pixels);
 }
 
+TEST_CASE("a few pixels of the first wrong pass do not contradict who explains the others, many do") {
+    const Bench bench{"random.front_to_back"};
+    const Lineup lineup{bench.laboratory};
+    for (const bool are_many : {false, true}) {
+        std::vector<PassPicture> passes = passes_with(bench.opened, "half_pixel_right");
+        for (Target& target : passes[0].targets.targets)
+            for (std::size_t i = 0; i < (are_many ? target.codes.size() : 4); ++i) target.codes[i] ^= 0x7f0000ff;
+        const Diagnosis found = diagnosed(lineup, bench.with("half_pixel_right"), passes);
+        CHECK(found.passes_contradict == are_many);
+        CHECK((found.verdict == Verdict::one_mistake) == !are_many);
+        CHECK(first_of(found).mistakes[0]->name == "half_pixel_right");
+    }
+}
+
 TEST_CASE("a mistake that explains half of the pixels to the last code and all within one is named as nearly") {
     const Bench bench{"showroom.weighted_sum"};
     const Lineup lineup{bench.laboratory};
