@@ -94,7 +94,7 @@ def main():
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "introduction.md"), encoding="utf-8") as file:
         head = file.read()
     with open(options.output, "w", encoding="utf-8") as file:
-        file.write(head + "\n| device | +y | fields inferred | pixels of the kit that agree | pixels of 10 unseen scenes | coverage differs | depth differs | colour differs |\n"
+        file.write(head + "\n## Devices\n\n| device | +y | fields inferred | pixels of the kit that agree | pixels of 10 unseen scenes | coverage differs | depth differs | colour differs |\n"
                    "|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n\n## Field by field\n\n" + "\n".join(pages))
 
 
