@@ -1,5 +1,5 @@
-// Random profiles from their answers alone: probe_round_trips [first=0] [count=200] [y=up]. A line a profile that came back with
-// other fields, true and found; exit status 1 if one of them draws an unseen scene otherwise.
+// Random profiles from their answers alone: probe_round_trips [first=0] [count=200] [unseen=100]. A line a profile with the
+// fields that came back otherwise, true and found; exit status 1 if one of them draws one of 20 unseen scenes, from number `unseen`, otherwise.
 #include <cstdlib>
 #include <cstring>
 
@@ -21,7 +21,7 @@ int setting(int argc, char** argv, const char* name, int otherwise) {
 
 int main(int argc, char** argv) {
     const int first = setting(argc, argv, "first", 0), count = setting(argc, argv, "count", 200);
-    const std::vector<Item> unseen = unseen_scenes(100, 20);
+    const std::vector<Item> unseen = unseen_scenes(setting(argc, argv, "unseen", 100), 20);
     int equal = 0, whole = 0;
     for (int i = first; i < first + count; ++i) {
         const RoundTrip trip = round_trip(random_profile(i), unseen, i % 2 == 0 ? YDirection::up : YDirection::down);
