@@ -21,7 +21,7 @@ quietly cmake --preset release
 quietly cmake --build --preset release --target strata
 
 mkdir -p out
-# The DirectX 10.1 class is the earliest device that runs all nine.
+# Of the devices that there were, the DirectX 10.1 class runs the most algorithms; the three that it refuses are told by what they lack.
 render() {  # render SCENE NAME [OPTIONS]: every algorithm's picture as out/NAME.ALGORITHM.png
     local scene=$1 name=$2
     shift 2
@@ -36,4 +36,5 @@ build/release/strata report teapot --alpha 0.4 --profile geforce8_dx101 --camera
 
 echo
 echo "Open out/report.html in a browser, or look at out/: teapot.dual.png is the teapot by dual depth peeling; the other names say scene and algorithm."
+echo "In the tables, 'refused' is an algorithm that this device lacks a feature for, and lines below tell what went wrong on the device: both belong to the emulation."
 echo "Then try: build/release/strata render MODEL.glb --alpha 0.3 -o out/model.png"

@@ -87,7 +87,7 @@ def complaint_of_part(path, block):
 
 
 def run_page(page, programs):
-    """The complaints about a page, and how many commands it has."""
+    """The complaints about a page, and how many commands and quoted parts it has."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
     environment = dict(os.environ, PATH=programs + os.pathsep + os.environ["PATH"], LC_ALL="C.UTF-8", STRATA_SOURCE=SOURCE)
@@ -102,6 +102,7 @@ def run_page(page, programs):
                     if found:
                         complaints.append(f"{page}:{number}: {command}\n{found}")
             elif name.startswith("from "):
+                count += 1
                 found = complaint_of_part(name[5:], block)
                 if found:
                     complaints.append(f"{page}:{first}: {found}")
@@ -117,7 +118,7 @@ def main():
         print(f"SKIPPED: no program strata in {programs}")
         return 77
     complaints, count = run_page(page, programs)
-    print("\n".join(complaints) if complaints else f"{page}: {count} commands run as printed")
+    print("\n".join(complaints) if complaints else f"{page}: {count} commands and quotations are as printed")
     return 1 if complaints or count == 0 else 0
 
 

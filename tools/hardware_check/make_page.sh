@@ -14,7 +14,9 @@ status=0
 [ "$status" -le 1 ] || exit "$status"  # 1: a picture is outside its bound, and the page says so
 "$strata" hardware-check "$captures" --hypotheses >"$work/hypotheses.txt"
 {
-    cat tools/hardware_check/introduction.md
+    head -2 tools/hardware_check/introduction.md
+    tools/hardware_check/head.py "$work/report/report.md" tools/hardware_check/RESULTS.svg
+    tail -n +3 tools/hardware_check/introduction.md
     sed -e '1,2d' -e '/!\[difference\]/d' "$work/report/report.md" | cat -s
     echo
     echo "## Hypotheses, each scored on the captures that it can change"
