@@ -19,6 +19,16 @@ def missing():
     return ""
 
 
+def skips():
+    """Says what is missing. True if the test cannot run."""
+    if missing():
+        print(missing())
+        return True
+    if "STRATA_AXE" not in os.environ:
+        print("SKIPPED: axe-core, for STRATA_AXE names no file")
+    return False
+
+
 def browser(*more, size="1280,1000", downloads=None):
     """Headless Chromium, with further arguments of its command line."""
     from selenium import webdriver

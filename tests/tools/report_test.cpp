@@ -131,6 +131,49 @@ TEST_CASE("the fragments of a report are all there are, near to far in each pixe
     CHECK(z.size() == stats["counters"]["fragments_rasterized"].get<std::size_t>());
 }
 
+TEST_CASE("a region's report has the frame's codes, fragments, takings and killers at its own pixels") {
+    const Folder folder;
+    const std::string options = "random:triangles=60 --size 24x20 --algorithm dual";
+    const UnpackedReport whole = report_of(folder, options), part = report_of(folder, options + " --region 6,4,10,9");
+    CHECK(part.document["width"] == 10);
+    CHECK(part.document["height"] == 9);
+    CHECK(part.document["origin"] == nlohmann::json{6, 4});
+    CHECK(part.document["frame"] == nlohmann::json{24, 20});
+    CHECK(part.document["left_out"][0] == "pixels of the frame outside columns 6 to 15 and rows 4 to 12");
+    const auto &of_whole = whole.document["algorithms"][0], &of_part = part.document["algorithms"][0];
+    CHECK(of_part["stats"] == of_whole["stats"]);
+    CHECK(of_part["picture"]["digest"] == of_whole["picture"]["digest"]);
+    const auto both = [&](const nlohmann::json& a, const nlohmann::json& b, std::size_t size) {
+        return std::pair{words_of(whole, a, size), words_of(part, b, size)};
+    };
+    const auto& f = whole.document["fragments"];
+    const auto& g = part.document["fragments"];
+    const auto codes = both(of_whole["picture"]["codes"], of_part["picture"]["codes"], 4);
+    const auto killers = both(of_whole["killer"], of_part["killer"], 1), counts = both(f["count"], g["count"], 2);
+    const auto depths = both(f["z"], g["z"], 4), taken = both(of_whole["taken"], of_part["taken"], 2);
+    std::vector<std::uint32_t> first{0};
+    for (const std::uint32_t count : counts.first) first.push_back(first.back() + count);
+    std::size_t pixel = 0, next = 0, wrong = 0;
+    for (std::size_t y = 4; y < 13; ++y)
+        for (std::size_t x = 6; x < 16; ++x, ++pixel) {
+            const std::size_t there = 24 * y + x;
+            for (std::size_t c = 0; c < 4; ++c)
+                wrong += codes.second[4 * pixel + c] != codes.first[4 * there + c] ? 1 : 0;
+            wrong += killers.second[pixel] != killers.first[there] ? 1 : 0;
+            wrong += counts.second[pixel] != counts.first[there] ? 1 : 0;
+            for (std::uint32_t k = first[there]; k < first[there + 1]; ++k, ++next)
+                wrong += depths.second.at(next) != depths.first[k] || taken.second.at(next) != taken.first[k] ? 1 : 0;
+        }
+    CHECK(wrong == 0);
+    CHECK(next == depths.second.size());
+    CHECK(next > 50);
+    CHECK(part.page.size() < whole.page.size());
+    const Ended beyond = run_strata(folder, {"report", "teapot", "--size", "16x16", "--region", "8,8,9,8", "-o", "x"});
+    CHECK(beyond.err ==
+          "strata: --region: expected pixels within the frame of 16x16, found columns 8 to 16 and rows 8 to 15\n");
+    CHECK(run_strata(folder, {"report", "teapot", "--region", "8,8,0,8", "-o", "x"}).status == 2);
+}
+
 TEST_CASE("passes and ends at which fragments are taken are those of every pixel's history") {
     const auto [scene, profile, name] =
         GENERATE(table<std::string, std::string, std::string>({{"teapot", "geforce8", "dual"},

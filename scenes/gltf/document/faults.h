@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/files/input_errors.h"
+#include "scenes/gltf/document/input_errors.h"
 #include "scenes/gltf/document/json.h"
 
 namespace strata::scenes {

@@ -51,7 +51,9 @@ PlainPage::PlainPage(const std::string& title, const std::string& subtitle) : ti
 void PlainPage::heading(const std::string& text) { body_ += "<h2>" + html_text(text) + "</h2>\n"; }
 void PlainPage::paragraph(const std::string& text) { body_ += "<p>" + html_text(text) + "</p>\n"; }
 
-void PlainPage::lines(const std::string& text) { body_ += "<pre class=\"wrapped\" tabindex=\"0\">" + html_text(text) + "</pre>\n"; }
+void PlainPage::lines(const std::string& text) {
+    body_ += "<pre class=\"wrapped\" tabindex=\"0\">" + html_text(text) + "</pre>\n";
+}
 
 void PlainPage::table(const Table& table, const std::string& name) {
     body_ += fmt::format(

@@ -57,7 +57,8 @@ std::string csv(const Sheet& sheet) {
 
 // The table and a link to its CSV.
 std::string html(const Sheet& sheet) {
-    std::string text = "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table\"><table>\n<tr>";
+    std::string text =
+        fmt::format("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table>\n<tr>", sheet.file);
     for (const auto& column : sheet.columns) text += fmt::format("<th scope=\"col\">{}</th>", escaped(column));
     text += "</tr>\n";
     for (const auto& row : sheet.rows) {

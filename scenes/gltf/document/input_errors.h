@@ -1,4 +1,4 @@
-// scenes/files/input_errors.h - several faults of one file: `main` prints a line each.
+// scenes/gltf/document/input_errors.h - several faults of one file: `main` prints a line each.
 #pragma once
 #include <string>
 #include <utility>
