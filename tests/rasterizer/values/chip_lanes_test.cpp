@@ -77,7 +77,8 @@ constexpr FragmentNeeds chip_needs{false, true, false, true, true, false, false,
 
 }  // namespace
 
-TEST_CASE("codes, colours and coordinates of the chip's kernels are its definitions' on every set, to the bit", "[slow]") {
+TEST_CASE("codes, colours and coordinates of the chip's kernels are its definitions' on every set, to the bit",
+          "[slow]") {
     std::uint64_t compared = 0;
     int wrong = 0;
     constexpr std::array<std::array<int, 2>, 4> triangles{{{3, 120}, {9, 60}, {40, 30}, {20000, 18}}};
