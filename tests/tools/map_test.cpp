@@ -73,9 +73,9 @@ TEST_CASE("a map's own command makes it again, and it wants a picture's name") {
 
 TEST_CASE("layers as a sheet are a row a layer of colours and depths") {
     const Folder folder;
-    REQUIRE(run_strata(folder, {"layers", "planes:count=3", "--size", "32x24", "-o", "sheet.png"}).status == 0);
+    REQUIRE(run_strata(folder, {"layers", "planes:count=3", "--size", "64x24", "-o", "sheet.png"}).status == 0);
     const auto three = strata::scenes::read_images(folder / "sheet.png").at(0).image;
-    REQUIRE(run_strata(folder, {"layers", "planes:count=5", "--size", "32x24", "-o", "sheet.png"}).status == 0);
+    REQUIRE(run_strata(folder, {"layers", "planes:count=5", "--size", "64x24", "-o", "sheet.png"}).status == 0);
     const auto five = strata::scenes::read_images(folder / "sheet.png").at(0).image;
     CHECK(five.width == three.width);
     CHECK(five.height - three.height == 2 * (24 + 4));

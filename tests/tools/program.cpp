@@ -24,7 +24,24 @@ void redirect(int descriptor, const std::string& path) {
     close(file);
 }
 
-// The child's side: never returns.
+// SIGINT waits while this is there. Between fork and exec the test's own handler must not run: what it does is not safe where the
+// signal interrupts an allocation, and the child would wait for itself for ever.
+class InterruptsWait {
+  public:
+    InterruptsWait() {
+        sigemptyset(&interrupts_);
+        sigaddset(&interrupts_, SIGINT);
+        sigprocmask(SIG_BLOCK, &interrupts_, nullptr);
+    }
+    InterruptsWait(const InterruptsWait&) = delete;
+    InterruptsWait& operator=(const InterruptsWait&) = delete;
+    ~InterruptsWait() { sigprocmask(SIG_UNBLOCK, &interrupts_, nullptr); }
+
+  private:
+    sigset_t interrupts_;
+};
+
+// The child's side: never returns. SIGINT has the system's own handler again.
 [[noreturn]] void become(const Folder& folder, const std::vector<std::string>& words, const Setting& setting,
                          const Folder& captured) {
     if (chdir(folder.path().c_str()) != 0) _exit(126);
@@ -43,11 +60,22 @@ void redirect(int descriptor, const std::string& path) {
     _exit(127);
 }
 
-Ended run(const Folder& folder, const std::vector<std::string>& words, const Setting& setting) {
-    const Folder captured;
-    const pid_t child = fork();
+pid_t start(const Folder& folder, const std::vector<std::string>& words, const Setting& setting,
+            const Folder& captured) {
+    pid_t child = -1;
+    {
+        const InterruptsWait waiting;
+        child = fork();
+        if (child == 0) std::signal(SIGINT, SIG_DFL);
+    }
     if (child < 0) throw std::runtime_error("fork failed");
     if (child == 0) become(folder, words, setting, captured);
+    return child;
+}
+
+Ended run(const Folder& folder, const std::vector<std::string>& words, const Setting& setting) {
+    const Folder captured;
+    const pid_t child = start(folder, words, setting, captured);
     if (setting.interrupt_after_ms) {
         std::this_thread::sleep_for(std::chrono::milliseconds(*setting.interrupt_after_ms));
         kill(child, SIGINT);

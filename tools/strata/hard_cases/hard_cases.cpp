@@ -86,13 +86,13 @@ HardSweep sweep_of(const HardOptions& options) {
 }
 
 int hard_cases_command(const HardOptions& options) {
+    check_outputs({{"--report", options.report, {".html"}}});
     if (options.list) return list_cases(options);
     if (options.folder.empty() && !options.dry_run)
         throw CLI::ValidationError("-o", "expected a folder for the results, found none");
     if (options.merge > 0 && options.shard.count > 1)
         throw CLI::ValidationError("--merge", "expected either --merge or --shard, found both");
     const HardSweep sweep = sweep_of(options);
-    check_outputs({{"--report", options.report, {".html"}}});
     Work work = hard_work(sweep);
     work.report = options.report;
     bool failed = false;

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "peeling/memory_need.h"
-#include "rasterizer/base/require.h"
 
 namespace strata::tools {
 
@@ -73,11 +72,11 @@ void check_memory(const RunOptions& options, const Session& session, const peeli
         held + writer_bytes(options) +
         peeling::memory_need(session.scene.list, session.view, session.profile, options.render, algorithm).total();
     if (need <= *limit) return;
-    throw InputError("strata", "--max-memory",
-                     "about " + in_megabytes(need) + " for " + algorithm.name + " at " +
-                         std::to_string(options.render.width) + "x" + std::to_string(options.render.height) +
-                         " (a smaller --size or --fragment-memory takes less)",
-                     in_megabytes(*limit) + (options.max_memory ? "" : ", which is what this machine has free"));
+    throw CLI::ValidationError(
+        "--max-memory", "expected about " + in_megabytes(need) + " for " + algorithm.name + " at " +
+                            std::to_string(options.render.width) + "x" + std::to_string(options.render.height) +
+                            " (a smaller --size or --fragment-memory takes less), found " + in_megabytes(*limit) +
+                            (options.max_memory ? "" : ", which is what this machine has free"));
 }
 
 }  // namespace strata::tools

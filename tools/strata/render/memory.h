@@ -12,7 +12,7 @@
 
 namespace strata::tools {
 
-// Throws InputError that names --max-memory, what is needed and what there is.
+// Throws CLI::ValidationError that names --max-memory, what is needed and what there is.
 void check_memory(const RunOptions& options, const Session& session, const peeling::Algorithm& algorithm);
 
 // Bytes of memory that the program holds by now; 0 where the system does not tell.
