@@ -154,7 +154,7 @@ class Builder {
 
     void leave_out(const std::string& sentence) { data_.document["left_out"].push_back(sentence); }
 
-    // By the A-buffer, which every device runs: all fragments, with the depth that this device gives them.
+    // By the A-buffer, which every device runs: all fragments, with exact depth in the device's depth format.
     void add_fragments() {
         frame_ = columns_of(
             renderer_.fragments(*peeling::find_algorithm("a_buffer")).all,
