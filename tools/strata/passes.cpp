@@ -30,7 +30,7 @@ struct PassesOptions {
     std::string report;  // --report; empty: none
 };
 
-std::string joined(const std::vector<std::string>& words) {
+std::string with_spaces(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
     return text.empty() ? "-" : text;
@@ -65,8 +65,8 @@ std::vector<std::string> to_row(const oracle::PassShown& pass) {
     return {std::to_string(pass.number),
             std::string(oracle::name(pass.kind)),
             std::to_string(pass.iteration),
-            joined(pass.reads),
-            joined(pass.writes),
+            with_spaces(pass.reads),
+            with_spaces(pass.writes),
             std::to_string(pass.passed),
             queries.empty() ? "-" : queries};
 }

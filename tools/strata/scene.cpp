@@ -78,7 +78,7 @@ ordered_json to_json(const scenes::Scene& scene) {
             {"warnings", scene.warnings}};
 }
 
-std::string joined(const std::vector<std::string>& parts) {
+std::string with_commas(const std::vector<std::string>& parts) {
     return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -103,9 +103,9 @@ std::string describe(const scenes::Scene& scene) {
         table.rows.push_back({fmt::format("  {}", alpha_mode_name(mode)), fmt::format("{}", part.triangles)});
     }
     table.rows.push_back({"materials", fmt::format("{}", scene.list.materials.size())});
-    table.rows.push_back({"textures", joined(textures)});
-    table.rows.push_back({"cameras", joined(cameras)});
-    table.rows.push_back({"extensions", joined(scene.extensions)});
+    table.rows.push_back({"textures", with_commas(textures)});
+    table.rows.push_back({"cameras", with_commas(cameras)});
+    table.rows.push_back({"extensions", with_commas(scene.extensions)});
     table.rows.push_back({"bounds", bounds_text(scene.bounds)});
     table.rows.push_back({"warnings", scene.warnings.empty() ? "none" : scene.warnings.front()});
     for (std::size_t i = 1; i < scene.warnings.size(); ++i) table.rows.push_back({"", scene.warnings[i]});
