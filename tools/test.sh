@@ -42,7 +42,7 @@ sanitizers() {
     local preset
     preset=$(sanitizer_preset)
     step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
-    local targets=(rasterizer_test pipeline_test peeling_test scenes_test hardware_check_test core_digests)
+    local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
     [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz)
     build "$preset" "${targets[@]}"
     ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
@@ -64,14 +64,17 @@ sanitized() {
     fi
     step "the fast tests of the core under the address and undefined-behaviour sanitizers (preset $preset)"
     build "$preset" "${targets[@]}"
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
-    quietly sanitized-golden ctest --test-dir "build/$preset" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
+    local fuzzing=""
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
-        return
+    else
+        step "beside them half a minute of fuzzing: the ways of running a frame against each other"
+        quietly fuzz ctest --test-dir build/fuzz/tests/fuzz -R '^fuzz-differential' --output-on-failure &
+        fuzzing=$!
     fi
-    step "fuzzing for half a minute: the ways of running a frame against each other"
-    quietly fuzz ctest --test-dir build/fuzz -R '^fuzz-differential' --output-on-failure
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    quietly sanitized-golden ctest --test-dir "build/$preset/tests/golden" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
+    [ -z "$fuzzing" ] || wait "$fuzzing"
 }
 
 # Is a race found, and a number that nobody wrote? Then the core's own frames: on four threads, and on one by the scalar twins,

@@ -19,7 +19,7 @@ using namespace strata::testing;
 using namespace strata::pipeline;
 using strata::rasterizer::DepthPath;
 
-constexpr int width = 48, height = 32;
+constexpr int frame_width = 48, frame_height = 32;
 
 // glMatrixMode(GL_TEXTURE) and what is called after it.
 struct TextureMatrix {
@@ -46,9 +46,12 @@ CoordinateUnits listing_2(const Matrix& projection, double depth_units) {
     Matrix m(0.0);  // row r takes what was q
     m[3][2] = 1;
     units[2] = unit(TextureMatrix{}.multiply(m).multiply(projection), 1, false);
-    units[3] =
-        unit(TextureMatrix{}.scale(width, height, 1).translate(0.5, 0.5, 0.5).scale(0.5, 0.5, 0.5).multiply(projection),
-             depth_units, true);
+    units[3] = unit(TextureMatrix{}
+                        .scale(frame_width, frame_height, 1)
+                        .translate(0.5, 0.5, 0.5)
+                        .scale(0.5, 0.5, 0.5)
+                        .multiply(projection),
+                    depth_units, true);
     return units;
 }
 
@@ -94,7 +97,7 @@ struct Scene {
         : triangles{random_triangles(seed, count)} {
         triangles.list.instances.resize(2);  // transparent: plain and textured
         triangles.list.instances[1].model = {0.8, 0.1, 0, 0, -0.2, 0.9, 0.1, 0, 0, 0.1, 1.1, 0, 0.05, 0.02, -0.3, 1};
-        raster.viewport = {0, 0, width, height};
+        raster.viewport = {0, 0, frame_width, frame_height};
         raster.depth_format = format;
         const CoordinateUnits units = listing_2(triangles.view.projection, strata::rasterizer::max_code(format));
         list = prepare(triangles.list, triangles.view, raster, device,
@@ -174,7 +177,7 @@ Listed listed(const Scene& scene) {
             if (out.alive[i] == 0) continue;
             ++found.fragments;
             found.other_pixel +=
-                static_cast<int>(over_q(0)) != in.x[i] || static_cast<int>(over_q(1)) != height - 1 - in.y[i];
+                static_cast<int>(over_q(0)) != in.x[i] || static_cast<int>(over_q(1)) != frame_height - 1 - in.y[i];
             found.other_r += static_cast<std::uint32_t>(over_q(2)) != out.depth[i];
         }
     });
@@ -226,8 +229,8 @@ TEST_CASE("by the chip's own coordinates Listing 2 stores other codes than path 
 TEST_CASE("a peel by Listing 2's state alone is shadow_map_depth_replace, to the bit, in every execution") {
     Scene scene{402, 24, DepthFormat::d24};
     strata::peeling::RenderOptions options;
-    options.width = width;
-    options.height = height;
+    options.width = frame_width;
+    options.height = frame_height;
     options.threads = 1;
     const auto expected =
         render(scene.triangles.list, scene.triangles.view, {"geforce3", "shadow_map_depth_replace"}, options);

@@ -11,12 +11,12 @@ namespace {
 
 using namespace strata::rasterizer;
 
-constexpr float largest = 0x1.fffffep127f;
+constexpr float largest_float = 0x1.fffffep127f;
 
 // v cut to 24 bits toward zero; below the normal numbers +0, above them the largest.
 [[nodiscard]] float model_cut(const Rational& v) {
     if (v == 0 || abs(v) < power(-126)) return 0.0f;
-    const float f = abs(v) >= power(128) ? largest : nearest_float(abs(cut_to_bits(v, 24)));
+    const float f = abs(v) >= power(128) ? largest_float : nearest_float(abs(cut_to_bits(v, 24)));
     return v < 0 ? -f : f;
 }
 
