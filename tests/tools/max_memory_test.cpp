@@ -10,7 +10,7 @@ namespace {
 
 using namespace strata::test;
 
-constexpr double megabyte = 1 << 20;
+constexpr double bytes_of_a_mebibyte = 1 << 20;
 
 // The figure of the sentence that refuses the run, in bytes.
 double predicted(const Folder& folder, std::vector<std::string> words) {
@@ -19,7 +19,7 @@ double predicted(const Folder& folder, std::vector<std::string> words) {
     CHECK(ended.status == 2);
     std::smatch found;
     REQUIRE(std::regex_search(ended.err, found, std::regex("expected about ([0-9]+)M for ")));
-    return std::stod(found[1]) * megabyte;
+    return std::stod(found[1]) * bytes_of_a_mebibyte;
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ TEST_CASE("what a picture will take is told within a quarter of what it takes") 
         const std::vector<std::string> words{std::istream_iterator<std::string>{in}, {}};
         const auto measured = static_cast<double>(peak_of_strata(folder, words));
         REQUIRE(measured > 0);
-        INFO(job << ": " << measured / megabyte << " MiB");
+        INFO(job << ": " << measured / bytes_of_a_mebibyte << " MiB");
         CHECK(predicted(folder, words) == Approx(measured).epsilon(0.25));
     }
 }
