@@ -17,6 +17,11 @@ PAGES = {
     "passes": ("strata passes teapot --size 96x72 -o passes --report passes.html", "passes.html"),
     "compare": ("strata render teapot --size 96x72 -q --algorithm dual,unsorted -o t.png;"
                 "strata compare t.dual.png t.unsorted.png --report compare.html", "compare.html"),
+    "compare-folders": ("strata golden teapot --size 48x36 --algorithm dual,front_to_back -o pack > out.txt;"
+                        "strata golden teapot --size 48x36 --algorithm dual --orbit 31,20 -o other > out.txt;"
+                        "mkdir -p mine; cp -r other/expected/dual mine/dual; strata compare pack mine --report folders.html", "folders.html"),
+    "hardware-check": ("mkdir -p captures/Clear; strata render showroom --size 640x480 --algorithm unsorted -q -o captures/Clear/C00000000_Depth_y.png;"
+                       "strata hardware-check captures --report captures.html", "captures.html"),
     "diagnose": ("strata render showroom --size 64x64 -q -o mine.png; strata diagnose showroom mine.png --report diagnose.html", "diagnose.html"),
     "cost": ("strata cost planes:count=3 --size 32x24 --knob average_count --repeat 1 -o cost --report cost.html", "cost.html"),
     "hard-cases": ("strata hard-cases coincident --algorithm dual,painter --profile ideal --depth d16,d32f --no-moves -o hard --report hard.html",

@@ -1,6 +1,7 @@
 // Model: files that the command wrote, copied or cut on purpose; exit statuses of tools/README.md.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -119,4 +120,66 @@ TEST_CASE("codes of 32 bits are compared bit by bit: the least one of them is a 
     const Ended found = run_strata(folder, {"compare", "a.raw", "b.raw", "--layout", "2x2:d32f"});
     CHECK(found.status == 1);
     CHECK(found.out.find("differ by at most 1 codes") != std::string::npos);
+}
+
+namespace {
+
+// A pack, and a port's folder "mine" that holds its picture of dual; `changes`: one byte of it is another one.
+void make_folders(const Folder& folder, bool changes) {
+    REQUIRE(run_strata(folder, {"golden", "planes:count=2", "--size", "16x12", "--algorithm", "dual", "-o", "pack"})
+                .status == 0);
+    std::filesystem::create_directories(folder / "mine/dual");
+    std::string picture = content_of(folder / "pack/expected/dual/picture.npy");
+    if (changes) picture.at(picture.size() - 4 * 16 * 6 - 4 * 8) ^= 0x55;
+    std::ofstream(folder / "mine/dual/picture.npy", std::ios::binary) << picture;
+}
+
+std::size_t number_of(const std::string& text, const std::string& part) {
+    std::size_t number = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++number;
+    return number;
+}
+
+}  // namespace
+
+TEST_CASE("compare of a pack with a port's folder leaves a page with both pictures and where they differ") {
+    const Folder folder;
+    make_folders(folder, true);
+    const Ended ended = run_strata(folder, {"compare", "pack", "mine/", "--report", "page.html"});
+    INFO(ended.err);
+    REQUIRE(ended.status == 1);
+    const std::string page = content_of(folder / "page.html");
+    CHECK(number_of(page, "<h1>Different</h1>") == 1);
+    CHECK(number_of(page, "<p>strata compare pack mine</p>") == 1);
+    CHECK(number_of(page, "<img src=\"data:image/png;base64,") == 3);
+    CHECK(page.find(lines_of(ended.out).at(0)) != std::string::npos);
+    CHECK(page.find(folder / "") == std::string::npos);
+}
+
+TEST_CASE("compare of a pack with a port's folder that is alike says so on its page") {
+    const Folder folder;
+    make_folders(folder, false);
+    REQUIRE(run_strata(folder, {"compare", "pack", "mine", "--report", "page.html"}).status == 0);
+    CHECK(number_of(content_of(folder / "page.html"), "<h1>Equal</h1>") == 1);
+}
+
+TEST_CASE("compare's verdict is green for equal, red for different and yellow within the tolerance, in colours alone") {
+    const Folder folder;
+    make_folders(folder, true);
+    REQUIRE(shell(folder,
+                  "strata render teapot --size 48x36 -q -o a.png && "
+                  "strata render teapot --size 48x36 --orbit 31,20 -q -o b.png")
+                .status == 0);
+    const auto first_line = [&](std::vector<std::string> words) {
+        words.insert(words.begin(), {"--color", "always", "compare"});
+        return lines_of(run_strata(folder, words).out).at(0);
+    };
+    CHECK(first_line({"a.png", "a.png"}) == "\x1b[1;32mequal\x1b[0m");
+    CHECK(first_line({"a.png", "b.png"}).starts_with("\x1b[1;31mdifferent\x1b[0m: "));
+    CHECK(first_line({"a.png", "b.png", "--tolerance", "color=255,coverage=2000"})
+              .starts_with("\x1b[1;33maccepted\x1b[0m: "));
+    CHECK(first_line({"pack", "mine"}) == "dual: \x1b[1;31mdifferent\x1b[0m");
+    CHECK(run_strata(folder, {"compare", "a.png", "a.png"}).out == "equal\n");  // no terminal
+    CHECK(run_strata(folder, {"--color", "always", "compare", "a.png", "a.png", "--json"}).out.find('\x1b') ==
+          std::string::npos);
 }

@@ -66,6 +66,27 @@ TEST_CASE("the report folder holds one page, and a picture of every difference")
     CHECK(content_of(folder / "report/report.md").find("3 of 307200 pixels off") != std::string::npos);
 }
 
+TEST_CASE(
+    "hardware-check's page counts the outcomes and shows a difference beyond its bound beside the chip's picture") {
+    const Folder folder;
+    write_capture(folder, "captures/Clear", "C00000000_Depth_y");
+    write_capture(folder, "captures/Clear", "C01010101_Depth_n", 3, 0x7d);
+    write_capture(folder, "captures/Fog", "FogExp");
+    CHECK(run_strata(folder, {"hardware-check", "captures", "--report", "page.html"}).status == 1);
+    const std::string page = content_of(folder / "page.html");
+    for (const std::string part :
+         {"3 pictures that the chip drew: 1 come out equal in every bit, 0 within their bound, 1 beyond it; 0 are not "
+          "modelled. The names of 1 are not known. Of 614400 pixels compared 3 differ.",
+          "<figcaption>Clear/C01010101_Depth_n: the chip's picture</figcaption>",
+          "<figcaption>Clear/C01010101_Depth_n: DIFFERS, 3 of 307200 pixels off, by at most 2</figcaption>"}) {
+        INFO(part);
+        CHECK(page.find(part) != std::string::npos);
+    }
+    CHECK(page.find("<figcaption>Clear/C00000000_Depth_y") == std::string::npos);
+    CHECK(run_strata(folder, {"hardware-check", "captures", "--hypotheses", "--report", "page.html"}).err ==
+          "strata: --report: expected no --hypotheses beside it, found both\n");
+}
+
 TEST_CASE("hardware-check says in one sentence what is wrong with its input") {
     const Folder folder;
     const auto sentence = [&](const std::vector<std::string>& words) {

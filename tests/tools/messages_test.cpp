@@ -43,6 +43,19 @@ TEST_CASE("quiet leaves warnings, notes and the table beside a picture out, and 
     CHECK(wrong.err.starts_with("strata: none.glb: "));
 }
 
+TEST_CASE("a scene without triangles is told with what to do about it") {
+    const Folder folder;
+    const Ended one = run_strata(folder, {"scene", warned_scene(folder)});
+    CHECK(one.status == 0);
+    CHECK(one.err ==
+          "strata: warning: empty.gltf: nothing would be drawn, for the scene has no triangles; export its meshes as "
+          "triangles, or try a built-in scene: strata scenes lists them\n");
+    std::ofstream(folder / "three.gltf") << R"({"asset":{"version":"2.0"},"scenes":[{},{},{}]})";
+    CHECK(
+        run_strata(folder, {"scene", "three.gltf"}).err.ends_with("--scene 0 to 2 chooses another one of the file\n"));
+    CHECK(run_strata(folder, {"scene", "planes:count=1"}).err.empty());
+}
+
 TEST_CASE("verbose tells what was read and written, and how long each step took, and changes no result") {
     const Folder folder;
     const std::vector<std::string> words{"render", "planes:count=2", "--size", "8x8", "-o", "a.png"};

@@ -60,8 +60,39 @@ def alike(rows):
     return [r for r in measured(rows) if r["split"] == "none" and "+" not in r["vertex_path"] and r["hypothesis"] == "profile"]
 
 
+def spread(rows):
+    """The least and the greatest share that differs, and by how much: of one depth format."""
+    shares = [share(r) for r in rows]
+    return f"{percent(min(shares))} to {percent(max(shares))} of the fragments of `{rows[0]['depth_format']}` differ, by {max(r['ulp_max'] for r in rows):,} ulp at most"
+
+
+def findings(rows):
+    """What was found, in three sentences from the rows themselves; none where a kind of row is missing."""
+    unlike = [r for r in alike(rows) if r["remedy"] == "none" and r["write_path"] not in ("depth_replace", r["compare_path"]) and r["differing"] > 0]
+    replaced = [r for r in alike(rows) if "depth_replace" in (r["write_path"], r["remedy"])]
+    judged = biases(rows)
+    if not (unlike and replaced and judged):
+        return []
+    wrong, endless = sum(total(r) > 0 for r in unlike), sum(r["outcome"] == "never_ends" for r in unlike)
+    by_format = "; ".join(spread(own) for _, own in groups(unlike, "depth_format"))
+    safe = [r for r in judged if r["safe_bias"]["safe"]]
+    return [("text", f"Of {len(unlike)} peels that compare another depth than the one that they stored {wrong} lose layers or composite them twice, and {endless} never "
+                     f"end: {by_format}."),
+            ("text", f"If the written depth comes from the quotient that is compared (`depth_replace`), {sum(total(r) > 0 for r in replaced)} of {len(replaced)} peels "
+                     "do so."),
+            ("text", f"A constant bias peels {len(safe)} of {len(judged)} scenes and formats without error ("
+                     + "; ".join(f"{r['scene']} on {r['profile']}, `{r['depth_format']}`: {r['safe_bias']['lowest']} to {r['safe_bias']['highest']} codes" for r in safe)
+                     + "); for the others none is safe.")]
+
+
+def biases(rows):
+    """Of each scene, profile and format that needs a bias, the row whose depth range is nearest to 100."""
+    judged = [r for r in plain(rows) if r["safe_bias"] and total(r) > 0]
+    return [min(own, key=lambda row: abs(ratio(row) - 100)) for _, own in groups(judged, "scene", "profile", "depth_format")]
+
+
 def answers(rows):
-    """What the page says in a few sentences, each from the rows themselves."""
+    """What the page says in a line each, from the rows themselves."""
     said = []
     for (profile, write, compare, depth), own in groups(plain(rows), "profile", "write_path", "compare_path", "depth_format"):
         fragments, differing = sum(r["fragments"] for r in own), sum(r["differing"] for r in own)
@@ -74,14 +105,12 @@ def answers(rows):
             low, high = min(own, key=share), max(own, key=share)
             said.append(f"{name}: {percent(share(low))} ({planes(low)}) to {percent(share(high))} ({planes(high)}) differ, by "
                         f"{max(r['ulp_max'] for r in own):,} ulp at most.")
-    judged = [r for r in plain(rows) if r["safe_bias"] and total(r) > 0]
-    for (scene, profile, depth), own in groups(judged, "scene", "profile", "depth_format"):
-        for r in [min(own, key=lambda row: abs(ratio(row) - 100))]:
-            safe = r["safe_bias"]
-            if safe["safe"]:
-                said.append(f"{scene} on {profile}, `{depth}`, {planes(r)}: every constant bias from {safe['lowest']} to {safe['highest']} codes peels without error.")
-            else:
-                said.append(f"{scene} on {profile}, `{depth}`, {planes(r)}: no constant bias peels without error.")
+    for r in biases(rows):
+        safe, name = r["safe_bias"], f"{r['scene']} on {r['profile']}, `{r['depth_format']}`, {planes(r)}"
+        if safe["safe"]:
+            said.append(f"{name}: every constant bias from {safe['lowest']} to {safe['highest']} codes peels without error.")
+        else:
+            said.append(f"{name}: no constant bias peels without error.")
     return [("heading", "In short"), ("list", said)] if said else []
 
 
@@ -98,7 +127,7 @@ def differences(rows):
     blocks = [("heading", "How often the two depths differ, and by how much"),
               ("text", "Every fragment of the frame by both paths, paired by pixel and triangle. An ulp is a code of `d16` and "
                        "`d24`, and the step to the next float of `d32f`. Pairs that never differ are left out.")]
-    return blocks + difference_plots(rows) + [("table", header, table)]
+    return blocks + difference_plots(rows)[1:] + [("table", header, table)]  # the first one stands at the head
 
 
 def difference_plots(rows):
@@ -269,5 +298,6 @@ def page(title, rows, study=()):
              "computed in different ways, they differ in the last places: a fragment that seems to lie behind itself is peeled again, "
              "one that seems to lie before what is behind it is lost. Unless a line names another, everything rests on the profiles' own "
              "constants, which `strata profiles` lists with their sources.")
-    return [("title", title), ("text", intro), *answers(rows), *differences(rows), *histogram(rows), *remedies(rows), *vertex_paths(rows), *splits(rows),
-            *study, *hypotheses(rows), *refusals(rows), *pictures(rows)]
+    plots = difference_plots([r for r in plain(rows) if r["differing"] > 0])
+    return [("title", title), *findings(rows), *plots[:1], ("text", intro), *answers(rows), *differences(rows), *histogram(rows), *remedies(rows),
+            *vertex_paths(rows), *splits(rows), *study, *hypotheses(rows), *refusals(rows), *pictures(rows)]

@@ -13,6 +13,7 @@
 #include "tools/oracle/pack/compare_packs.h"
 #include "tools/oracle/report.h"
 #include "tools/strata/command.h"
+#include "tools/strata/compare_pages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/render/run.h"
 #include "tools/strata/report/plain_page.h"
@@ -34,8 +35,7 @@ struct CompareOptions {
     bool json = false;
 };
 
-// A page holds no path of this machine.
-std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+ComparedPaths paths_of(const CompareOptions& options) { return {options.reference, options.candidate}; }
 
 void write_png(const std::string& path, const pipeline::Image& image) {
     if (!path.empty()) scenes::write_image(path, {.color = image});
@@ -53,10 +53,6 @@ std::vector<oracle::PackPictures> chosen(std::vector<oracle::PackPictures> all, 
     return all;
 }
 
-const oracle::PackPictures& of_algorithm(const std::vector<oracle::PackPictures>& all, const std::string& algorithm) {
-    return *std::ranges::find(all, algorithm, &oracle::PackPictures::algorithm);
-}
-
 // "heat.png" with several algorithms: "heat.dual.png".
 std::string path_of(const std::string& path, const std::string& algorithm, bool is_only) {
     if (path.empty() || is_only) return path;
@@ -70,26 +66,19 @@ void draw_folders(const CompareOptions& options, const std::vector<oracle::PackP
                   const std::vector<oracle::PackComparison>& found) {
     const bool is_only = std::ranges::count(found, true, &oracle::PackComparison::is_there) == 1;
     for (const oracle::PackComparison& c : found) {
-        const bool shows_pass = c.first && (!c.picture || c.picture->equal);
-        if (!c.is_there || (!c.picture && !shows_pass)) continue;
-        const auto shown = [&](const oracle::PackPictures& of) {
-            if (!shows_pass) return of.picture;
-            return std::ranges::find(of.passes, c.first->number, &oracle::PassPicture::number)->targets;
-        };
-        const oracle::Comparison& comparison = shows_pass ? c.first->comparison : *c.picture;
-        write_png(path_of(options.heat, c.algorithm, is_only), oracle::heat_map(comparison));
+        const auto shown = shown_pair(reference, candidate, c);
+        if (!shown) continue;
+        write_png(path_of(options.heat, c.algorithm, is_only), oracle::heat_map(shown->comparison));
         write_png(path_of(options.side, c.algorithm, is_only),
-                  oracle::side_by_side(shown(of_algorithm(reference, c.algorithm)),
-                                       shown(of_algorithm(candidate, c.algorithm)), comparison));
+                  oracle::side_by_side(shown->reference, shown->candidate, shown->comparison));
     }
 }
 
 // A pack and the folder of a port: the end and the passes of every algorithm that both have.
 int compare_folders(const CompareOptions& options) {
-    if (!options.background.empty() || !options.report.empty())
+    if (!options.background.empty())
         throw CLI::ValidationError(
-            !options.background.empty() ? "--background" : "--report",
-            "expected a picture as the candidate, found a folder; compare its picture.npy alone");
+            "--background", "expected a picture as the candidate, found a folder; compare its picture.npy alone");
     const auto reference = chosen(oracle::expected_pictures(options.reference), options.algorithm);
     const auto candidate = chosen(oracle::candidate_pictures(options.reference, options.candidate), options.algorithm);
     const auto found = oracle::compare_packs(reference, candidate, options.tolerances);
@@ -97,7 +86,8 @@ int compare_folders(const CompareOptions& options) {
         throw InputError(options.candidate, "algorithms", "one that the pack has, too", "none");
     draw_folders(options, reference, candidate, found);
     if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
-    print(options.json ? oracle::to_json(found) : oracle::to_text(found));
+    if (!options.report.empty()) write_page(options.report, page_of(paths_of(options), reference, candidate, found));
+    print(options.json ? oracle::to_json(found) : with_painted_verdicts(oracle::to_text(found)));
     return std::ranges::all_of(found, &oracle::PackComparison::accepted) ? 0 : 1;
 }
 
@@ -109,23 +99,6 @@ oracle::Picture reference_of(const CompareOptions& options) {
         throw CLI::ValidationError("--algorithm",
                                    "expected one of the pack's, for a picture to compare with it, found none");
     return std::move(all[0].picture);
-}
-
-// What is printed, and the two pictures with the places and kinds of their differences.
-PlainPage page_of(const CompareOptions& options, const oracle::Picture& reference, const oracle::Picture& candidate,
-                  const oracle::Comparison& found) {
-    PlainPage page{found.equal      ? "Equal"
-                   : found.accepted ? "Within the tolerance"
-                                    : "Different",
-                   "strata compare " + file_name(options.reference) + " " + file_name(options.candidate)};
-    page.heading("What differs");
-    page.lines(oracle::to_text(found));
-    page.heading("Pictures");
-    page.picture(oracle::as_shown(reference), "The reference, " + file_name(options.reference));
-    page.picture(oracle::as_shown(candidate), "The candidate, " + file_name(options.candidate));
-    page.picture(oracle::heat_map(found),
-                 "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
-    return page;
 }
 
 // Files first: what stands on standard output has been written.
@@ -142,8 +115,8 @@ int compare(const CompareOptions& options) {
     write_png(options.heat, oracle::heat_map(found));
     write_png(options.side, oracle::side_by_side(reference, candidate, found));
     if (!options.junit.empty()) scenes::write_file(options.junit, oracle::to_junit(found));
-    if (!options.report.empty()) write_page(options.report, page_of(options, reference, candidate, found));
-    print(options.json ? oracle::to_json(found) : oracle::to_text(found));
+    if (!options.report.empty()) write_page(options.report, page_of(paths_of(options), reference, candidate, found));
+    print(options.json ? oracle::to_json(found) : with_painted_verdicts(oracle::to_text(found)));
     return found.accepted ? 0 : 1;
 }
 

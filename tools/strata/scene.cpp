@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/strata/command.h"
+#include "tools/strata/messages.h"
 #include "tools/strata/options/options.h"
 #include "tools/strata/table.h"
 
@@ -112,6 +113,16 @@ std::string describe(const scenes::Scene& scene) {
     return to_text(table);
 }
 
+// Nothing would be drawn of it: a sentence for people that says what to do.
+void warn_of_empty(const std::string& path, const scenes::Scene& scene) {
+    if (drawn(scene.list, std::nullopt).triangles > 0) return;
+    say_warning(
+        path + ": nothing would be drawn, for the scene has no triangles; " +
+        (scene.scene_count > 1
+             ? fmt::format("--scene 0 to {} chooses another one of the file", scene.scene_count - 1)
+             : std::string("export its meshes as triangles, or try a built-in scene: strata scenes lists them")));
+}
+
 }  // namespace
 
 Command add_scene(CLI::App& root) {
@@ -125,6 +136,7 @@ Command add_scene(CLI::App& root) {
                 const scenes::Scene scene = scenes::load_scene(options->scene, options->scene_options);
                 print(options->json ? to_json(scene).dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n'
                                     : describe(scene));
+                warn_of_empty(options->scene, scene);
                 return 0;
             }};
 }

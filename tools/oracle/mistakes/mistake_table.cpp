@@ -126,26 +126,51 @@ std::string unnamed_text(const std::vector<TableColumn>& columns) {
     return text.empty() ? "none" : text;
 }
 
+bool shows_in(const TableColumn& column, std::size_t mistake) {
+    const Cell cell = column.cells[mistake];
+    return cell == Cell::named || cell == Cell::alike || cell == Cell::wrong;
+}
+
+std::ptrdiff_t number_of(const std::vector<TableColumn>& columns, std::initializer_list<Cell> cells) {
+    std::ptrdiff_t number = 0;
+    for (const TableColumn& column : columns)
+        for (const Cell cell : cells) number += std::ranges::count(column.cells, cell);
+    return number;
+}
+
+// What was found, in three sentences.
+std::string findings(const std::vector<TableColumn>& columns) {
+    const std::size_t all = catalogue().size();
+    std::size_t in_one = 0, most = 0;
+    const TableColumn* best = nullptr;
+    for (std::size_t m = 0; m < all; ++m)
+        in_one += std::ranges::count_if(columns, [&](const TableColumn& c) { return shows_in(c, m); }) == 1 ? 1 : 0;
+    for (const TableColumn& column : columns) {
+        std::size_t shown = 0;
+        for (std::size_t m = 0; m < all; ++m) shown += shows_in(column, m) ? 1 : 0;
+        if (best == nullptr || shown > most) best = &column, most = shown;
+    }
+    const std::ptrdiff_t wrong = number_of(columns, {Cell::wrong, Cell::accused});
+    const std::ptrdiff_t diagnoses = wrong + number_of(columns, {Cell::named, Cell::alike, Cell::hidden});
+    return fmt::format(
+        "Of {} mistakes {} are named first in at least one of {} scenes; those that are named in none: {}.\n"
+        "Of {} diagnoses {} name somebody else; pairs of mistakes that leave the same pictures of all scenes: {}.\n"
+        "The scene {} shows most of them, {}, and {} show in one scene alone: no single scene tests a port.\n",
+        all, all - unnamed(columns).size(), columns.size(), unnamed_text(columns), diagnoses, wrong,
+        twins(columns).size(), best->scene->name, most, in_one);
+}
+
 }  // namespace
 
-std::string to_page(const std::vector<TableColumn>& columns) {
+std::string to_page(const std::vector<TableColumn>& columns, const std::string& plot) {
     const auto all = catalogue();
-    const auto misnamed = [](const TableColumn& column) {
-        return std::ranges::count(column.cells, Cell::accused) + std::ranges::count(column.cells, Cell::wrong);
-    };
-    std::ptrdiff_t wrong = 0;
-    for (const TableColumn& column : columns) wrong += misnamed(column);
-    std::string page = fmt::format(
-        "# Mistakes and the scenes that show them\n"
-        "`strata mistakes --table -o tools/oracle/MISTAKES.md` made this page: the pictures of {} machines with one "
-        "mistake "
-        "each, of each of {} scenes,\ndiagnosed like anybody's. Mistakes that are named first in no scene: {}. Pairs "
-        "of "
-        "mistakes that leave the same pictures of all scenes: {}.\nDiagnoses that name somebody else: {}.\n\n"
+    std::string page = "# Mistakes and the scenes that show them\n\n" + findings(columns);
+    if (!plot.empty()) page += fmt::format("\n![What each scene of the suite shows of the mistakes]({})\n", plot);
+    page +=
+        "\n`strata mistakes --table -o tools/oracle/MISTAKES.md` made this page: the pictures of machines with one "
+        "mistake each are diagnosed like anybody's.\n"
         "1 named first; = the same picture as a mistake above it, which is named; . does not show, and the right "
-        "machine is "
-        "named; blank cannot be made here.\n\n| mistake |",
-        all.size(), columns.size(), unnamed_text(columns), twins(columns).size(), wrong);
+        "machine is named; blank cannot be made here.\n\n| mistake |";
     for (std::size_t c = 0; c < columns.size(); ++c) page += fmt::format(" {} |", c + 1);
     page += "\n|---|";
     for (std::size_t c = 0; c < columns.size(); ++c) page += "---|";

@@ -43,7 +43,8 @@ struct Twins {
 // Mistakes that no column names.
 [[nodiscard]] std::vector<const Mistake*> unnamed(const std::vector<TableColumn>& columns);
 
-// A page in Markdown: the table, the scenes with their commands, the mistakes in words.
-[[nodiscard]] std::string to_page(const std::vector<TableColumn>& columns);
+// A page in Markdown: what was found, the table, the scenes with their commands, the mistakes in words. `plot`: the file beside the page
+// that holds the drawing; empty: none.
+[[nodiscard]] std::string to_page(const std::vector<TableColumn>& columns, const std::string& plot);
 
 }  // namespace strata::oracle

@@ -13,10 +13,12 @@
 #include "scenes/files/profile_json.h"
 #include "tools/strata/command.h"
 #include "tools/strata/hardware_check/hardware_hypotheses.h"
+#include "tools/strata/hardware_check/hardware_page.h"
 #include "tools/strata/hardware_check/hardware_report.h"
 #include "tools/strata/options/names.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/parallel_items.h"
+#include "tools/strata/render/run.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -26,9 +28,9 @@ namespace {
 namespace hc = hardware_check;
 namespace fs = std::filesystem;
 
-// The command line. Empty texts: every suite, no report.
+// The command line. Empty texts: every suite, no folder of differences, no page.
 struct Options {
-    std::string folder, suite, profile = "geforce3", report;
+    std::string folder, suite, profile = "geforce3", output, report;
     bool json = false, hypotheses = false, digests = false;
 };
 
@@ -75,6 +77,9 @@ std::vector<CheckedPicture> check_all(const std::vector<Capture>& captures, cons
 }
 
 int hardware_check(const Options& options) {
+    check_outputs({{"--report", options.report, {".html"}}});
+    if (options.hypotheses && !options.report.empty())
+        throw CLI::ValidationError("--report", "expected no --hypotheses beside it, found both");
     const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
     const std::vector<Capture> captures = find_captures(options);
     // Scores are no comparison that could fail: the exit status is 0.
@@ -88,7 +93,8 @@ int hardware_check(const Options& options) {
         print(digest_rows(checked));
     else
         print(options.json ? to_json(checked, profile) : to_text(checked, profile));
-    if (!options.report.empty()) write_report(options.report, checked, profile);
+    if (!options.output.empty()) write_report(options.output, checked, profile);
+    if (!options.report.empty()) write_page(options.report, page_of(checked, profile));
     return std::all_of(checked.begin(), checked.end(), [](const auto& c) { return c.is_accepted(); }) ? 0 : 1;
 }
 
@@ -104,13 +110,14 @@ Command add_hardware_check(CLI::App& root) {
     app->add_option("--profile", options->profile, "a built-in profile or a JSON file")
         ->capture_default_str()
         ->type_name("NAME|FILE");
-    add_path(*app, options->report, {"-o,--output", "DIR", "folder for difference pictures and one page", "a folder"});
+    add_path(*app, options->output, {"-o,--output", "DIR", "folder for difference pictures and one page", "a folder"});
+    add_report_option(*app, options->report);
     app->add_flag("--json", options->json, "one JSON document instead of the tables");
     app->add_flag("--hypotheses", options->hypotheses, "the score of each hypothesis that the profile names");
     app->add_flag("--digests", options->digests, "the rows of tests/tools/hardware_check/hardware_digests.txt");
     app->footer(footer("  strata hardware-check captures\n"
                        "  strata hardware-check captures --suite Depth_buffer --hypotheses\n"
-                       "  strata hardware-check captures -o report\n") +
+                       "  strata hardware-check captures -o report --report captures.html\n") +
                 " 1 a picture is outside its bound.");
     return {app, [options] { return hardware_check(*options); }};
 }

@@ -19,14 +19,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// The word in tables and JSON. Capitals draw the eye to what is outside its bound.
-std::string outcome(const CheckedPicture& p) {
-    if (!p.is_known) return "unknown";
-    if (!p.unmodelled.empty()) return "not modelled";
-    if (p.comparison.differing == 0) return "equal";
-    return p.comparison.within_bound ? "within bound" : "DIFFERS";
-}
-
 // Why a picture is not compared; else the first pixel that differs, the eight lowest differences
 // with their pixels, and what queries reported.
 std::string detail(const CheckedPicture& p) {
@@ -78,25 +70,6 @@ std::vector<SuiteCount> count_suites(const std::vector<CheckedPicture>& checked)
     return suites;
 }
 
-Table suite_table(const std::vector<CheckedPicture>& checked) {
-    const auto right = Align::right;
-    Table table{{{"suite"},
-                 {"pictures", right},
-                 {"equal", right},
-                 {"within bound", right},
-                 {"differ", right},
-                 {"not modelled", right},
-                 {"pixels compared", right},
-                 {"pixels off", right},
-                 {"largest", right}},
-                {}};
-    for (const SuiteCount& s : count_suites(checked))
-        table.rows.push_back({s.name, fmt::to_string(s.pictures), fmt::to_string(s.equal), fmt::to_string(s.within),
-                              fmt::to_string(s.differ), fmt::to_string(s.unmodelled), fmt::to_string(s.pixels),
-                              fmt::to_string(s.off), fmt::to_string(s.largest)});
-    return table;
-}
-
 // The table as Markdown has it, numbers to the right.
 std::string markdown(const Table& table) {
     const auto row = [](const std::vector<std::string>& cells) {
@@ -123,6 +96,33 @@ std::string link_to(const std::string& file) {
 }
 
 }  // namespace
+
+// Capitals draw the eye to what is outside its bound.
+std::string outcome(const CheckedPicture& p) {
+    if (!p.is_known) return "unknown";
+    if (!p.unmodelled.empty()) return "not modelled";
+    if (p.comparison.differing == 0) return "equal";
+    return p.comparison.within_bound ? "within bound" : "DIFFERS";
+}
+
+Table suite_table(const std::vector<CheckedPicture>& checked) {
+    const auto right = Align::right;
+    Table table{{{"suite"},
+                 {"pictures", right},
+                 {"equal", right},
+                 {"within bound", right},
+                 {"differ", right},
+                 {"not modelled", right},
+                 {"pixels compared", right},
+                 {"pixels off", right},
+                 {"largest", right}},
+                {}};
+    for (const SuiteCount& s : count_suites(checked))
+        table.rows.push_back({s.name, fmt::to_string(s.pictures), fmt::to_string(s.equal), fmt::to_string(s.within),
+                              fmt::to_string(s.differ), fmt::to_string(s.unmodelled), fmt::to_string(s.pixels),
+                              fmt::to_string(s.off), fmt::to_string(s.largest)});
+    return table;
+}
 
 pipeline::Image read_capture(const std::string& path) {
     std::vector<scenes::FileImage> images = scenes::read_images(path);
@@ -166,7 +166,7 @@ CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& prof
 
 // Pictures that are equal and report nothing would fill pages: only the table of suites counts
 // them.
-std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
+Table picture_table(const std::vector<CheckedPicture>& checked) {
     Table pictures{
         {{"suite"}, {"picture"}, {"outcome"}, {"pixels off", Align::right}, {"largest", Align::right}, {"detail"}}, {}};
     for (const CheckedPicture& p : checked)
@@ -174,8 +174,12 @@ std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::
             pictures.rows.push_back({printable(p.capture.suite), printable(p.capture.name), outcome(p),
                                      fmt::to_string(p.comparison.differing), fmt::to_string(p.comparison.largest),
                                      detail(p)});
-    std::string text = fmt::format("profile {}; pictures that are not equal, or report a count:\n", profile.name);
-    return text + to_text(pictures) + '\n' + to_text(suite_table(checked));
+    return pictures;
+}
+
+std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {
+    return fmt::format("profile {}; pictures that are not equal, or report a count:\n", profile.name) +
+           to_text(picture_table(checked)) + '\n' + to_text(suite_table(checked));
 }
 
 std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/hardware_check/compare.h"
+#include "tools/strata/table.h"
 
 namespace strata::tools {
 
@@ -49,6 +50,11 @@ enum class WithDigests : bool { no, yes };
 [[nodiscard]] CheckedPicture check(const Capture& capture, const pipeline::DeviceProfile& profile,
                                    WithDigests with_digests);
 
+// The word in tables and JSON: "unknown", "not modelled", "equal", "within bound", "DIFFERS".
+[[nodiscard]] std::string outcome(const CheckedPicture& p);
+// A row a suite; a row a picture that is not equal or reports a count.
+[[nodiscard]] Table suite_table(const std::vector<CheckedPicture>& checked);
+[[nodiscard]] Table picture_table(const std::vector<CheckedPicture>& checked);
 // The tables, and the JSON document of --json.
 [[nodiscard]] std::string to_text(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);
 [[nodiscard]] std::string to_json(const std::vector<CheckedPicture>& checked, const pipeline::DeviceProfile& profile);

@@ -46,8 +46,8 @@ void check_value(const PlanKey& key, const std::string& text, const Source& sour
 
 // One value or a list of them, each checked by the key; `place` is a JSON pointer, to which a list
 // adds the index.
-std::vector<std::string> values_of(const PlanKey& key, const json& value, const Source& source,
-                                   const std::string& place) {
+std::vector<std::string> values_of_key(const PlanKey& key, const json& value, const Source& source,
+                                       const std::string& place) {
     if (value.is_array() && value.empty()) source.fail(place, "at least one value", "an empty list");
     std::vector<std::string> values;
     const json list = value.is_array() ? value : json::array({value});
@@ -68,7 +68,7 @@ KeyValues grid_of(const json& object, const Source& source, const std::string& p
         const auto& keys = plan_keys();
         const auto key = std::find_if(keys.begin(), keys.end(), [&](const PlanKey& k) { return k.name == name; });
         if (key == keys.end()) source.fail(place, "keys " + one_of(key_names()), found_but_near(name, key_names()));
-        values[name] = values_of(*key, value, source, place + "/" + name);
+        values[name] = values_of_key(*key, value, source, place + "/" + name);
     }
     return values;
 }

@@ -28,15 +28,18 @@ std::vector<double> complexity(const Columns& columns) {
     return numbers;
 }
 
-// Neighbours in depth have equal codes where any two have.
+// By the code of the exact depth. Two codes may share a float, so that the order of depths does not put equal codes side by side.
 std::vector<double> ties(const Columns& columns) {
     std::vector<double> numbers;
+    std::vector<std::uint32_t> codes;
     for (std::size_t pixel = 0; pixel + 1 < columns.first.size(); ++pixel) {
-        const std::uint32_t begin = columns.first[pixel], end = columns.first[pixel + 1];
-        const auto code = [&](std::uint32_t f) { return columns.fragments[f].code; };
+        codes.clear();
+        for (std::uint32_t f = columns.first[pixel]; f < columns.first[pixel + 1]; ++f)
+            codes.push_back(columns.fragments[f].code);
+        std::ranges::sort(codes);
         int tied = 0;
-        for (std::uint32_t f = begin; f < end; ++f)
-            tied += (f > begin && code(f) == code(f - 1)) || (f + 1 < end && code(f) == code(f + 1)) ? 1 : 0;
+        for (std::size_t i = 0; i < codes.size(); ++i)
+            tied += (i > 0 && codes[i] == codes[i - 1]) || (i + 1 < codes.size() && codes[i] == codes[i + 1]) ? 1 : 0;
         numbers.push_back(tied);
     }
     return numbers;

@@ -173,17 +173,16 @@ function fitDepth() {
 const passOf = (taken) => (taken & 0x7fff) - 1;
 const maps = {
   "depth complexity": { of: (p) => columns.all[p], text: "Fragments of a pixel" },
-  "ties": { of: tiesAt, text: "Fragments at the depth of another one of their pixel, by code" },
+  "ties": { of: tiesAt, text: `Fragments whose exact depth has the ${report.depth_format} code of another one's of their pixel`,
+    note: "An algorithm loses those that tie by the depth that it computes itself, so that its number of fragments lost by ties may be another one." },
   "difference from the A-buffer": { needs: () => exact(), of: (p, a) => differenceAt(a, p) * 255, text: "Largest difference of a channel, in 255ths" },
   "fragments never composited": { needs: (a) => a.taken, of: lostAt, text: "Fragments that no pass composited" },
   "pass that took the nearest": { needs: (a) => a.taken, of: firstTakenAt, text: "Number of the pass, from 1; 0: none did" },
   "test that killed most": { needs: (a) => a.killer, of: (p, a) => a.killer[p], classes: fates, text: "Which test rejected most fragments of a pixel in all passes" },
 };
 function tiesAt(p) {
-  let ties = 0;
-  for (let f = columns.first[p]; f < columns.first[p + 1]; ++f)
-    if ((f > columns.first[p] && columns.code[f] === columns.code[f - 1]) || (f + 1 < columns.first[p + 1] && columns.code[f] === columns.code[f + 1])) ++ties;
-  return ties;
+  const codes = columns.code.slice(columns.first[p], columns.first[p + 1]).sort();  // two codes may share a float: sorted as numbers
+  return codes.reduce((ties, code, i) => ties + (code === codes[i - 1] || code === codes[i + 1] ? 1 : 0), 0);
 }
 function lostAt(p, a) {
   let lost = 0;
@@ -207,7 +206,7 @@ function drawMap() {
   const rgb = (text) => [1, 3, 5].map((i) => parseInt(text.slice(i, i + 2), 16));
   paint(at("map-canvas"), (p) => map.classes ? rgb(palette[values[p]]) : heat(most > 0 ? values[p] / most : 0));
   const sum = values.reduce((a, b) => a + b, 0);
-  at("map-text").textContent = map.classes ? map.text + "." : `${map.text}: at most ${+most.toFixed(3)}, in all ${+sum.toFixed(3)}.`;
+  at("map-text").textContent = map.classes ? map.text + "." : `${map.text}: at most ${+most.toFixed(3)}, in all ${+sum.toFixed(3)}.` + (map.note ? " " + map.note : "");
   const legend = map.classes ? map.classes.map((name, i) => [palette[i], name]) : [["#000000", "0"], ["#ffffff", String(+most.toFixed(3))]];
   for (const [color, name] of legend) {
     const entry = element("span"), swatch = element("span", undefined, { class: "swatch" });

@@ -1,8 +1,14 @@
 "use strict";
-// A heading sorts its column: numbers by value, other cells as text; once more turns it round.
+// Columns of words stand to the left, those of many words in lines. A heading sorts its column: numbers by value, other cells as text; once more turns it round.
 for (const table of document.querySelectorAll("table.sorts")) {
   const heads = [...table.tHead.rows[0].cells], body = table.tBodies[0];
   heads.forEach((head, column) => {
+    const key = (row) => row.cells[column].textContent;
+    const isNumber = [...body.rows].every((row) => key(row) === "" || key(row) === "-" || Number.isFinite(Number(key(row))));
+    if (!isNumber) {
+      const isLong = [...body.rows].some((row) => key(row).length > 60);
+      for (const row of [table.tHead.rows[0], ...body.rows]) row.cells[column].className = isLong ? "words long" : "words";
+    }
     const button = document.createElement("button");
     button.type = "button";
     button.textContent = head.textContent;
@@ -11,8 +17,6 @@ for (const table of document.querySelectorAll("table.sorts")) {
     button.addEventListener("click", () => {
       const falls = head.getAttribute("aria-sort") === "ascending";
       for (const other of heads) other.setAttribute("aria-sort", other !== head ? "none" : falls ? "descending" : "ascending");
-      const key = (row) => row.cells[column].textContent;
-      const isNumber = [...body.rows].every((row) => key(row) === "" || key(row) === "-" || Number.isFinite(Number(key(row))));
       const order = (a, b) => isNumber ? (Number(key(a)) || 0) - (Number(key(b)) || 0) : key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0;
       body.append(...[...body.rows].sort((a, b) => falls ? order(b, a) : order(a, b)));
     });
