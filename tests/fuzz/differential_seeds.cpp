@@ -49,6 +49,14 @@ void write(const std::filesystem::path& folder) {
     }
 }
 
+// The sum, and a line a relation.
+void print(const strata::fuzz::RelationCounts& held) {
+    std::uint64_t all = 0;
+    for (const auto& [name, frames] : held) all += frames;
+    std::cout << all << " relations hold\n";
+    for (const auto& [name, frames] : held) std::cout << "  " << frames << ' ' << name << '\n';
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -66,13 +74,12 @@ int main(int count, char** words) {
         std::cerr << "differential_seeds --seeds A..B [--threads N | --relations] | --write FOLDER\n";
         return 2;
     }
-    std::uint64_t relations = 0;
+    strata::fuzz::RelationCounts held;
     for (std::uint64_t seed = seeds->first; seed < seeds->end; ++seed) {
         bool agrees = false;
         try {
-            const int held = has_relations ? strata::fuzz::check_relations(bytes_of(seed), std::cerr) : 0;
-            agrees = has_relations ? held > 0 : strata::fuzz::check(bytes_of(seed), std::cerr, threads);
-            relations += static_cast<std::uint64_t>(held);
+            agrees = has_relations ? strata::fuzz::check_relations(bytes_of(seed), held, std::cerr)
+                                   : strata::fuzz::check(bytes_of(seed), std::cerr, threads);
         } catch (const std::exception& error) {
             std::cerr << error.what() << '\n';
         }
@@ -81,8 +88,9 @@ int main(int count, char** words) {
         return 1;
     }
     std::cout << seeds->end - seeds->first << " frames: ";
-    if (has_relations)
-        std::cout << relations << " relations hold\n";
-    else
+    if (!has_relations) {
         std::cout << "every way alike\n";
+        return 0;
+    }
+    print(held);
 }

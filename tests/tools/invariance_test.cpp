@@ -133,6 +133,14 @@ TEST_CASE("lines that were changed, emptied or taken out are measured again, and
     std::swap(left[0], left[7]);
     left.push_back(left[1]);  // a cell twice
     CHECK(again(left) == "strata: warning: whole/results.jsonl: line 11" + dropped);
+    left = lines;
+    std::swap(left[2], left[9]);  // a killed run had measured a cell between others, and the next one the rest
+    CHECK(again(left) == "");
+    left.erase(left.begin() + 11);
+    CHECK(again(left) == "");
+    write(folder / "whole/results.jsonl", expected.lines + lines[0].substr(0, 9));  // torn behind the last cell
+    CHECK(sweep(folder, "whole", {"--no-images"}).status == 0);
+    CHECK(results_in(folder, "whole") == expected);
 }
 
 TEST_CASE("a scene whose name is no UTF-8 is measured and taken up again") {

@@ -108,10 +108,13 @@ Found read_journal(const std::string& path) {
 
 Lines lines_of_cells(const std::string& path, Found& found, const Expected& expected) {
     Lines lines(expected.cells.size());
+    std::size_t last = 0;
     for (std::size_t i = 0; i < found.lines.size(); ++i) {
         ordered_json& line = found.lines[i];
         const std::size_t place = place_of(path, found.numbers[i], line, expected.cells);
         check_description(path, found.numbers[i], line, expected.described[place]);
+        found.in_order = found.in_order && place >= last;
+        last = place;
         if (lines[place].is_null() && has_keys(line, expected.keys))
             lines[place] = std::move(line);
         else

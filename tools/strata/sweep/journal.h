@@ -24,7 +24,9 @@ struct Found {
     Lines lines;                         // those that are whole, without their digests
     std::vector<std::size_t> numbers{};  // of each in the file, from 1
     std::vector<std::size_t> changed{};  // the numbers of lines that are not what was written
-    bool torn = false;                   // the file has a last line without newline
+    bool in_order =
+        true;  // lines_of_cells found each cell behind those before it: a killed run may have measured one between others
+    bool torn = false;  // the file has a last line without newline
     // The length of the file up to its last newline, where appending goes on.
     std::size_t whole_bytes = 0;
 };

@@ -91,12 +91,12 @@ void measure_missing(const Work& work, const std::string& folder, const Expected
                      const Found& found, Lines& lines) {
     const std::string results = shard_file(folder, "results", shard), timings = shard_file(folder, "timings", shard);
     const auto missing = std::count(lines.begin(), lines.end(), nullptr);
-    if (missing == 0 && found.changed.empty()) return;
+    bool in_order = found.in_order || !found.changed.empty();  // a changed journal is written anew
+    if (missing == 0 && found.changed.empty() && !found.torn && in_order) return;
     const Found timed = read_journal(timings);
     Journal journal = journal_behind(results, found, lines), clock = journal_behind(timings, timed, timed.lines);
     Progress progress(work.name, Remaining::shown);
     std::ptrdiff_t done = 0;
-    bool in_order = true;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         if (!lines[i].is_null()) {
             in_order = in_order && done == 0;
