@@ -235,7 +235,8 @@ def results():
     for line in path.read_text().splitlines() if path.exists() else []:
         row = json.loads(line)
         found.setdefault(row["number"], []).append(row)
-    return sorted(found.items(), key=lambda entry: entry[1][-1]["index"])
+    index = {number: i for i, number in enumerate(load("sample.json", []))}
+    return sorted(((number, [{**row, "index": index[number]} for row in rows]) for number, rows in found.items()), key=lambda entry: index[entry[0]])
 
 
 def run(arguments):
