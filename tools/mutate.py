@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Do the tests see a change of one step in the pixel path or in an algorithm?
 
-    tools/mutate.py build                 # a copy of the sources with every change in it, chosen at run time: build/mutants
+    tools/mutate.py build                 # a copy of the sources with a seeded draw of the changes in it, chosen at run time: build/mutants
     tools/mutate.py reach                 # which case of which test reaches which change
-    tools/mutate.py run --sample 400      # a seeded sample of the changes that are reached; goes on where it stopped
+    tools/mutate.py run --sample 400      # the first of the changes that are reached; goes on where it stopped
+    tools/mutate.py run --again           # the survivors, after build and reach have taken in new tests
     tools/mutate.py report                # the score of each folder, and the survivors with a line each
 
 A change swaps a comparison with its neighbour or a sum with a difference, makes a constant one larger, an enumerator the next
@@ -12,15 +13,17 @@ fails, crashes or runs out of time; tests of the same file come first, then thos
 expressions are not changed. Survivors that no test can see stand in tests/mutants/equivalent.txt, with the reason.
 """
 import argparse
+import concurrent.futures
 import json
 import os
 import pathlib
 import random
 import re
-import resource
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "mutants"))
@@ -30,7 +33,8 @@ FOLDER = ROOT / "build" / "mutants"
 SOURCE, BUILD = FOLDER / "source", FOLDER / "build"
 FLOORS = ("rasterizer", "pipeline", "peeling")
 MEMORY = 6 << 30  # a change may ask for any amount
-LEAST_SECONDS, TIMES_SLOWER = 30, 20  # before a run counts as endless
+LEAST_SECONDS, TIMES_SLOWER = 10, 6  # of processor time, before a run counts as endless
+WALL_SECONDS = 3600  # for one that sleeps instead
 
 
 def tracked():
@@ -53,34 +57,44 @@ def load(name, default):
     return json.loads(path.read_text()) if path.exists() else default
 
 
-def write_sources(barred):
-    """The copy. `barred` are [file, line, kind] whose change does not compile."""
+def drawn(total, seed, sample):
+    """{number: its rank} of a seeded draw of `sample` of the numbers 1 to `total`. A smaller draw is the beginning of a larger one."""
+    numbers = list(range(1, total + 1))
+    random.Random(seed).shuffle(numbers)
+    return {number: rank for rank, number in enumerate(numbers[:sample])}
+
+
+def write_sources(barred, sample, seed):
+    """The copy, with a draw of the changes in it. `barred` are [file, line] whose changes do not compile."""
     files = tracked()
     enums = enums_of([(ROOT / f).read_text() for f in files if is_changed(f)])
+    places = {f: places_in(f, (ROOT / f).read_text(), enums, f.endswith(("_simd.cpp", "-inl.h"))) for f in files if is_changed(f)}
+    total = sum(map(len, places.values()))
+    rank = drawn(total, seed, sample or total)
     number, table = 0, []
+    lists = {f"tests/{floor}/CMakeLists.txt": f"target_sources({floor}_test PRIVATE ${{PROJECT_SOURCE_DIR}}/tests/mutants/listener.cpp)\n"
+             "set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/mutants/listener.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)\n" for floor in FLOORS}
     for file in files:
         if not is_changed(file):
             target = SOURCE / file
             target.parent.mkdir(parents=True, exist_ok=True)
-            if not target.exists() or target.read_bytes() != (ROOT / file).read_bytes():
+            if file in lists:
+                write_if_other(target, (ROOT / file).read_text() + "\n" + lists[file])
+            elif not target.exists() or target.read_bytes() != (ROOT / file).read_bytes():
                 shutil.copy(ROOT / file, target)
             continue
         text = (ROOT / file).read_text()
-        is_kernel = file.endswith(("_simd.cpp", "-inl.h"))
         kept = []
-        for place in places_in(file, text, enums, is_kernel):
+        for place in places[file]:
             number += 1
-            place.number = number  # a barred one keeps its number, so that others do
-            if [file, place.line] not in barred:
+            place.number = number  # one that is left out keeps its number, so that others do
+            if number in rank and [file, place.line] not in barred:
                 kept.append(place)
         write_if_other(SOURCE / file, with_changes(text, kept))
-        table += [{"number": p.number, "kind": p.kind, "file": p.file, "line": p.line, "change": p.change} for p in kept]
-    for floor in FLOORS:
-        lists = SOURCE / "tests" / floor / "CMakeLists.txt"
-        lists.write_text(lists.read_text() + f"\ntarget_sources({floor}_test PRIVATE ${{PROJECT_SOURCE_DIR}}/tests/mutants/listener.cpp)\n"
-                         f"set_source_files_properties(${{PROJECT_SOURCE_DIR}}/tests/mutants/listener.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)\n")
+        table += [{"number": p.number, "rank": rank[p.number], "kind": p.kind, "file": p.file, "line": p.line,
+                   "source": text.splitlines()[p.line - 1].strip(), "change": p.change} for p in kept]
     (FOLDER / "places.json").write_text(json.dumps(table, indent=0))
-    return table
+    print(f"{len(table)} of {total} changes", flush=True)
 
 
 def lines_of_errors(log):
@@ -100,8 +114,8 @@ def build(arguments):
     barred = load("barred.json", [])
     flags = f"-w -Wno-narrowing -I{SOURCE}/tests"
     for attempt in range(12):
-        table = write_sources(barred)
-        print(f"{len(table)} changes; build {attempt + 1}", flush=True)
+        write_sources(barred, arguments.sample, arguments.seed)
+        print(f"build {attempt + 1}", flush=True)
         log = FOLDER / "build.log"
         with open(log, "w") as file:
             configured = subprocess.run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DSTRATA_CORE_ONLY=ON", "-DCMAKE_BUILD_TYPE=Release",
@@ -156,19 +170,19 @@ def order_of(place, case):
     return (not near, not same, case["floor"] != folder.split("/")[0], case["seconds"])
 
 
-def limits():
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    os.nice(10)
+def limited(seconds, *command):
+    """The command within its memory and processor time: a busy machine makes no change endless."""
+    return ["nice", "-n", "10", "prlimit", f"--as={MEMORY}", f"--cpu={int(seconds)}", *command]
 
 
 def outcome_of(number, cases):
     """'' if all cases pass, else the name of the first that does not."""
-    names = FOLDER / f"names.{os.getpid()}.txt"
+    names = FOLDER / f"names.{number}.txt"
     names.write_text("".join(re.sub(r'([\\\\,\\["*])', r"\\\1", case["name"]) + "\n" for case in cases))
     seconds = LEAST_SECONDS + TIMES_SLOWER * sum(case["seconds"] for case in cases)
     try:
-        ended = subprocess.run([program_of(cases[0]["floor"]), "-a", "-f", names], cwd=FOLDER, capture_output=True, text=True, errors="replace",
-                               timeout=seconds, env={**os.environ, "STRATA_MUTANT": str(number)}, preexec_fn=limits)
+        ended = subprocess.run(limited(seconds, program_of(cases[0]["floor"]), "-a", "-f", names), cwd=FOLDER, capture_output=True, text=True, errors="replace",
+                               timeout=WALL_SECONDS, env={**os.environ, "STRATA_MUTANT": str(number)})
     except subprocess.TimeoutExpired:
         return "out of time"
     finally:
@@ -177,6 +191,8 @@ def outcome_of(number, cases):
         sys.exit(f"mutate.py: the test names none of {[case['name'] for case in cases]}")
     if ended.returncode == 0:
         return ""
+    if -ended.returncode in (signal.SIGXCPU, signal.SIGKILL):
+        return "out of time"
     told = re.search(r"^-{70,}\n(.*?)\n-{70,}$", ended.stdout, re.S | re.M)
     return " ".join(told[1].split()) if told else f"status {ended.returncode}"
 
@@ -198,27 +214,55 @@ def killer_of(place, cases, most_seconds):
     digests = BUILD / "tests" / "golden" / "core_digests"
     if not digests.exists():
         return ""
-    golden = subprocess.run([digests, f"check={ROOT}/tests/golden/core_digests.txt"], capture_output=True,
-                            env={**os.environ, "STRATA_MUTANT": str(place["number"])}, preexec_fn=limits, timeout=600)
+    golden = subprocess.run(limited(300, digests, f"check={ROOT}/tests/golden/core_digests.txt"), capture_output=True,
+                            env={**os.environ, "STRATA_MUTANT": str(place["number"])}, timeout=WALL_SECONDS)
     return "core_digests" if golden.returncode != 0 else ""
+
+
+def sample_of(places, cases, count):
+    """The first `count` changes of the draw that tests reach, in an order that later tests, which reach more, only make longer."""
+    everywhere = {n for case in cases for n in case["reached"]}
+    by_number = {p["number"]: p for p in places}
+    order = [n for n in load("sample.json", []) if n in by_number]
+    order += [p["number"] for p in sorted(places, key=lambda p: p["rank"]) if p["number"] in everywhere - set(order)]
+    (FOLDER / "sample.json").write_text(json.dumps(order))
+    return [{**by_number[n], "index": i} for i, n in enumerate(order[:count])]
+
+
+def results():
+    """[(number, [row of each try])], in the order of the sample."""
+    path, found = FOLDER / "results.jsonl", {}
+    for line in path.read_text().splitlines() if path.exists() else []:
+        row = json.loads(line)
+        found.setdefault(row["number"], []).append(row)
+    index = {number: i for i, number in enumerate(load("sample.json", []))}
+    return sorted(((number, [{**row, "index": index[number]} for row in rows]) for number, rows in found.items()), key=lambda entry: index[entry[0]])
 
 
 def run(arguments):
     places, cases = load("places.json", []), load("cases.json", [])
     for case in cases:
         case["reached"] = set(case["reached"])
-    everywhere = set().union(*(case["reached"] for case in cases))
-    chosen = [p for p in places if p["number"] in everywhere and p["file"].startswith(arguments.folder)]
-    random.Random(arguments.seed).shuffle(chosen)
-    results = FOLDER / "results.jsonl"
-    done = {json.loads(line)["number"] for line in results.read_text().splitlines()} if results.exists() else set()
-    for place in chosen[:arguments.sample]:
-        if place["number"] in done:
-            continue
+    chosen = [p for p in sample_of(places, cases, arguments.sample) if p["file"].startswith(arguments.folder)]
+    tried = dict(results())
+    known = reasons()
+    lock = threading.Lock()
+
+    def is_open(place):
+        if arguments.again:
+            rows = tried.get(place["number"])
+            return rows and not rows[-1]["killer"] and not known.get((place["file"], place["source"], place["change"]))
+        return place["number"] not in tried
+
+    def attempt(place):
         killer = killer_of(place, cases, arguments.most_seconds)
-        with open(results, "a") as file:
+        with lock, open(FOLDER / "results.jsonl", "a") as file:
             file.write(json.dumps({**place, "killer": killer}) + "\n")
-        print(f"{'killed  ' if killer else 'SURVIVES'} {place['file']}:{place['line']}: {place['kind']} {place['change']}  {killer[:60]}", flush=True)
+            print(f"{'killed  ' if killer else 'SURVIVES'} {place['index']} {place['file']}:{place['line']}: {place['kind']} {place['change']}  {killer[:60]}", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        for ended in concurrent.futures.as_completed([pool.submit(attempt, p) for p in chosen if is_open(p)]):
+            ended.result()
 
 
 def reasons():
@@ -231,24 +275,60 @@ def reasons():
     return found
 
 
+LOOKED_AT = 400  # of the sample: tests were written for what survived of these, and for none behind them
+
+
+def folder_of(row):
+    return "/".join(row["file"].split("/")[:2])
+
+
+def fate(row):
+    if row["killer"]:
+        return "killed"
+    return "equivalent" if reasons().get((row["file"], row["source"], row["change"])) else "survived"
+
+
+def percent(part, whole):
+    return f"{100 * part / whole:.1f} %" if whole else "-"
+
+
+def scores(rows):
+    """The table of one part of the sample: `rows` are (first try, last try)."""
+    lines = ["| folder | changes | killed | equivalent | survived | score without equivalents | at the first try |", "|---|---|---|---|---|---|---|"]
+    for folder in sorted({folder_of(last) for _, last in rows}) + ["all"]:
+        here = [(fate(first), fate(last)) for first, last in rows if folder in ("all", folder_of(last))]
+        killed, equivalent, survived = (sum(last == kind for _, last in here) for kind in ("killed", "equivalent", "survived"))
+        at_first = sum(first == "killed" for first, _ in here)
+        lines.append(f"| {folder} | {len(here)} | {killed} | {equivalent} | {survived} | {percent(killed, killed + survived)} | {percent(at_first, killed + survived)} |")
+    return lines
+
+
+def unreached_lines():
+    places, sample = load("places.json", []), set(load("sample.json", []))
+    lines = ["| folder | changes of the draw | no test reaches |", "|---|---|---|"]
+    for folder in sorted({folder_of(p) for p in places}) + ["all"]:
+        here = [p for p in places if folder in ("all", folder_of(p))]
+        unreached = sum(p["number"] not in sample for p in here)
+        lines.append(f"| {folder} | {len(here)} | {unreached} ({percent(unreached, len(here))}) |")
+    return lines
+
+
 def report(arguments):
-    del arguments
-    known, score, survivors = reasons(), {}, []
-    for line in (FOLDER / "results.jsonl").read_text().splitlines():
-        row = json.loads(line)
-        folder = "/".join(row["file"].split("/")[:2])
-        source = (ROOT / row["file"]).read_text().splitlines()[row["line"] - 1].strip()
-        reason = known.get((row["file"], source, row["change"]))
-        kind = "killed" if row["killer"] else "equivalent" if reason else "survived"
-        score.setdefault(folder, {"killed": 0, "equivalent": 0, "survived": 0})[kind] += 1
-        if not row["killer"]:
-            survivors.append(f"{row['file']} | {source} | {row['change']} | {reason or '?'}")
-    print("| folder | changes | killed | equivalent | score without equivalents |\n|---|---|---|---|---|")
-    rows = sorted(score.items()) + [("all", {k: sum(s[k] for s in score.values()) for k in ("killed", "equivalent", "survived")})]
-    for folder, s in rows:
-        counted = s["killed"] + s["survived"]
-        print(f"| {folder} | {sum(s.values())} | {s['killed']} | {s['equivalent']} | {100 * s['killed'] / counted if counted else 100:.0f} % |")
-    print("\n" + "\n".join(sorted(survivors)))
+    if arguments.unreached:
+        sample = set(load("sample.json", []))
+        return print("\n".join(f"{p['file']}:{p['line']} | {p['source']} | {p['kind']} {p['change']}" for p in load("places.json", []) if p["number"] not in sample))
+    rows = [(tries[0], tries[-1]) for _, tries in results()]
+    survivors = sorted(f"{r['file']} | {r['source']} | {r['change']} | {reasons().get((r['file'], r['source'], r['change']), '?')}" for _, r in rows if not r["killer"])
+    parts = [["## The sample", "", *scores([r for r in rows if r[1]["index"] < LOOKED_AT])],
+             ["## Changes that nobody looked at: those that the draw has next", "", *scores([r for r in rows if r[1]["index"] >= LOOKED_AT])],
+             ["## What no test reaches", "", *unreached_lines()],
+             ["## Survivors", "", "File, line of the source, change, and why no test can see it; `?` where one could.", "", *("    " + line for line in survivors)]]
+    page = "\n\n".join("\n".join(part) for part in parts) + "\n"
+    if arguments.md:
+        head = (ROOT / "tests" / "mutants" / "RESULTS.md").read_text().split("## The sample")[0]
+        (ROOT / "tests" / "mutants" / "RESULTS.md").write_text(head + page)
+    else:
+        print(page)
 
 
 def main():
@@ -256,16 +336,22 @@ def main():
     verbs = parser.add_subparsers(required=True)
     verb = verbs.add_parser("build")
     verb.add_argument("--jobs", type=int, default=os.cpu_count())
+    verb.add_argument("--sample", type=int, default=1000, help="a seeded draw of so many changes (default 1000); 0: all of them, which takes half a day")
+    verb.add_argument("--seed", type=int, default=1)
     verb.add_argument("targets", nargs="*", help="default: the tests of the three floors and core_digests")
     verb.set_defaults(do=build)
     verbs.add_parser("reach").set_defaults(do=reach)
     verb = verbs.add_parser("run")
     verb.add_argument("--sample", type=int, default=400)
-    verb.add_argument("--seed", type=int, default=1)
+    verb.add_argument("--again", action="store_true", help="those that survived, on the tests of today")
+    verb.add_argument("--jobs", type=int, default=os.cpu_count())
     verb.add_argument("--folder", default="", help="changes of this folder alone")
-    verb.add_argument("--most-seconds", type=float, default=120, help="of tests without a change, a change at most (default 120)")
+    verb.add_argument("--most-seconds", type=float, default=40, help="of tests without a change, a change at most (default 40)")
     verb.set_defaults(do=run)
-    verbs.add_parser("report").set_defaults(do=report)
+    verb = verbs.add_parser("report")
+    verb.add_argument("--md", action="store_true", help="into tests/mutants/RESULTS.md, below what stands at its head")
+    verb.add_argument("--unreached", action="store_true", help="the changes of the draw that no test reaches")
+    verb.set_defaults(do=report)
     arguments = parser.parse_args()
     FOLDER.mkdir(parents=True, exist_ok=True)
     arguments.do(arguments)

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "rasterizer/base/parallel.h"
 #include "tests/peeling/rendering.h"
 
 namespace {
@@ -51,7 +52,8 @@ TEST_CASE("targets of a whole frame have every pixel, those of tiles the pixels 
     replay.max_passes = 20;
     replay.tile_size = 32;
     const std::uint64_t whole = need_of("front_to_back", literal).targets / (std::uint64_t{1000} * 500);
-    const std::uint64_t tiled = need_of("front_to_back", replay).targets / (std::uint64_t{2} * 32 * 32);
+    const std::uint64_t tiled = need_of("front_to_back", replay).targets /
+                                (static_cast<std::uint64_t>(strata::thread_count(replay.threads)) * 32 * 32);
     CHECK(whole == tiled);
 }
 

@@ -21,8 +21,9 @@ target_compile_options(strata_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshad
 # GLM's operators are deleted in our own code (rasterizer/base/no_arithmetic.h), not in programs that use the package.
 target_compile_definitions(strata_warnings INTERFACE $<BUILD_INTERFACE:STRATA_GLM_IS_STORAGE>)
 
-# Instrumented builds (presets asan, tsan, fuzz). They ride on strata::numerics because every target links that one.
+# Instrumented builds (presets asan, tsan, fuzz, coverage). They ride on strata::numerics because every target links that one.
 set(STRATA_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")
+option(STRATA_COVERAGE "Count the branches that are taken (clang of 18 or later)" OFF)
 option(STRATA_FUZZ "Build the fuzz targets (clang only)" OFF)
 set(sanitizer_flags "")
 if(STRATA_SANITIZE)
@@ -30,6 +31,9 @@ if(STRATA_SANITIZE)
 endif()
 if(STRATA_FUZZ)
   list(APPEND sanitizer_flags -fsanitize=fuzzer-no-link)
+endif()
+if(STRATA_COVERAGE)
+  list(APPEND sanitizer_flags -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=${PROJECT_SOURCE_DIR}/tests/coverage/counted.txt)
 endif()
 target_compile_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")
 target_link_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")
