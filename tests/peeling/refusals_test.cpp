@@ -237,6 +237,14 @@ TEST_CASE("options that no profile could mean are input errors that name the fie
           "render options: termination.ratio: expected a number of at least 0, found -0.500000");
     CHECK(message([](RenderOptions& o) { o.alpha = std::nanf(""); }) ==
           "render options: alpha: expected a finite number, found nan");
+    for (const double absolute : {1.5, -0.5})
+        CHECK(message([&](RenderOptions& o) {
+                  o.compare_epsilon.absolute = absolute;
+              }).starts_with("render options: compare_epsilon.absolute: expected a number from 0 to 1, found "));
+    for (const double absolute : {0.0, 1.0})
+        CHECK(message([&](RenderOptions& o) {
+                  o.compare_epsilon.absolute = absolute;
+              }).find("compare_epsilon.absolute: expected") == std::string::npos);
     CHECK(message([](RenderOptions& o) { o.raster.clip_plane_count = 7; }) ==
           "raster state: clip_plane_count: expected 0 to 6, found 7");
     strata::pipeline::DrawList broken;

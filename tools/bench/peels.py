@@ -85,8 +85,20 @@ def scenes_of(options):
             print(f"peels.py: no {path}: its rows are missing", file=sys.stderr)
 
 
+def finding(limit, found):
+    """A sentence on all rows of a limit; `found`: by algorithm, pairs of a ratio and whether it is kept."""
+    named = sorted((statistics.median(ratio for ratio, _ in pairs), algorithm, all(kept for _, kept in pairs)) for algorithm, pairs in found.items())
+    said = {kept: ", ".join(f"{algorithm} {median:.1f}" for median, algorithm, keeps in named if keeps == kept) for kept in (True, False)}
+    what = "Peeled to the last layer" if limit == "all" else f"Ended after {limit} passes"
+    return (f"{what}, {'no peel keeps' if not said[True] else said[True] + ' keep'} the bound in every row (medians over a_buffer); "
+            f"beyond it in some: {said[False] or 'none'}.")
+
+
 def print_summary(ratios):
     """`ratios`: by algorithm and limit, pairs of a ratio and whether it is kept."""
+    print()
+    for limit in dict.fromkeys(limit for _, limit in ratios):
+        print(finding(limit, {algorithm: pairs for (algorithm, own), pairs in ratios.items() if own == limit}))
     print("\n## By algorithm\n\n| job | passes | rows | least | median | greatest | kept |\n|" + "---|" * 7)
     for (algorithm, limit), found in ratios.items():
         values = [ratio for ratio, _ in found]

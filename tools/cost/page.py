@@ -3,8 +3,8 @@
 
 usage: page.py FOLDER... [--twice FOLDER FOLDER] -o RESULTS.md
 
-Figures are those of cost.csv, results.csv and timings.jsonl; the page counts and computes nothing else. The two folders of --twice are
-runs of one command.
+Figures are those of cost.csv, results.csv and timings.jsonl; the page counts, takes least and greatest, and divides two times of one
+column. The two folders of --twice are runs of one command.
 """
 import argparse
 import csv
@@ -15,9 +15,8 @@ import shutil
 
 import same
 
-HEAD = """# What accuracy costs
-
-Made by `tools/cost/make_page.sh`; [reports.md](../../scenes/reference/reports.md) 10 says what is measured and how. Errors are those from
+TITLE = "# What accuracy costs\n"
+METHOD = """Made by `tools/cost/make_page.sh`; [reports.md](../../scenes/reference/reports.md) 10 says what is measured and how. Errors are those from
 the truth of the scene (nothing snapped, nothing stored), in 1/255. Times are of the processor, on one thread, and ratios to the cheapest
 cell of their column; beside them stands the spread of the rounds.
 """
@@ -102,6 +101,52 @@ def asked_and_found(folders, twice):
     return table(["asked", "found"], asked)
 
 
+def between(rows, knob):
+    """The least and the greatest RMSE among the knob's cells that ran."""
+    errors = [float(row["rmse"]) for row in rows if row["knob"] == knob and row["outcome"] == "done"]
+    return f"{min(errors):.3g} to {max(errors):.3g}"
+
+
+def price_of_the_best(rows):
+    """The least error of an algorithm in times of the fastest one's time."""
+    drawn = [row for row in rows if row["default"] and row["knob"] == "algorithm"]
+    fastest = min(drawn, key=lambda row: float(row["default"]))
+    best = min(drawn, key=lambda row: (float(row["rmse"]), float(row["default"])))
+    return (f"{float(best['default']) / float(fastest['default']):.2f} times on {best['scene']} (`{best['value']}`, RMSE "
+            f"{float(best['rmse']):.3g}/255, beside `{fastest['value']}`, {float(fastest['rmse']):.3g}/255)")
+
+
+def weight_of_knobs(rows):
+    return (f"on {rows[0]['scene']} the algorithm moves the RMSE from {between(rows, 'algorithm')}, depth format and path from "
+            f"{between(rows, 'depth')}, subpixel bits from {between(rows, 'subpixel_bits')}")
+
+
+def price_of_emulation(rows):
+    """Literal execution and the audit in times of the default's time."""
+    of_name = {(row["knob"], row["value"]): row for row in rows}
+    base = next(float(row["default"]) for row in rows if row["knob"] == "default")
+    literal, audit = (of_name[name] for name in (("execution", "literal"), ("audit", "on")))
+    times = f"{float(literal['default']) / base:.1f} and {float(audit['default']) / base:.1f} times on {literal['scene']}"
+    return times, max(float(row["from_default"]) for row in (literal, audit))
+
+
+def three_sentences(folders):
+    """What was found, of all scenes, from their figures."""
+    scenes = [rows_of(os.path.join(folder, "cost.csv")) for folder in folders]
+    yield f"The least error of any algorithm takes the fastest one's time {' and '.join(map(price_of_the_best, scenes))}."
+    yield f"What to choose first: {'; '.join(map(weight_of_knobs, scenes))}."
+    times, moved = zip(*map(price_of_emulation, scenes))
+    yield (f"Running every pass literally, and auditing, take the default's time {', '.join(times)}, and change "
+           f"{100 * max(moved):.4g} % of the pixels.")
+
+
+def shown_frontier(folder, page):
+    """The picture of the error against what one waits, copied beside the page."""
+    picture = next(name for name in pictures_of(folder) if name.endswith(".default.svg"))
+    shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), f"RESULTS.{picture}"))
+    return f"![error against time, by default: {picture}](RESULTS.{picture})\n"
+
+
 def section(folder, page):
     rows = rows_of(os.path.join(folder, "cost.csv"))
     scene = rows[0]["scene"]
@@ -112,8 +157,11 @@ def section(folder, page):
     yield from chain(rows)
     for picture in pictures_of(folder):
         beside = f"RESULTS.{picture}"
-        shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))
-        yield f"![{picture}]({beside})"
+        if picture.endswith(".default.svg"):
+            yield "The frontier by default, drawn at the head of the page:"
+        else:
+            shutil.copy(os.path.join(folder, picture), os.path.join(os.path.dirname(page), beside))
+            yield f"![{picture}]({beside})"
         yield ""
         yield from frontier(folder, picture, rows)
     yield "Every row as a sentence:"
@@ -129,7 +177,9 @@ def main():
     parser.add_argument("--twice", nargs=2)
     parser.add_argument("-o", dest="page", required=True)
     words = parser.parse_args()
-    lines = [HEAD, *asked_and_found(words.folders, words.twice)]
+    lines = [TITLE, " ".join(three_sentences(words.folders)), ""]
+    lines.extend(shown_frontier(folder, words.page) for folder in words.folders)
+    lines.extend([METHOD, *asked_and_found(words.folders, words.twice)])
     for folder in words.folders:
         lines.extend(section(folder, words.page))
     text = "\n".join(lines)

@@ -27,10 +27,7 @@ std::string command_of(const ComparedPaths& paths) {
 void add_pictures(PlainPage& page, const ShownPair& shown, const ComparedPaths& paths) {
     page.picture(oracle::as_shown(shown.reference), "The reference, " + file_name(paths.reference) + shown.what);
     page.picture(oracle::as_shown(shown.candidate), "The candidate, " + file_name(paths.candidate) + shown.what);
-    page.picture(oracle::heat_map(shown.comparison),
-                 shown.comparison.equal
-                     ? "Where they differ: nowhere, so all of it is black"
-                     : "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
+    add_heat_map(page, shown.comparison);
 }
 
 struct Verdict {
@@ -54,6 +51,17 @@ std::string painted_line(const std::string& line) {
 }
 
 }  // namespace
+
+void add_heat_map(PlainPage& page, const oracle::Comparison& found) {
+    page.picture(oracle::heat_map(found),
+                 found.equal
+                     ? "Where they differ: nowhere, so all of it is black"
+                     : "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
+    std::vector<PlainPage::Swatch> kinds;
+    for (const oracle::KindReport& kind : found.kinds)
+        kinds.push_back({oracle::color_of(kind.kind), std::string(name(kind.kind))});
+    if (!kinds.empty()) page.legend(kinds);
+}
 
 PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference, const oracle::Picture& candidate,
                   const oracle::Comparison& found) {

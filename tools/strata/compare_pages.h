@@ -20,6 +20,9 @@ struct ComparedPaths {
 [[nodiscard]] PlainPage page_of(const ComparedPaths& paths, const oracle::Picture& reference,
                                 const oracle::Picture& candidate, const oracle::Comparison& found);
 
+// Where two pictures differ, with a legend of the kinds that are there.
+void add_heat_map(PlainPage& page, const oracle::Comparison& found);
+
 // Of a pack and a folder: what an algorithm's pictures show. The end, or, where that is alike, the first pass that is not.
 struct ShownPair {
     const oracle::Picture& reference;

@@ -19,22 +19,29 @@ void layers_129(CaseScene& scene) { add_stack(scene, whole(scene), 129, 0.0625f)
 void layers_256(CaseScene& scene) { add_stack(scene, whole(scene), 256, 0.0625f); }
 void layers_500(CaseScene& scene) { add_stack(scene, whole(scene), 500, 0.015625f); }
 
-// Pixel by pixel from left to right. A layer is one triangle over its pixel's corner, whose third side passes between
-// the pixel's centre and its neighbours'.
-void stacks(CaseScene& scene, std::initializer_list<int> counts, float alpha) {
-    double x = 0;
-    for (const int count : counts) {
-        for (int i = 0; i < count; ++i) {
-            const int layer = static_cast<int>(std::int64_t{i} * 1237 % count);
-            const double depth = (layer + 1) / 4096.0;
-            add(scene, {Corner{x, 0, depth}, {x, 1.5, depth}, {x + 1.5, 0, depth}}, color_of(layer, alpha));
-        }
-        ++x;
+// A layer is one triangle over its pixel's corner, whose third side passes between the pixel's centre and its
+// neighbours'.
+void add_pixel(CaseScene& scene, double x, double y, int count) {
+    for (int i = 0; i < count; ++i) {
+        const int layer = static_cast<int>(std::int64_t{i} * 1237 % count);
+        const double depth = (layer + 1) / 4096.0;
+        add(scene, {Corner{x, y, depth}, {x, y + 1.5, depth}, {x + 1.5, y, depth}}, color_of(layer, 0.03125f));
     }
 }
 
-void ladder(CaseScene& scene) { stacks(scene, {1, 2, 3, 5, 10, 100, 1000, 4000}, 0.03125f); }
-void counts_past_2048(CaseScene& scene) { stacks(scene, {2047, 2049}, 0.03125f); }
+// The first row, from left to right.
+void add_row(CaseScene& scene, std::initializer_list<int> counts) {
+    double x = 0;
+    for (const int count : counts) add_pixel(scene, x++, 0, count);
+}
+
+void ladder(CaseScene& scene) {
+    add_row(scene, {1, 2, 3, 5, 10, 100, 1000, 4000});
+    for (int y = 1; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) add_pixel(scene, x, y, x + y);
+}
+
+void counts_past_2048(CaseScene& scene) { add_row(scene, {2047, 2049}); }
 
 // 16,000 times 1 to 8: past 65,504 from the fifth pixel on.
 void sums_past_65504(CaseScene& scene) {
@@ -87,12 +94,12 @@ std::span<const HardCase> layer_cases() {
          .counts = {32000, 500, 500, 0},
          .bound = 128},
         {.name = "layer-ladder",
-         .hard = "Eight pixels have 1, 2, 3, 5, 10, 100, 1000 and 4000 layers.",
+         .hard = "Eight pixels have 1, 2, 3, 5, 10, 100, 1000 and 4000 layers, those of the rows below 1 to 14.",
          .answer = "As many layers as said.",
          .width = 8,
-         .height = 1,
+         .height = 8,
          .build = ladder,
-         .counts = {5121, 4000, 4000, 0},
+         .counts = {5541, 4000, 4000, 0},
          .bound = 64},
         {.name = "counts-past-2048",
          .hard = "Two pixels have 2047 and 2049 layers; a half counts no further than 2048.",

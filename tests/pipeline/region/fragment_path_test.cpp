@@ -146,7 +146,7 @@ TEST_CASE("a frame that says that it needs the whole runs literally") {
 
 TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fragment leaves nothing") {
     FragmentScene scene{width, height};
-    for (GivenPixel& pixel : scene.pixels) pixel.fragments.push_back({0.75f, {1, 1, 1, 1}});
+    for (GivenPixel& pixel : scene.pixels) pixel.fragments.push_back({0.05f, {1, 1, 1, 1}});
     CoordinateUnits units{};
     for (const std::size_t u : {0u, 1u, 2u}) units[u] = {.enabled = true, .gen = eye_position()};
     units[1].matrix = Matrix(0.0);  // r1 = 2^20 (x + 1/2) of the clip position: below 0 on the left quarter
@@ -155,8 +155,6 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
     units[2].matrix = Matrix(0.0);  // r2 = w
     units[2].matrix[3][2] = 1;
     TestFrame test{draw_list(scene), {}, width, height, "geforce3", 8, units};
-    RegionBooks books;
-    Region region{test.frame, {test.frame.rect()}, books};
     HiloTexture zero;
     zero.texels = {{0, 0}};
     FragmentPath path;
@@ -164,23 +162,35 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
     path.shader[1] = {.op = ShaderOp::dot_product, .previous = 0, .texture = {}};
     path.shader[2] = {.op = ShaderOp::dot_product_depth_replace, .previous = 0, .texture = {}};
     path.combiners = texture_environment({});
-    const Target depth = region.make_depth(), layer = region.make_color();
-    region.clear(depth, {});
-    region.clear(layer, {});
-    PassState state = peel_state(layer, depth);
-    FragmentPathProgram program{region, path};
-    program.apply(state);
-    static_cast<void>(region.draw(state, program));
-    std::size_t wrong = 0;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const auto p = static_cast<std::size_t>(y * width + x);
-            const double clip_x = (x + 0.5) / (width / 2.0) - 1.0, expected = 0x1p20 * clip_x + 0x1p19;
-            const bool kept = expected >= 0;
-            wrong += region.storage(depth).depth(0)[p] != (kept ? static_cast<std::uint32_t>(expected) : max_code);
-            wrong += region.storage(layer).code(p, 0, 0) != (kept ? 255u : 0u);
-        }
-    CHECK(wrong == 0);
+    for (const auto& [near, far] : {std::pair{0.0f, 1.0f}, std::pair{0.0f, 0.0625f}, std::pair{0.03125f, 1.0f}}) {
+        PreparedDraw in_range = *test.frame.transparent;
+        in_range.geometry.state.depth_near = near;
+        in_range.geometry.state.depth_far = far;
+        Frame frame = test.frame;
+        frame.transparent = &in_range;
+        RegionBooks books;
+        Region region{frame, {frame.rect()}, books};
+        const Target depth = region.make_depth(), layer = region.make_color();
+        region.clear(depth, {});
+        region.clear(layer, {});
+        PassState state = peel_state(layer, depth);
+        FragmentPathProgram program{region, path};
+        program.apply(state);
+        static_cast<void>(region.draw(state, program));
+        std::size_t wrong = 0, drawn = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const auto p = static_cast<std::size_t>(y * width + x);
+                const double clip_x = (x + 0.5) / (width / 2.0) - 1.0, expected = 0x1p20 * clip_x + 0x1p19;
+                const bool kept = expected >= near * double{max_code} && expected <= far * double{max_code};
+                wrong += region.storage(depth).depth(0)[p] != (kept ? static_cast<std::uint32_t>(expected) : max_code);
+                wrong += region.storage(layer).code(p, 0, 0) != (kept ? 255u : 0u);
+                drawn += kept;
+            }
+        INFO("depth range " << near << " to " << far);
+        CHECK(wrong == 0);
+        CHECK(drawn == (near > 0 ? 8u : far < 1 ? 8u : 12u) * height);
+    }
 }
 
 TEST_CASE("texture shaders are refused by name where the device has none") {
@@ -200,6 +210,13 @@ TEST_CASE("a depth texture that is written by its own pass is a feedback loop") 
     FragmentPathProgram program{region, compare_with(depth, CompareFunc::lequal)};
     program.apply(state);
     CHECK_THROWS_AS(region.draw(state, program), std::logic_error);
+    // A stage that is off looks at nothing, whatever texture it is left with.
+    FragmentPath off = compare_with(depth, CompareFunc::lequal);
+    off.shader[3].op = ShaderOp::none;
+    off.combiners = texture_environment({});
+    FragmentPathProgram blind{region, off};
+    blind.apply(state);
+    CHECK_NOTHROW(region.draw(state, blind));
 }
 
 TEST_CASE(

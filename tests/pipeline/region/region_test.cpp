@@ -2,6 +2,7 @@
 // machine runs.
 #include "pipeline/region/region.h"
 
+#include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <stdexcept>
@@ -363,6 +364,29 @@ TEST_CASE("a program reads an 8-bit code as the profile converts it: a quotient,
         CHECK(wrong == 0);
         CHECK(unlike_quotient == 126);
     }
+}
+
+TEST_CASE("an observer sees each batch behind its shading, its program, its tests and its writes, in this order") {
+    std::vector<Stage> stages;
+    const Observer observer{.stage = [&](const Region&, const StageEvent& event) { stages.push_back(event.stage); }};
+    const TestFrame test{stacks({1, 2}), "geforce8", 8};
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books, {.observer = &observer}};
+    PassState state;
+    state.color[0] = region.make_color();
+    stages.clear();
+    static_cast<void>(region.draw(state, pass_color));
+    const std::size_t batches = static_cast<std::size_t>(std::ranges::count(stages, Stage::shaded));
+    CHECK(batches > 0);
+    for (const Stage each : {Stage::program, Stage::written})
+        CHECK(static_cast<std::size_t>(std::ranges::count(stages, each)) == batches);
+    CHECK(stages.front() == Stage::shaded);
+    REQUIRE(stages.size() > 1);
+    CHECK(stages[1] == Stage::program);
+    stages.clear();
+    static_cast<void>(region.full_screen(state, write_nothing));
+    REQUIRE(!stages.empty());
+    CHECK(stages.front() == Stage::program);
 }
 
 TEST_CASE("opaque geometry is drawn before the algorithm and counts nothing") {

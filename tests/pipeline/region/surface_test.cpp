@@ -25,6 +25,14 @@ std::uint8_t blended(Surface& surface) {
 
 }  // namespace
 
+TEST_CASE("the image of a narrow surface is one of 8-bit codes, with the bits filled in that are stored") {
+    for (const Format format : {Format::r5g6b5, Format::x1r5g5b5, Format::x8r8g8b8, Format::rgba8}) {
+        Surface surface{*find_profile("geforce3"), {.color = format, .width = 8, .height = 8}};
+        surface.clear_color({255, 255, 255, 255});
+        CHECK(surface.color().format == Format::rgba8);
+    }
+}
+
 TEST_CASE("a surface draws by the profile that it was made with, though that is changed or gone") {
     const DeviceProfile& geforce3 = *find_profile("geforce3");
     auto profile = std::make_unique<DeviceProfile>(geforce3);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "pipeline/device/state.h"
 #include "pipeline/stages/depth_compare.h"
 #include "tests/pipeline/stage_values.h"
 
@@ -29,6 +30,18 @@ template <class T>
 }
 
 }  // namespace
+
+TEST_CASE("a state that nobody set is OpenGL's initial one") {
+    const Blend blend;
+    CHECK_FALSE(blend.enabled);
+    CHECK(blend.constant == Rgba{0, 0, 0, 0});
+    CHECK(blend.write_mask == 0xf);
+    for (const BlendTerm& term : {blend.color, blend.alpha}) {
+        CHECK(term.equation == BlendEquation::add);
+        CHECK(term.src == BlendFactor::one);
+        CHECK(term.dst == BlendFactor::zero);
+    }
+}
 
 TEST_CASE("each function passes exactly its own outcomes, of integers, of floats and of what is not a number") {
     constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN(),

@@ -94,6 +94,9 @@ TEST_CASE("flat quads are cut along their other diagonal, bent ones and lone tri
     arrow.meshes[0].positions[1] = {-0.25f, 0.25f, 0.0625f};
     CHECK(flip_diagonals(arrow).quads == 0);
     CHECK(flip_diagonals(random_triangles(952, 10).list).quads == 0);
+    DrawList touching = flat_grid(2);  // two triangles with one corner in common
+    touching.meshes[0].indices = {0, 1, 4, 5, 8, 1};
+    CHECK(flip_diagonals(touching).quads == 0);
 }
 
 TEST_CASE(

@@ -205,6 +205,35 @@ TEST_CASE("a mirrored instance turns its winding, and its front stays its front"
         }
 }
 
+TEST_CASE("an instance without volume is not mirrored: its model's determinant is 0") {
+    Matrix model = identity;
+    model[2][2] = 0;
+    strata::rasterizer::RasterState raster;
+    raster.viewport = {0, 0, 16, 16};
+    const PreparedDraw draw = prepare(one_triangle({.name = ""}, model), {}, raster, *find_profile("geforce8"), {});
+    REQUIRE(draw.geometry.triangles.size() == 1);
+    CHECK(draw.geometry.triangles[0].front_facing);
+}
+
+TEST_CASE("a w buffer's unit is the far plane's w, where clip z is clip w, or 1 without such a plane") {
+    const auto scale = [](double zz, double zw, double wz, double ww) {  // clip z = zz z + zw, clip w = wz z + ww
+        View view;
+        view.projection[2][2] = zz;
+        view.projection[3][2] = zw;
+        view.projection[2][3] = wz;
+        view.projection[3][3] = ww;
+        strata::rasterizer::RasterState raster;
+        raster.viewport = {0, 0, 16, 16};
+        raster.depth_format = DepthFormat::d24;
+        return prepare(one_triangle({.name = ""}), view, raster, *find_profile("geforce3"), {}).geometry.state.w_scale;
+    };
+    CHECK(scale(-3, -8, -1, 2) == static_cast<float>(16777215.0 / 7));  // z = w at z = -5
+    CHECK(scale(-1.5, -2, -1, 0) == static_cast<float>(16777215.0 / 4));
+    CHECK(scale(-1, -2, -1, 0) == 1.0f);  // an infinite far plane
+    CHECK(scale(-0.5, 2, -1, 0) == static_cast<float>(16777215.0 / 4));
+    CHECK(scale(-0.5, -2, -1, 0) == 1.0f);  // behind the eye
+}
+
 TEST_CASE("parts keep their primitives and lie between their depths, which no fragment leaves") {
     const TriangleScene scene = random_triangles(507, 24);
     for (const char* profile : {"geforce8", "ideal", "llvmpipe"}) {

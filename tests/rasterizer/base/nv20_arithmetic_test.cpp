@@ -102,6 +102,9 @@ TEST_CASE("NV20's reciprocal is a seed of its 6 leading bits and two Newton step
     CHECK(wrong == 0);
     CHECK(same(nv20::reciprocal(0.0f), std::numeric_limits<float>::infinity()));
     CHECK(same(nv20::reciprocal(std::numeric_limits<float>::infinity()), 0.0f));
+    CHECK(same(nv20::reciprocal(0x1p126f), 0x1p-126f));
+    for (const float large : {0x1.000002p126f, 0x1p127f, -0x1.8p127f, std::numeric_limits<float>::max()})
+        CHECK(same(nv20::reciprocal(large), 0.0f));  // a denormal result
 }
 
 TEST_CASE("NV20's reciprocal is within 2^-22 of 1/d, as its extension promises, for every fifth mantissa") {

@@ -117,6 +117,22 @@ TEST_CASE("float spans cover the pixels of the rule's rounded steps, whatever th
     CHECK(pixels > 50000);
 }
 
+TEST_CASE("corners of one height keep the order that the rule's comparisons give them") {
+    using Order = std::array<std::size_t, 3>;
+    const auto order = [](float y0, float y1, float y2) { return by_height({{{0, y0}, {1, y1}, {2, y2}}}); };
+    CHECK(order(1, 1, 1) == Order{0, 1, 2});
+    CHECK(order(1, 1, 2) == Order{0, 1, 2});
+    CHECK(order(1, 2, 2) == Order{0, 1, 2});
+    CHECK(order(1, 2, 1) == Order{2, 0, 1});
+    CHECK(order(2, 2, 1) == Order{2, 0, 1});
+    CHECK(order(2, 1, 2) == Order{1, 0, 2});
+    CHECK(order(2, 1, 1) == Order{2, 1, 0});
+    CHECK(order(1, 3, 2) == Order{0, 2, 1});
+    CHECK(order(2, 1, 3) == Order{1, 0, 2});
+    CHECK(order(3, 1, 2) == Order{1, 2, 0});
+    CHECK(order(3, 2, 1) == Order{2, 1, 0});
+}
+
 TEST_CASE("a triangle without a finite reciprocal area covers nothing, and is counted as degenerate") {
     const std::array<WindowPosition, 3> line{{{1, 1}, {3, 3}, {2, 2}}};
     CHECK_FALSE(FloatSpans{line}.is_drawn());

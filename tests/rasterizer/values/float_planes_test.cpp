@@ -153,6 +153,20 @@ TEST_CASE("a fused multiply-add is the host's std::fma, to the bit") {
     CHECK(unfused > 1000);
 }
 
+// 1 + 2^-23 + 2^-24 -+ 2^-60: binary64 holds the middle of two binary32 alone, so what is left over decides, up or down.
+TEST_CASE("a fused multiply-add a hair beside the middle of two numbers goes to its own side, whatever the signs") {
+    const float least = 1.0f + 0x1p-23f, next = 1.0f + 0x1p-22f;
+    const float below = 1.0f - 0x1p-18f, above = 0x1p-24f * (1.0f + 0x1p-18f);  // their product: 2^-24 - 2^-60
+    CHECK(fused_multiply_add(below, above, least) == least);
+    CHECK(fused_multiply_add(-below, above, -least) == -least);
+    const float up = 1.0f + 0x1p-18f;  // up * above: 2^-24 and a little more
+    CHECK(fused_multiply_add(up, above, 1.0f) == least);
+    CHECK(fused_multiply_add(-up, above, -1.0f) == -least);
+    CHECK(fused_multiply_add(below, above, 1.0f) == 1.0f);
+    CHECK(fused_multiply_add(-below, above, -1.0f) == -1.0f);
+    CHECK(fused_multiply_add(up, above, least) == next);
+}
+
 TEST_CASE("a fused multiply-add of every three special values is std::fma's: infinities, zeros, denormals, NaN") {
     constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     constexpr std::array<float, 13> special{inf,    -inf,   0.0f,    -0.0f,          1.0f, -1.0f, 3e38f,

@@ -50,6 +50,13 @@ TEST_CASE(
     for (const DepthPath path : {DepthPath::window_z, DepthPath::perspective_rq, DepthPath::depth_replace,
                                  DepthPath::float32_plane, DepthPath::exact})
         CHECK_FALSE(row_walk_suits(g, {path, DepthFormat::d32f}, {0, 0, 8, 8}));
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
+        CHECK(row_walk_suits(g, {DepthPath::float32, format}, {0, 0, 8, 8}) == has_rows);
+    for (const DepthFormat format : {DepthFormat::d16f, DepthFormat::d24f})  // no vector conversion
+        CHECK_FALSE(row_walk_suits(g, {DepthPath::float32, format}, {0, 0, 8, 8}));
+    g.rules.depth_rounding = DepthRounding::product_even;
+    CHECK(row_walk_suits(g, {DepthPath::float32, DepthFormat::d32f}, {0, 0, 8, 8}) == has_rows);
+    CHECK_FALSE(row_walk_suits(g, {DepthPath::float32, DepthFormat::d24}, {0, 0, 8, 8}));
 }
 
 TEST_CASE("two lanes of binary64 draw no rows: scalar and SSE4 take batches") {

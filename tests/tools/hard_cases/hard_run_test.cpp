@@ -101,22 +101,36 @@ TEST_CASE("no algorithm fails on a choice of hard cases on any of four devices")
     CHECK(rows > 350);
 }
 
-TEST_CASE("a deep case names the ways that it is too deep for, by algorithm; every other case runs in every way") {
-    std::vector<const peeling::Algorithm*> all;
-    for (const peeling::Algorithm& algorithm : peeling::algorithms()) all.push_back(&algorithm);
-    const auto left = tools::left_out(*scenes::find_hard_case("layer-ladder"), all);
-    REQUIRE(left.size() == 2);
-    CHECK(left[0].ways == std::vector<std::string>{"literal", "effects=all"});
-    // All that draw the geometry a layer or eight at a time and have no formula for the layers together.
-    CHECK(left[0].algorithms == std::vector<std::string>{"depth_units", "shadow_map", "shadow_map_depth_replace",
-                                                         "dual_independent", "layer_peel", "hybrid", "coherent_stencil",
-                                                         "coherent_blend", "coherent_ideal", "stencil_routed_k_buffer",
-                                                         "batched", "object_sorted"});
-    CHECK(left[1].ways.front() == "threads=2");
-    CHECK(left[1].ways.size() == 1 + available_simd().size());
-    CHECK(left[1].algorithms == std::vector<std::string>{"batched", "object_sorted"});
-    std::vector<std::string> limited;
-    for (const scenes::HardCase& hard : scenes::hard_cases())
-        if (!tools::left_out(hard, all).empty()) limited.emplace_back(hard.name);
-    CHECK(limited == std::vector<std::string>{"million-in-a-pixel", "layer-ladder", "counts-past-2048"});
+TEST_CASE("every case runs in every way; a deep one literally and with all effects at once, a huge frame in one way") {
+    std::vector<std::string> deep, other;
+    for (const scenes::HardCase& hard : scenes::hard_cases()) {
+        const std::vector<std::string> ways = tools::ways_of(hard);
+        CHECK(ways.front() == "default");
+        const bool is_usual = ways.size() == 4 + available_simd().size() && ways[1] == "literal" &&
+                              ways[2] == "threads=2" && ways[3] == "effects=all";
+        const bool is_deep =
+            ways.size() == 3 + available_simd().size() && ways[1] == "literal effects=all" && ways[2] == "threads=2";
+        if (is_deep) deep.emplace_back(hard.name);
+        if (!is_deep && !is_usual) other.push_back(std::string{hard.name} + ": " + ways.at(1));
+    }
+    CHECK(deep == std::vector<std::string>{"million-in-a-pixel", "layer-ladder", "counts-past-2048"});
+    CHECK(other == std::vector<std::string>{"frame-8192x8192: literal threads=2 effects=all simd=scalar"});
+}
+
+TEST_CASE("an algorithm whose execution by default gives other bits than its passes is called failed") {
+    peeling::Algorithm broken = *peeling::find_algorithm("front_to_back");
+    broken.closed_form = [](Region& region) {
+        if (region.frame().replay.bytes == 0) return false;  // literal execution
+        const Target result = region.make_color();
+        region.copy(region.opaque_color(), result);
+        region.publish(result);
+        return true;
+    };
+    const auto has = [](const HardRow& row, const char* way) {
+        return std::find(row.unlike.begin(), row.unlike.end(), way) != row.unlike.end();
+    };
+    const HardRow usual = run("layer-1", "ideal", DepthFormat::d24, broken);
+    CHECK(usual.verdict == HardVerdict::failed);
+    CHECK(has(usual, "literal"));
+    CHECK(!has(usual, "threads=2"));
 }

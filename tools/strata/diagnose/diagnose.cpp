@@ -12,6 +12,7 @@
 #include "tools/oracle/mistakes/scenes_diagnosis.h"
 #include "tools/oracle/pack/pack_pictures.h"
 #include "tools/strata/command.h"
+#include "tools/strata/compare_pages.h"
 #include "tools/strata/options/option.h"
 #include "tools/strata/options/pack_options.h"
 #include "tools/strata/progress.h"
@@ -128,8 +129,7 @@ int diagnose_one(const DiagnoseOptions& options) {
         page.heading("Pictures");
         page.picture(oracle::as_shown(opened->laboratory->right()), "As it should be");
         page.picture(oracle::as_shown(opened->candidate), "The candidate");
-        page.picture(oracle::heat_map(comparison),
-                     "Where they differ: black is equal, a colour is a kind, and the brighter the further apart");
+        add_heat_map(page, comparison);
         write_page(options.report, page);
     }
     print(options.json ? to_json(found, comparison) : to_text(found, comparison));

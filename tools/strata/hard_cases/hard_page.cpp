@@ -64,15 +64,6 @@ std::string troubles(const std::vector<const ordered_json*>& lines) {
     return text.empty() ? text : "\n" + text;
 }
 
-// What does not stand behind "the same bits in every way" here.
-std::string ways_left_out(const HardSweep& sweep, const scenes::HardCase& hard) {
-    std::string text;
-    for (const LeftOut& some : left_out(hard, sweep.algorithms))
-        text +=
-            fmt::format("\nNot run here with {}: {}.\n", fmt::join(some.ways, ", "), fmt::join(some.algorithms, ", "));
-    return text;
-}
-
 std::string section(const HardSweep& sweep, const scenes::HardCase& hard, bool has_picture,
                     const std::vector<const ordered_json*>& lines) {
     const scenes::HardAnswer& counts = hard.counts;
@@ -93,7 +84,7 @@ std::string section(const HardSweep& sweep, const scenes::HardCase& hard, bool h
             if ((*line)["profile"] == profile.name) count(*line, own);
         text += page_row(profile.name, own);
     }
-    return text + ways_left_out(sweep, hard) + troubles(lines) + moved_tables(sweep, lines);
+    return text + troubles(lines) + moved_tables(sweep, lines);
 }
 
 std::string in_folder(const std::string& folder, const std::string& name) {

@@ -83,18 +83,28 @@ NamedOptions all_else(peeling::RenderOptions options) {
     return {"literal threads=2 effects=all simd=scalar", options};
 }
 
+// Triangles drawn by a peel that draws all of them for each layer: beyond this a literal run takes seconds.
+bool is_deep(const scenes::HardCase& hard, const scenes::Scene& scene) {
+    constexpr std::size_t many = std::size_t{1} << 20;
+    return scene.list.meshes[0].indices.size() / 3 * static_cast<std::size_t>(hard.counts.layers) > many;
+}
+
 // Names and settings, the default way first.
-std::vector<NamedOptions> ways_of(const scenes::HardCase& hard, const peeling::RenderOptions& options) {
+std::vector<NamedOptions> ways_of(const scenes::HardCase& hard, const scenes::Scene& scene,
+                                  const peeling::RenderOptions& options) {
     std::vector<NamedOptions> ways{{"default", options}};
     if (is_huge(hard)) return ways.push_back(all_else(options)), ways;
     const auto add = [&](std::string name) -> peeling::RenderOptions& {
         return ways.emplace_back(std::move(name), options).second;
     };
-    add("literal").execution = Execution::literal;
+    const bool deep = is_deep(hard, scene);
+    peeling::RenderOptions& literal = add(deep ? "literal effects=all" : "literal");
+    literal.execution = Execution::literal;
+    if (deep) literal.effects = Effects::all;
     peeling::RenderOptions& threads = add("threads=2");
     threads.threads = 2;
     threads.tile_size = 8;
-    add("effects=all").effects = Effects::all;
+    if (!deep) add("effects=all").effects = Effects::all;
     for (const Simd simd : available_simd()) add("simd=" + std::string{name_of(simds, simd)}).simd = simd;
     return ways;
 }
@@ -107,19 +117,6 @@ std::uint64_t nan_values(const Image& image) {
             for (int c = 0; c < image.channels(); ++c)
                 if (std::isnan(peeling::channel_value(image, x, y, c))) ++found;
     return found;
-}
-
-// Whether the algorithm runs in that way, too.
-bool is_run(const scenes::HardCase& hard, const scenes::Scene& scene, const std::string& way,
-            const peeling::Algorithm& algorithm) {
-    constexpr std::size_t many = std::size_t{1} << 20;
-    const std::size_t triangles = scene.list.meshes[0].indices.size() / 3;
-    const int layers = hard.counts.layers;
-    const int passes = algorithm.geometry_passes == nullptr ? layers : algorithm.geometry_passes(layers);
-    if (passes == 1 || triangles * static_cast<std::size_t>(passes) <= many) return true;
-    if (algorithm.whole_frame || algorithm.runs_loops) return false;
-    const bool rasterizes_every_pass = way == "literal" || way == "effects=all";
-    return !rasterizes_every_pass || algorithm.closed_form != nullptr;
 }
 
 bool is_alike(const peeling::RenderResult& a, const peeling::RenderResult& b) {
@@ -212,7 +209,7 @@ HardMachine::HardMachine(const scenes::HardCase& hard, const DeviceProfile& prof
       scene_{make_hard_case({}, hard)},
       options_{hard_options(hard, depth)},
       truth_{std::make_unique<const HardTruth>(scene_, profile_, options_)} {
-    for (auto& [name, options] : ways_of(hard, options_))
+    for (auto& [name, options] : ways_of(hard, scene_, options_))
         ways_.push_back({name, std::make_unique<peeling::Renderer>(scene_.list, *scene_.own_view, profile_, options)});
 }
 
@@ -222,8 +219,7 @@ std::vector<std::string> HardMachine::unlike_ways(const peeling::Algorithm& algo
                                                   const peeling::RenderResult& first) {
     std::vector<std::string> unlike;
     for (std::size_t i = 1; i < ways_.size(); ++i)
-        if (is_run(hard_, scene_, ways_[i].name, algorithm) && !is_alike(first, ways_[i].renderer->render(algorithm)))
-            unlike.push_back(ways_[i].name);
+        if (!is_alike(first, ways_[i].renderer->render(algorithm))) unlike.push_back(ways_[i].name);
     return unlike;
 }
 
@@ -246,24 +242,11 @@ std::string reason_to_leave_out(const scenes::HardCase& hard, const peeling::Alg
 
 }  // namespace
 
-std::vector<LeftOut> left_out(const scenes::HardCase& hard, const std::vector<const peeling::Algorithm*>& algorithms) {
-    const scenes::Scene scene = make_hard_case({}, hard);
-    std::vector<LeftOut> all;
-    const auto ways = ways_of(hard, hard_options(hard, {}));
-    for (std::size_t i = 1; i < ways.size(); ++i) {
-        LeftOut one{.ways = {ways[i].first}, .algorithms = {}};
-        for (const peeling::Algorithm* algorithm : algorithms)
-            if (reason_to_leave_out(hard, *algorithm).empty() && !is_run(hard, scene, one.ways[0], *algorithm))
-                one.algorithms.push_back(algorithm->name);
-        if (one.algorithms.empty()) continue;
-        const auto like = std::find_if(all.begin(), all.end(),
-                                       [&](const LeftOut& other) { return other.algorithms == one.algorithms; });
-        if (like == all.end())
-            all.push_back(std::move(one));
-        else
-            like->ways.push_back(one.ways[0]);
-    }
-    return all;
+std::vector<std::string> ways_of(const scenes::HardCase& hard) {
+    std::vector<std::string> names;
+    for (const auto& [name, options] : ways_of(hard, make_hard_case({}, hard), hard_options(hard, {})))
+        names.push_back(name);
+    return names;
 }
 
 HardRow HardMachine::run(const peeling::Algorithm& algorithm) {

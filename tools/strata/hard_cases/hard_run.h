@@ -3,10 +3,10 @@
 // Rule     Each algorithm runs once by default settings. That run is audited and its fragments are counted again
 //          (composited.h). Then it runs in every other way that no bit may depend on: literally, on two threads, with
 //          all effects simulated, on each instruction set. Picture, depths, passes, audit and diagnostics must be those
-//          of the first run. Where triangles times passes exceed 2^20, what rasterizes every pass takes minutes: there
-//          literal runs and all effects are left to dual and front_to_back, and algorithms that always run literally run
-//          by default settings alone. A frame of more than 2^24 pixels is for algorithms of one geometry pass, and the
-//          other ways are one: literally, on two threads, with all effects, without vector instructions.
+//          of the first run. Where triangles times layers exceed 2^20, a run that rasterizes every pass takes seconds: there
+//          the literal run is the one with all effects. A frame of more than 2^24 pixels is for algorithms of one
+//          geometry pass, and the other ways are one: literally, on two threads, with all effects, without vector
+//          instructions.
 //          Verdict, the first that holds:
 //            failed    a NaN, a bit that another way of running changes, fragments lost or repeated without a
 //                      diagnostic of exactly as many pixels, or a picture beyond the case's bound for no such reason
@@ -75,13 +75,8 @@ class HardMachine {
     std::vector<Way> ways_;
 };
 
-// Ways of running beside the default one that a case is too deep or too large for, by some algorithms.
-struct LeftOut {
-    std::vector<std::string> ways, algorithms;
-};
-// Of the algorithms that the case is for.
-[[nodiscard]] std::vector<LeftOut> left_out(const scenes::HardCase& hard,
-                                            const std::vector<const peeling::Algorithm*>& algorithms);
+// The names of the ways in which every algorithm runs the case, the default way first.
+[[nodiscard]] std::vector<std::string> ways_of(const scenes::HardCase& hard);
 
 // The frame, the depth range and one thread: how every machine sees the case.
 [[nodiscard]] peeling::RenderOptions hard_options(const scenes::HardCase& hard,

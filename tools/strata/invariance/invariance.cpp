@@ -109,6 +109,10 @@ int invariance(InvarianceOptions& options) {
     for (const Cell& cell : cells) runner.check(cell);
     Work work = work_of(options, cells, runner);
     work.report = options.report;
+    work.pictures =
+        "By the number of the cell: its picture; four times its difference from the exact one; and its errors, where "
+        "red is composited twice, blue "
+        "lost, magenta both.";
     if (options.dry_run) return dry_run(work, options.shard), 0;
     const std::string& folder = options.run.output;
     if (options.merge > 0) return merge_shards(work, folder, static_cast<std::size_t>(options.merge));

@@ -24,6 +24,15 @@ std::string cells_of(const std::vector<std::string>& texts) {
     return row;
 }
 
+// Two spaces within a line stand between columns.
+bool has_columns(const std::string& text) {
+    for (std::size_t at = text.find("  "); at != std::string::npos; at = text.find("  ", at + 1)) {
+        const std::size_t begin = text.rfind('\n', at) + 1;  // 0 for the first line
+        if (text.find_first_not_of(' ', begin) < at) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::string html_text(const std::string& text) {
@@ -52,7 +61,16 @@ void PlainPage::heading(const std::string& text) { body_ += "<h2>" + html_text(t
 void PlainPage::paragraph(const std::string& text) { body_ += "<p>" + html_text(text) + "</p>\n"; }
 
 void PlainPage::lines(const std::string& text) {
-    body_ += "<pre class=\"wrapped\" tabindex=\"0\">" + html_text(text) + "</pre>\n";
+    body_ +=
+        fmt::format("<pre{} tabindex=\"0\">{}</pre>\n", has_columns(text) ? "" : " class=\"wrapped\"", html_text(text));
+}
+
+void PlainPage::legend(const std::vector<Swatch>& swatches) {
+    body_ += "<div class=\"legend\">";
+    for (const Swatch& swatch : swatches)
+        body_ += fmt::format("<span><span class=\"swatch\" style=\"background:#{:02x}{:02x}{:02x}\"></span>{}</span>",
+                             swatch.color[0], swatch.color[1], swatch.color[2], html_text(swatch.words));
+    body_ += "</div>\n";
 }
 
 void PlainPage::table(const Table& table, const std::string& name) {

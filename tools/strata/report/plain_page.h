@@ -5,6 +5,7 @@
 // Tests    tests/tools/plain_page_test.cpp, tests/browser/plain_pages.py
 #pragma once
 #include <CLI/CLI.hpp>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,12 @@ class PlainPage {
 
     void heading(const std::string& text);
     void paragraph(const std::string& text);
-    void lines(const std::string& text);  // as they are, in letters of one width
+    void lines(const std::string& text);  // as they are, in letters of one width; columns are not broken, sentences are
+    struct Swatch {
+        std::array<std::uint8_t, 3> color;  // red, green, blue
+        std::string words;
+    };
+    void legend(const std::vector<Swatch>& swatches);  // of the picture before it
     void table(const Table& table, const std::string& name);
     // rgba8. `text` is said to those who do not see it, and stands below it.
     void picture(const pipeline::Image& image, const std::string& text);

@@ -59,6 +59,7 @@ PlainPage page_of(const Work& work, const std::string& folder, const std::string
     page.lines(summary);
     const auto pictures = pictures_in(folder);
     if (!pictures.empty()) page.heading("Pictures");
+    if (!pictures.empty() && !work.pictures.empty()) page.paragraph(work.pictures);
     for (const auto& picture : pictures)
         page.picture_file(picture.string(), picture.lexically_relative(folder).string());
     page.heading("Cells");

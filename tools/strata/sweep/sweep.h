@@ -35,6 +35,8 @@ struct Work {
     std::function<std::string(std::size_t cell)> alike;
     // --report: a page with the summary, the table and the pictures of the folder; empty: none.
     std::string report{};
+    // What the pictures show, for that page.
+    std::string pictures{};
 };
 
 // Measures what is missing of the shard's cells. The exit status: 0, or 2 if every cell of the sweep was refused.

@@ -109,17 +109,26 @@ function drawSheet() {
   for (const draw of drawings) draw(gain);
 }
 
+// A long name may break behind its underscores.
+function broken(tag, name) {
+  const whole = element(tag);
+  name.split(/(?<=_)/).forEach((part, i) => whole.append(...(i > 0 ? [element("wbr")] : []), part));
+  return whole;
+}
+
 function buildSheet() {
+  if (!exact()) at("sheet-text").textContent = "Choose one to look at it closely. Differences from the exact picture are drawn where a_buffer is among the algorithms.";
+  at("gain-row").hidden = !exact();
   for (const algorithm of report.algorithms) {
     const card = element("article", undefined, { class: "card", "data-algorithm": algorithm.name });
-    card.append(element("h3", algorithm.name), element("p", algorithm.summary + "."));
+    card.append(broken("h3", algorithm.name), element("p", algorithm.summary + "."));
     at("sheet").append(card);
     if (algorithm.refusal !== null) { card.append(element("p", "Refused: " + algorithm.refusal)); continue; }
     const picture = element("canvas", undefined, { role: "img", tabindex: "0", "aria-label": "Picture by " + algorithm.name });
     const error = element("canvas", undefined, { role: "img", "aria-label": "Difference of " + algorithm.name + " from the A-buffer" });
     const s = algorithm.stats;
     const words = s.max_difference_from_a_buffer === null ? "" : "at most " + s.max_difference_from_a_buffer.toFixed(3) + "/255 off; ";
-    card.append(picture, error, element("p", words + s.geometry_passes + (s.geometry_passes === 1 ? " pass" : " passes") +
+    card.append(picture, ...(exact() ? [error] : []), element("p", words + s.geometry_passes + (s.geometry_passes === 1 ? " pass" : " passes") +
       (s.order_errors ? "; " + s.order_errors + " fragments out of order" : "") + (s.lost_by_ties ? "; " + s.lost_by_ties + " lost by ties" : "")));
     paint(picture, (p) => colorAt(algorithm, p));
     picture.addEventListener("click", (event) => { at("right").value = algorithm.name; drawCompare(); pick(event, picture); });
@@ -146,7 +155,7 @@ function drawLayer() {
   const layer = Number(at("layer").value), near = Number(at("near").value), far = Number(at("far").value);
   let present = 0;
   for (let p = 0; p < width * height; ++p) present += columns.count[p] > layer ? 1 : 0;
-  at("layer-value").textContent = `${layer} of ${deepest()}: ${present} pixels`;
+  at("layer-value").textContent = `${layer} of 0 to ${deepest() - 1}: ${present} pixels`;
   const fragment = (p) => columns.count[p] > layer ? columns.first[p] + layer : -1;
   const paper = (p) => ((p % width >> 3) + (Math.floor(p / width) >> 3)) % 2 ? [150, 150, 150] : [180, 180, 180];
   paint(at("layer-color"), (p) => {
@@ -175,9 +184,9 @@ const maps = {
   "depth complexity": { of: (p) => columns.all[p], text: "Fragments of a pixel" },
   "ties": { of: tiesAt, text: `Fragments whose exact depth has the ${report.depth_format} code of another one's of their pixel`,
     note: "An algorithm loses those that tie by the depth that it computes itself, so that its number of fragments lost by ties may be another one." },
-  "difference from the A-buffer": { needs: () => exact(), of: (p, a) => differenceAt(a, p) * 255, text: "Largest difference of a channel, in 255ths" },
+  "difference from the A-buffer": { needs: () => exact(), lacks: "a_buffer is not among the algorithms", of: (p, a) => differenceAt(a, p) * 255, text: "Largest difference of a channel, in 255ths" },
   "fragments never composited": { needs: (a) => a.taken, of: lostAt, text: "Fragments that no pass composited" },
-  "pass that took the nearest": { needs: (a) => a.taken, of: firstTakenAt, text: "Number of the pass, from 1; 0: none did" },
+  "pass that took the nearest": { needs: (a) => a.taken, of: firstTakenAt, text: "Number of the pass and 1; 0: none did" },
   "test that killed most": { needs: (a) => a.killer, of: (p, a) => a.killer[p], classes: fates, text: "Which test rejected most fragments of a pixel in all passes" },
 };
 function tiesAt(p) {
@@ -193,12 +202,15 @@ function firstTakenAt(p, a) {
   return columns.count[p] ? Math.max(0, passOf(a.taken[columns.first[p]]) + 1) : 0;
 }
 
+// What a legend names: every number where there are few, else the ends and two between.
+const steps = (most) => Number.isInteger(most) && most <= 9 ? Array.from({ length: most + 1 }, (_, i) => i) : [0, most / 3, 2 * most / 3, most];
+
 function drawMap() {
   const map = maps[at("map").value], algorithm = named(at("map-algorithm").value);
   at("legend").replaceChildren();
   if (!algorithm || (map.needs && !map.needs(algorithm))) {
     paint(at("map-canvas"), () => [40, 40, 60]);
-    at("map-text").textContent = `${at("map-algorithm").value} has no such map: it does not tell what it composites.`;
+    at("map-text").textContent = `${at("map-algorithm").value} has no such map: ${map.lacks ?? "it does not tell what it composites"}.`;
     return;
   }
   const values = Array.from({ length: width * height }, (_, p) => map.of(p, algorithm));
@@ -207,7 +219,7 @@ function drawMap() {
   paint(at("map-canvas"), (p) => map.classes ? rgb(palette[values[p]]) : heat(most > 0 ? values[p] / most : 0));
   const sum = values.reduce((a, b) => a + b, 0);
   at("map-text").textContent = map.classes ? map.text + "." : `${map.text}: at most ${+most.toFixed(3)}, in all ${+sum.toFixed(3)}.` + (map.note ? " " + map.note : "");
-  const legend = map.classes ? map.classes.map((name, i) => [palette[i], name]) : [["#000000", "0"], ["#ffffff", String(+most.toFixed(3))]];
+  const legend = map.classes ? map.classes.map((name, i) => [palette[i], name]) : steps(most).map((v) => ["#" + heat(most > 0 ? v / most : 0).map((c) => hex(Math.round(c), 2)).join(""), String(+v.toFixed(3))]);
   for (const [color, name] of legend) {
     const entry = element("span"), swatch = element("span", undefined, { class: "swatch" });
     swatch.style.background = color;
@@ -296,7 +308,7 @@ function followKeys(canvas) {
 const numbers = [["algorithm", (a) => a.name], ["passes", (a) => a.stats.geometry_passes], ["full screen", (a) => a.stats.fullscreen_passes],
   ["layers", (a) => a.stats.layers_max], ["order errors", (a) => a.stats.order_errors], ["lost by ties", (a) => a.stats.lost_by_ties],
   ["max difference /255", (a) => a.stats.max_difference_from_a_buffer], ["fragments", (a) => a.stats.counters.fragments_rasterized],
-  ["blended", (a) => a.stats.counters.blended], ["digest", (a) => a.picture.digest]];
+  ["blended", (a) => a.stats.counters.blended], ["digest", (a) => a.picture.digest.slice(0, 12)]];
 let sorted = { column: -1, falling: false };
 function showNumbers() {
   const table = at("numbers"), head = element("tr");
@@ -330,7 +342,9 @@ function showRest() {
       at("diagnostics").append(element("li", `${algorithm.name}: ${d.fault.replaceAll("_", " ")}` +
         (d.pixels ? ` at ${d.pixels} pixels, first at ${d.first.join(",")}` : "") + (d.detail ? `: ${d.detail}` : "")));
     const entry = element("p", algorithm.name + ": ");
-    entry.append(element("code", algorithm.command), algorithm.refusal === null ? `, digest ${algorithm.picture.digest}` : ", refused");
+    const command = element("code");
+    for (const word of algorithm.command.split(" ")) command.append(...(command.childNodes.length ? [" "] : []), element("span", word, { class: "word" }));
+    entry.append(command, algorithm.refusal === null ? `, digest ${algorithm.picture.digest}` : ", refused");
     at("again").append(entry);
   }
   for (const sentence of report.left_out) at("left-out").append(element("li", sentence));
@@ -366,8 +380,11 @@ async function start() {
   showNumbers();
   at("x").min = originX; at("y").min = originY;
   at("x").max = originX + width - 1; at("y").max = originY + height - 1;
+  // The deepest pixel first, of those whose history is here.
+  const told = (p) => historyAt(p % width, Math.floor(p / width)) !== "";
   let deep = 0;
-  for (let p = 0; p < width * height; ++p) if (columns.all[p] > columns.all[deep]) deep = p;
+  for (let p = 0; p < width * height; ++p)
+    if (columns.all[p] > 0 && (told(p) > told(deep) || (told(p) === told(deep) && columns.all[p] > columns.all[deep]))) deep = p;
   select(deep % width, Math.floor(deep / width));
   at("gain").addEventListener("input", drawSheet);
   for (const id of ["left", "right", "divide"]) at(id).addEventListener("input", drawCompare);
