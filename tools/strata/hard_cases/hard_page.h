@@ -7,6 +7,7 @@
 #pragma once
 #include <string>
 
+#include "pipeline/formats/image.h"
 #include "tools/strata/hard_cases/hard_sweep.h"
 
 namespace strata::tools {
