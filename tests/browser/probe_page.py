@@ -2,7 +2,7 @@
 """Measures headless Chromium with the page of a kit, by keyboard alone: probe_page.py STRATA
 
 The page must draw without an error on the console, load nothing, say what it cannot draw, and offer an archive that `strata infer` reads. The
-profile that comes out must draw the coverage of ten unseen scenes as the browser did. With STRATA_KEEP=FOLDER the answers and what was
+profile that comes out must draw the coverage of twenty unseen scenes as the browser did. With STRATA_KEEP=FOLDER the answers and what was
 inferred stay there. Exit status 77, said aloud, without Chromium, its driver or Selenium (Debian: chromium, chromium-driver, python3-selenium).
 """
 import json
@@ -71,7 +71,7 @@ def main():
         os.makedirs(downloads)
         kit, unseen, profile = os.path.join(folder, "kit"), os.path.join(folder, "unseen"), os.path.join(folder, "profile.json")
         subprocess.run([strata, "probe", "-o", kit], check=True)
-        subprocess.run([strata, "probe", "--unseen", "10", "-o", unseen], check=True)
+        subprocess.run([strata, "probe", "--unseen", "20", "-o", unseen], check=True)
         driver = pages.browser("--use-angle=swiftshader", "--enable-unsafe-swiftshader", size="900,900", downloads=downloads)
         try:
             archive, status = answers(driver, kit, downloads)
@@ -89,7 +89,7 @@ def main():
         broken = {f["field"]: f["broken_at"]["scene"] for f in found["fields"] if f["state"] == "broken"}
         wrong += [f"{key} is {states[key]}" for key in COVERAGE
                   if states[key] not in ("inferred", "broken") or broken.get(key, "").startswith("coverage.")]
-        for scene in compared(strata, beside, profile, 10):
+        for scene in compared(strata, beside, profile, 20):
             print(json.dumps(scene))
             if scene["coverage_differ"] != 0:
                 wrong.append(f"{scene['name']}: the coverage of {scene['coverage_differ']} pixels differs")

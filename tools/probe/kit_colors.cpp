@@ -3,6 +3,7 @@
 
 #include "tools/probe/kit.h"
 #include "tools/probe/shapes.h"
+#include "tools/probe/split_weights.h"
 
 namespace strata::probe {
 
@@ -59,6 +60,33 @@ Item even_weights_item(bool in_perspective, std::uint64_t seed, const std::strin
         }
         add_triangle(item, draw, p, c);
     }
+    item.draws = {draw};
+    return item;
+}
+
+// A cell of 8 x 8 pixels for each triangle whose weights at a pixel are others by one reciprocal than by another one.
+Item split_weights_item(std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = color_fields, .width = 128, .height = 128};
+    Draw draw;
+    Dice dice{seed};
+    for (int top = 0; top < item.height; top += 8)
+        for (int left = 0; left < item.width; left += 8) {
+            const std::optional<SplitTriangle> found = split_triangle(dice);
+            if (!found) continue;
+            std::array<Place, 3> p;
+            std::array<Color, 3> c;
+            // A hair that every snapping drops, whichever way rows are numbered in every second cell.
+            constexpr float hair = 0x1p-14f;
+            for (std::size_t k = 0; k < 3; ++k) {
+                p[k].x = static_cast<float>(left) + static_cast<float>(found->x[k]) / 16.0f + hair;
+                p[k].y = static_cast<float>(top) + static_cast<float>(found->y[k]) / 16.0f +
+                         (left / 8 % 2 == 0 ? hair : -hair);
+                p[k].w = found->w[k];
+                // Far apart: a weight's step of 1/256 is a code.
+                c[k] = {k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f, 1.0f};
+            }
+            add_triangle(item, draw, p, c);
+        }
     item.draws = {draw};
     return item;
 }
@@ -142,6 +170,7 @@ void add_colors(std::vector<Item>& items) {
     items.push_back(slopes_item(Format::rgba8, true, 66, "color.perspective-large", large));
     items.push_back(even_weights_item(false, 67, "color.even-weights"));
     items.push_back(even_weights_item(true, 68, "color.even-weights-perspective"));
+    items.push_back(split_weights_item(70, "color.split-weights"));
     items.push_back(slivers_item(69, "color.slivers"));
     items.push_back(codes_item());
     items.push_back(halves_item());

@@ -5,6 +5,7 @@
 //          or coverage changes its mind that the two ways end on different sides.
 #include <bit>
 #include <cmath>
+#include <vector>
 
 #include "rasterizer/set_up/window.h"
 #include "tools/probe/kit.h"
@@ -68,25 +69,41 @@ void add_split_box(const Item& item, Draw& draw, const ClipVertex& at, float lef
     for (const ClipVertex& v : {a, b, c, a, c, d}) draw.corners.push_back(v);
 }
 
-Item edges_item() {
-    Item item{.name = "positions.edges", .decides = position_fields, .width = 91, .height = 61};
+// Two numbers of `ways`.
+struct Pair {
+    std::size_t a, b;
+};
+
+// A box of 3 x 3 pixels for each pair, threshold and side in turn.
+Item edges_item(int width, int height, const std::vector<Pair>& pairs, std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = position_fields, .width = width, .height = height};
     Draw draw;
-    Dice dice{11};
+    Dice dice{seed};
     constexpr float thresholds[]{0, 0x1p-5f, -0x1p-5f, 0x1p-9f, -0x1p-9f, 0x1p-13f, -0x1p-13f};
-    int number = 0;
+    std::size_t number = 0;
     for (int y = 0; y + 3 <= item.height; y += 3)
         for (int x = 0; x + 3 <= item.width; x += 3, ++number) {
-            const auto a = static_cast<std::size_t>(number % 5);
-            const std::size_t b = (a + 1 + static_cast<std::size_t>(number / 5 % 4)) % 5;
-            const float threshold = thresholds[number / 20 % 7];
-            const bool is_left = number / 140 % 2 == 0;
+            const Pair pair = pairs[number % pairs.size()];
+            const float threshold = thresholds[number / pairs.size() % 7];
+            const bool is_left = number / (7 * pairs.size()) % 2 == 0;
             const float left = static_cast<float>(x);
-            const ClipVertex at = split(dice, item, ways[a], ways[b], left + (is_left ? 0.5f : 1.5f) + threshold);
+            const ClipVertex at =
+                split(dice, item, ways[pair.a], ways[pair.b], left + (is_left ? 0.5f : 1.5f) + threshold);
             if (at.w > 0) add_split_box(item, draw, at, left, static_cast<float>(y), is_left);
         }
     item.draws = {draw};
     return item;
 }
+
+// Every way beside every other one, in the order of 5 rows of 4.
+std::vector<Pair> all_pairs() {
+    std::vector<Pair> pairs;
+    for (std::size_t step = 1; step < 5; ++step)
+        for (std::size_t a = 0; a < 5; ++a) pairs.push_back({a, (a + step) % 5});
+    return pairs;
+}
+// Ways that differ in the viewport alone.
+std::vector<Pair> viewport_pairs() { return {{0, 1}, {2, 3}, {1, 0}, {3, 2}}; }
 
 Item flat_item(DepthFormat format, const std::string& name) {
     Item item{.name = name, .decides = position_fields};
@@ -108,7 +125,8 @@ Item flat_item(DepthFormat format, const std::string& name) {
 }  // namespace
 
 void add_positions(std::vector<Item>& items) {
-    items.push_back(edges_item());
+    items.push_back(edges_item(91, 61, all_pairs(), 11, "positions.edges"));
+    items.push_back(edges_item(181, 121, viewport_pairs(), 13, "positions.edges-again"));
     items.push_back(flat_item(DepthFormat::d32f, "positions.depth"));
 }
 

@@ -2,7 +2,7 @@
 """Measures drivers and writes RESULTS.md: results.py BUILD -o RESULTS.md [--browser FOLDER]
 
 BUILD holds strata and strata_port_probe (-DSTRATA_PORT=ON). FOLDER is what tests/browser/probe_page.py left in STRATA_KEEP. Each device draws the kit
-and ten scenes that no field was thought of for; its profile comes from its answers to the kit alone, and draws the ten.
+and twenty scenes that no field was thought of for; its profile comes from its answers to the kit alone, and draws the twenty.
 """
 import argparse
 import json
@@ -11,7 +11,7 @@ import subprocess
 import tempfile
 
 DRIVERS = ["llvmpipe", "llvmpipe_sse", "softpipe"]
-UNSEEN = 10
+UNSEEN = 20
 
 
 def run(*words):
@@ -26,7 +26,7 @@ def checked(*words):
 
 
 def measured(strata, kit_answers, unseen_answers, orientation, folder):
-    """What was inferred, and the ten scenes under it."""
+    """What was inferred, and the twenty scenes under it."""
     profile = os.path.join(folder, "profile.json")
     found = json.loads(checked(strata, "infer", kit_answers, "--y", orientation, "-o", profile, "--json"))
     beside = json.loads(run(strata, "probe", "--unseen", str(UNSEEN), "--y", orientation, "--profile", profile,
@@ -94,7 +94,7 @@ def main():
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "introduction.md"), encoding="utf-8") as file:
         head = file.read()
     with open(options.output, "w", encoding="utf-8") as file:
-        file.write(head + "\n## Devices\n\n| device | +y | fields inferred | pixels of the kit that agree | pixels of 10 unseen scenes | coverage differs | depth differs | colour differs |\n"
+        file.write(head + "\n## Devices\n\n| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 unseen scenes | coverage differs | depth differs | colour differs |\n"
                    "|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n\n## Field by field\n\n" + "\n".join(pages))
 
 

@@ -24,14 +24,14 @@ Scores::Scores(const Comparison& device) : device_{device} {
         for (const ProfileField* f : probed_fields())
             if (probe::can_change(f->key, device.item(i))) fields.push_back(f);
     }
-    known_.resize(device.count());
+    for (std::size_t i = 0; i < device.count(); ++i) known_.emplace_back(&memory_);
     refuses_float_depth_ = device.says_float_depth() && std::ranges::none_of(device.items_of({""}), [&](std::size_t n) {
                                return device.item(n).depth == DepthFormat::d32f;
                            });
 }
 
 const Nearness& Scores::of(const DeviceProfile& profile, std::size_t number) {
-    std::vector<int> key;
+    std::pmr::vector<int> key;
     for (const ProfileField* f : fields_[number]) key.push_back(matters(f->key, profile) ? f->value(profile) : -1);
     const auto [at, is_new] = known_[number].try_emplace(std::move(key));
     if (!is_new) return at->second;

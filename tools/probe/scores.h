@@ -4,6 +4,7 @@
 // Tests    tests/tools/probe/search_test.cpp
 #pragma once
 #include <map>
+#include <memory_resource>
 
 #include "tools/probe/comparison.h"
 
@@ -34,7 +35,10 @@ class Scores {
     const Comparison& device_;
     // For every scene the fields that can change it, then what is known of it by their values.
     std::vector<std::vector<const ProfileField*>> fields_{};
-    std::vector<std::map<std::vector<int>, Nearness>> known_{};
+    // All of it in memory of its own: small pieces that stay, between the buffers of drawing that come and go, break up the heap of
+    // glibc 2.36 so that 100 KB a scene are lost.
+    std::pmr::monotonic_buffer_resource memory_{std::size_t{1} << 20};
+    std::vector<std::pmr::map<std::pmr::vector<int>, Nearness>> known_{};
     std::size_t drawn_ = 0;
     // It says that it has float depth buffers, and draws into none: as a device whose depth path is window_z.
     bool refuses_float_depth_ = false;

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "tools/probe/comparison.h"
 #include "tools/probe/draw_item.h"
 #include "tools/probe/fields.h"
 #include "tools/probe/shapes.h"
+#include "tools/probe/split_weights.h"
 
 using namespace strata;
 using namespace strata::probe;
@@ -98,4 +101,41 @@ TEST_CASE("a device refuses what it lacks with a sentence") {
     item.color = pipeline::Format::rgba8;
     item.depth = DepthFormat::d32f;
     CHECK(draw_item(device, item, YDirection::up).refusal.starts_with("profile geforce3 has no float depth buffers"));
+}
+
+TEST_CASE("a triangle that parts two reciprocals has a weight within 2^-22 of itself of a whole number of 256ths") {
+    Dice dice{1};
+    int found = 0, wrong = 0;
+    for (int i = 0; i < 200; ++i) {
+        const std::optional<SplitTriangle> t = split_triangle(dice);
+        if (!t) continue;
+        ++found;
+        // Twice the areas of the three triangles with the centre of pixel 3, 3 over w, in binary64: 2^-50 of a share at most is lost.
+        double part[3], sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+            const double ax = t->x[a] - 56, ay = t->y[a] - 56, bx = t->x[b] - 56, by = t->y[b] - 56;
+            part[k] = std::abs(ax * by - ay * bx) / double{t->w[k]};
+            sum += part[k];
+        }
+        const bool is_near = std::ranges::any_of(part, [&](double each) {
+            const double share = 256 * each / sum;
+            return std::abs(share - std::round(share)) < share * 0x1p-22;
+        });
+        wrong += is_near ? 0 : 1;
+    }
+    CHECK(found > 50);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("the kit tells a reciprocal of 24 to 27 bits from one that has a bit more") {
+    const Item& item = *std::ranges::find(kit(), "color.split-weights", &Item::name);
+    for (const YDirection y : {YDirection::up, YDirection::down})
+        for (int bits = 24; bits < 28; ++bits) {
+            DeviceProfile fewer = *pipeline::find_profile("geforce3"), more = fewer;
+            fewer.raster.hypothesis.reciprocal_bits = bits;
+            more.raster.hypothesis.reciprocal_bits = bits + 1;
+            INFO(bits);
+            CHECK(difference(*draw_item(fewer, item, y).answer, *draw_item(more, item, y).answer).color > 0);
+        }
 }
