@@ -129,6 +129,18 @@ class Page:
         self.expect("nothing was loaded", pages.loaded(self.driver), [])
 
 
+def check_without_exact(driver, strata):
+    """A report without a_buffer has no differences: none is drawn, as black would say that all is right, and it says why."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([strata, "report", "planes:count=3", "--size", "32x24", "--algorithm", "dual,unsorted", "-q", "-o", folder], check=True)
+        driver.get("file://" + os.path.join(folder, "report.html"))
+        pages.wait_until_ready(driver)
+        wrong = [] if len(driver.find_elements("css selector", ".card canvas")) == 2 else ["without a_buffer: expected a picture an algorithm"]
+        if "a_buffer" not in driver.find_element("id", "sheet-text").text or driver.find_element("id", "gain-row").is_displayed():
+            wrong.append("without a_buffer: the page does not say that differences are missing")
+        return wrong + [f"axe-core: {rule}" for rule in pages.violations(driver)]
+
+
 def base64_of(path):
     import base64
     with open(path, "rb") as file:
@@ -156,6 +168,7 @@ def main():
                     driver.set_window_size(1280, 5200)
                     driver.save_screenshot(os.path.join(os.environ["STRATA_SCREENSHOTS"], f"report.{number}.png"))
                     driver.set_window_size(1280, 1000)
+        wrong += check_without_exact(driver, strata)
     finally:
         driver.quit()
     print("\n".join(wrong))

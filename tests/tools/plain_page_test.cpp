@@ -52,6 +52,26 @@ TEST_CASE("a plain page has its parts in their order, and every character of a t
     CHECK(stands_alone(html));
 }
 
+TEST_CASE("lines of a page break where they are sentences, and not where they are columns") {
+    const auto breaks = [](const std::string& text) {
+        PlainPage page{"t", "s"};
+        page.lines(text);
+        return times_in(page.html(), "<pre class=\"wrapped\"") == 1;
+    };
+    CHECK(breaks("one sentence\n  one that is set in\n    and one further in\n"));
+    CHECK_FALSE(breaks("a sentence\nname  number\n"));
+    CHECK_FALSE(breaks("  name  number"));
+    CHECK(breaks(""));
+}
+
+TEST_CASE("a legend of a page has a swatch a colour, with its words") {
+    PlainPage page{"t", "s"};
+    page.legend({{{255, 0, 10}, "lost & <found>"}, {{0, 1, 2}, "other"}});
+    const std::string html = page.html();
+    CHECK(times_in(html, "style=\"background:#ff000a\"></span>lost &amp; &lt;found&gt;</span>") == 1);
+    CHECK(times_in(html, "style=\"background:#000102\"></span>other</span>") == 1);
+}
+
 TEST_CASE("a picture of a page is a PNG that another reader reads back") {
     const Folder folder;
     const auto image = checkered(7, 5);

@@ -102,6 +102,11 @@ constexpr void stable_sort(R&& r, Less less = {}, Of of = {}) {
     std::stable_sort(std::begin(r), std::end(r),
                      [&](auto&& a, auto&& b) { return less(std::invoke(of, a), std::invoke(of, b)); });
 }
+template <class R, class At, class Less = strata_less, class Of = strata_as_is>
+constexpr void nth_element(R&& r, At at, Less less = {}, Of of = {}) {
+    std::nth_element(std::begin(r), at, std::end(r),
+                     [&](auto&& a, auto&& b) { return less(std::invoke(of, a), std::invoke(of, b)); });
+}
 template <class R, class Less = strata_less, class Of = strata_as_is>
 constexpr bool is_sorted(R&& r, Less less = {}, Of of = {}) {
     return std::is_sorted(std::begin(r), std::end(r),

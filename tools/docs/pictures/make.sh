@@ -41,3 +41,6 @@ for bias in 0 4; do
         --depth-path window_z --reference-path perspective_rq --max-passes 8 --polygon-offset 0,$bias -o "$work/bias.$bias.png" >/dev/null
 done
 row invariance.png "$work/bias.0.png" "$work/bias.4.png"
+
+# A report, as a browser shows it.
+/usr/bin/python3 tools/docs/pictures/report.py build/release/strata

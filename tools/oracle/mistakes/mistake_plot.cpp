@@ -1,10 +1,10 @@
-#include "tools/oracle/mistakes/mistake_plot.h"
-
+// tools/oracle/mistakes/mistake_plot.cpp - how many mistakes each scene of the suite shows, as a drawing: a bar a scene.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "tools/oracle/mistakes/catalogue.h"
+#include "tools/oracle/mistakes/mistake_table.h"
 
 namespace strata::oracle {
 

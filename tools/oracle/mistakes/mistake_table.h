@@ -46,5 +46,7 @@ struct Twins {
 // A page in Markdown: what was found, the table, the scenes with their commands, the mistakes in words. `plot`: the file beside the page
 // that holds the drawing; empty: none.
 [[nodiscard]] std::string to_page(const std::vector<TableColumn>& columns, const std::string& plot);
+// That drawing, an SVG file: how many mistakes each scene shows, a bar a scene.
+[[nodiscard]] std::string to_svg(const std::vector<TableColumn>& columns);
 
 }  // namespace strata::oracle

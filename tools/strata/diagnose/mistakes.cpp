@@ -5,7 +5,6 @@
 
 #include "scenes/files/atomic_file.h"
 #include "tools/oracle/mistakes/catalogue.h"
-#include "tools/oracle/mistakes/mistake_plot.h"
 #include "tools/oracle/mistakes/mistake_table.h"
 #include "tools/strata/command.h"
 #include "tools/strata/options/option.h"
