@@ -5,7 +5,8 @@
     tests/reliability.py build/release        # runs what counts, some minutes on a free machine, and writes the page
 
 A figure on the page comes from the command beside it; where a command finds a fault, nothing is written. What a command printed is
-kept in BUILD_FOLDER/reliability, so that a second call goes on where the first ended: remove the folder to try everything anew.
+kept in BUILD_FOLDER/reliability, so that a second call goes on where the first ended: `tests/reliability.py build/release limits kills`
+tries the rows anew whose command has one of these words and leaves all others as the page has them.
 """
 import hashlib
 import pathlib
@@ -32,6 +33,26 @@ ROWS = [
      "BUILD/tests/tools/tools_test 'each single call of the system*,a sweep goes on after each single*'",
      r"(\d+) calls failed", "{0} calls of open, write, fsync, rename and close, every one of nine commands and three sweeps",
      "outputs without fsync; temporary files that stayed"),
+    ("however few threads and bytes the kernel grants, a picture is whole or one sentence says what is missing",
+     "python3 tests/tools/system_faults/limits.py BUILD/strata",
+     r"(\d+) limits of threads and address space: (\d+) whole pictures, (\d+) sentences, 0 bad",
+     "{0} limits: {1} whole pictures, {2} sentences; `--all` tries hundreds", "hangs and aborts in libraries that start threads as they are loaded"),
+    ("a sweep that is killed, started twice, torn or changed loses no cell and doubles none",
+     "python3 tests/tools/system_faults/kills.py BUILD/strata",
+     r"(\d+) kills, (\d+) second runs, (\d+) torn journals, (\d+) changed journals, (\d+) sweeps finished, (\d+) cells, 0 lost, 0 doubled, 0 bad",
+     "{0} kills, {1} second runs, {2} torn and {3} changed journals: {5} cells of {4} finished sweeps",
+     "a journal that a killed run had left out of order, or torn behind its last cell, stayed so"),
+    ("what a picture takes is told beforehand, within a quarter of the measured peak",
+     "BUILD/tests/tools/tools_test 'what a picture will take*'",
+     r"(\d+) pictures: memory told within (\d+) %", "{0} pictures, within {1} %", "nothing"),
+    ("what people hand to the program is refused in a sentence or keeps its promise: profiles, cameras, plans, packs, EXR files, sequences of calls, glTF",
+     "BUILD/tests/fuzz/replay_inputs tests/fuzz/corpus",
+     r"\w+: (\d+) inputs, 0 bad", "{0} kept inputs of what `tools/fuzz.sh` found",
+     "an EXR of a kilobyte makes OpenEXR ask for 2 GB, which it never touches"),
+    ("malformed models are refused where the Khronos validator refuses them, or the page of differences says why not",
+     "python3 tests/scenes/validator/validator.py BUILD/strata",
+     r"(\d+) files: (\d+) refused by both \((\d+) with the same code\), (\d+) sound to both, (\d+) differ, 0 end otherwise",
+     "{0} files: {1} refused by both, {2} of them with the same code; {3} sound to both, {4} differ ([why](scenes/validator/README.md))", "nothing that crashed"),
     ("the thread sanitizer's build (preset `tsan`) tells a race in a parallel loop, and nothing where there is none",
      "BUILD/tests/faults/race own",
      r"(4)", "four threads with places of their own; with one place for all `race shared` is told",
@@ -46,7 +67,7 @@ ROWS = [
      "diff - tests/golden/core_digests.txt && wc -l <tests/golden/core_digests.txt; done",
      r"\n(\d+)(?=\n)", "{0} lines of golden digests, half of them drawn in every pass anew, under the memory sanitizer, by the scalar twins",
      "nothing"),
-    ("a frame said in another way (meshes in two parts, corners that are not shared, points, things that nobody names) is the same picture",
+    ("a frame said in another way (meshes in two parts, corners that are not shared, points, things that nobody names, idle state, another place, another order) is the same picture",
      "BUILD/tests/fuzz/differential_seeds --seeds 0..30000 --relations",
      r"(\d+) frames: (\d+) relations hold", "{1} relations of {0} frames",
      "nothing; meshes in two parts are other objects to object_sorted and batched, as they should be"),
@@ -64,9 +85,30 @@ NOT_PROMISED = [
 ]
 
 
+# What others do who are known for it, each by the document that says so.
+PRACTICE = [
+    "What projects do that are known for it, and what is done here:", "",
+    "| practice | whose | here |", "|---|---|---|",
+    "| memory and input and output that fail at the n-th call, n = 1, 2, ... | SQLite, *How SQLite Is Tested* | done; of calls that the tests do not count (reading, mapping) it is not |",
+    "| every branch and every condition taken (MC/DC) | SQLite, the same | not reached |",
+    "| mutation of branches in compiled code | SQLite, the same | of the sources, by `tools/mutate.py` |",
+    "| a power loss simulated by a file system that loses what was not synced | SQLite, the same | kills alone: fsync is asked for in the right order by a test, no disk was cut off |",
+    "| a journal whose lines carry a checksum | SQLite, *Write-Ahead Logging* | done: each line of a sweep carries its digest |",
+    "| fuzzing day and night on other people's machines | simdjson and OpenEXR, by OSS-Fuzz | minutes a target by libFuzzer; no second engine has run |",
+    "| the corpus kept and replayed by the tests | SQLite (*dbsqlfuzz*), simdjson (`fuzz/`) | done: `tests/fuzz/corpus` |",
+    "| each instruction set against the plain one, by the same tests | simdjson, *Implementation selection* | done, on the bits |",
+    "| big-endian and 32-bit machines | SQLite; simdjson in its continuous integration | big-endian s390x under emulation; 32 bits are refused |",
+    "| limits on what a file's header may claim before memory is asked for | OpenEXR, *Security* | done for glTF, PNG and JPEG; an EXR's attributes are left to OpenEXR, which asks for what they claim |",
+]
+
+
+def kept_output(command, build):
+    return pathlib.Path(build) / "reliability" / (hashlib.sha1(command.encode()).hexdigest()[:12] + ".txt")
+
+
 def figures_of(command, pattern, build):
     words = command.replace("BUILD", str(build))
-    kept = pathlib.Path(build) / "reliability" / (hashlib.sha1(command.encode()).hexdigest()[:12] + ".txt")
+    kept = kept_output(command, build)
     if not kept.exists():
         ended = subprocess.run(["bash", "-c", words], cwd=ROOT, capture_output=True, text=True)
         if ended.returncode != 0:
@@ -81,20 +123,30 @@ def figures_of(command, pattern, build):
 
 
 def main():
-    if len(sys.argv) != 2:
-        sys.exit("usage: tests/reliability.py BUILD_FOLDER")
+    if len(sys.argv) < 2:
+        sys.exit("usage: tests/reliability.py BUILD_FOLDER [WORD...]")
+    page = ROOT / "tests" / "RELIABILITY.md"
+    standing = {line.split(" | ")[0]: line for line in page.read_text().splitlines() if line.startswith("| ")}
+    words = sys.argv[2:]
+    for _, command, *_ in ROWS:
+        if any(word in command for word in words):
+            kept_output(command, sys.argv[1]).unlink(missing_ok=True)
     lines = ["# What is promised, and how it was tried", "",
              "Made by `tests/reliability.py build/release`: every figure is what the command beside it printed, with no fault.", "",
              "| promise | tried | by | found on the way |", "|---|---|---|---|"]
     for promise, command, pattern, sentence, found in ROWS:
+        if words and f"| {promise}" in standing and not any(word in command for word in words):
+            lines.append(standing[f"| {promise}"])
+            continue
         figures = figures_of(command, pattern, sys.argv[1])
         shown = command.replace("BUILD", "build/release").replace("|", "\\|")  # in a table
         lines.append(f"| {promise} | {sentence.format(*figures)} | `{shown}` | {found} |")
     lines += ["", "Not promised:", ""] + [f"- {line}" for line in NOT_PROMISED]
+    lines += [""] + PRACTICE
     lines += ["", "Whether the tests would see a fault is another question: `tools/mutate.py` puts changes of one step into the sources,",
               "and [README.md](README.md) says how. Of a sample in rasterizer it was 114 of 134; pipeline and peeling have no figure yet, and",
               "the share of branches that the tests take was not measured."]
-    (ROOT / "tests" / "RELIABILITY.md").write_text("\n".join(lines) + "\n")
+    page.write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

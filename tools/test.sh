@@ -43,15 +43,15 @@ sanitizers() {
     preset=$(sanitizer_preset)
     step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
     local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
-    [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz)
+    [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs)
     build "$preset" "${targets[@]}"
     ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
     fi
-    step "fuzzing the loader with glTF bytes"
-    ctest --test-dir build/fuzz -R '^fuzz-(corpus|load-render)' --output-on-failure
+    step "the kept inputs, and fuzzing the loader with glTF bytes"
+    ctest --test-dir build/fuzz -R '^fuzz-(kept-inputs|corpus|load-render)' --output-on-failure
 }
 
 # The fast tests of the core under the sanitizers, and half a minute of fuzzing: scenes and images, which take as long to compile

@@ -66,7 +66,8 @@ KeyValues grid_of(const json& object, const Source& source, const std::string& p
     KeyValues values;
     for (const auto& [name, value] : object.items()) {
         const auto& keys = plan_keys();
-        const auto key = std::find_if(keys.begin(), keys.end(), [&](const PlanKey& k) { return k.name == name; });
+        const auto key =
+            std::find_if(keys.begin(), keys.end(), [&wanted = name](const PlanKey& k) { return k.name == wanted; });
         if (key == keys.end()) source.fail(place, "keys " + one_of(key_names()), found_but_near(name, key_names()));
         values[name] = values_of_key(*key, value, source, place + "/" + name);
     }
