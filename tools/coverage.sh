@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Which branches of rasterizer, pipeline and peeling do the tests take, and which conditions of the stages turn a decision round?
-#   tools/coverage.sh          builds the core with counters (preset coverage), runs its tests and golden digests, prints the shares
+#   tools/coverage.sh          builds the core with counters (preset coverage), runs its tests, golden digests and three thousand
+#                              frames of tests/fuzz, prints the shares
 #   tools/coverage.sh --md     the same into tests/coverage/RESULTS.md
 # Needs clang-19 and llvm-19 of Debian; exits with 77 where they are missing. Half an hour on two cores.
 set -euo pipefail
@@ -13,9 +14,9 @@ done
 folder=build/coverage
 tests=(rasterizer pipeline peeling)
 cmake --preset coverage >/dev/null
-cmake --build --preset coverage --target "${tests[@]/%/_test}" core_digests >"$folder/build.log" || { tail -n 40 "$folder/build.log" >&2; exit 3; }
+cmake --build --preset coverage --target "${tests[@]/%/_test}" core_digests differential_seeds >"$folder/build.log" || { tail -n 40 "$folder/build.log" >&2; exit 3; }
 
-# run NAME COMMAND...: counts into NAME.raw, unless it did since the program was built.
+# run NAME PROGRAM ARGUMENT...: counts into NAME.raw, unless it did since the program was built.
 run() {
     local raw=$folder/$1.raw
     shift
@@ -23,19 +24,29 @@ run() {
     LLVM_PROFILE_FILE=$raw.part "$@" >"$raw.log" || { tail -n 40 "$raw.log" >&2; exit 1; }
     mv "$raw.part" "$raw"
 }
-programs=()
+
+# export_counts NAME PROGRAM: what NAME*.raw count of the three floors. One program at a time: tools of LLVM that are given several
+# lose functions of one name that differ.
+export_counts() {
+    llvm-profdata-19 merge "$folder/$1"*.raw -o "$folder/$1.profdata"
+    llvm-cov-19 export -skip-functions -instr-profile="$folder/$1.profdata" "$2" rasterizer pipeline peeling >"$folder/$1.json"
+}
+
+exports=()
 for floor in "${tests[@]}"; do
-    programs+=("$folder/tests/$floor/${floor}_test")
-    run "$floor" "${programs[-1]}" "~[exhaustive]"
+    program=$folder/tests/$floor/${floor}_test
+    run "$floor" "$program" "~[exhaustive]"
+    export_counts "$floor" "$program"
+    exports+=("$folder/$floor.json")
 done
 digests=$folder/tests/golden/core_digests
 for setting in tile=64 "execution=literal tile=8 effects=all" simd=scalar; do
     # shellcheck disable=SC2086  # a setting is several words
     run "digests-${setting//[ =]/-}" "$digests" $setting check=tests/golden/core_digests.txt
 done
+export_counts digests "$digests"
+seeds=$folder/tests/fuzz/differential_seeds
+run seeds "$seeds" --seeds 0..3000
+export_counts seeds "$seeds"
 
-llvm-profdata-19 merge "$folder"/*.raw -o "$folder/all.profdata"
-objects=()
-for program in "${programs[@]}"; do objects+=(-object "$program"); done
-llvm-cov-19 export -skip-functions -instr-profile="$folder/all.profdata" "$digests" "${objects[@]}" rasterizer pipeline peeling >"$folder/export.json"
-tests/coverage/report.py "$folder/export.json" "$@"
+tests/coverage/report.py "${exports[@]}" "$folder/digests.json" "$folder/seeds.json" "$@"

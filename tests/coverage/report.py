@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Which branches the tests take, from what `llvm-cov export` says: tools/coverage.sh calls it.
+"""Which branches the tests take, from what `llvm-cov export` says of each program: tools/coverage.sh calls it.
 
-    tests/coverage/report.py EXPORT.json            # shares of each folder, and what is missing, line by line
-    tests/coverage/report.py EXPORT.json --md       # the same into tests/coverage/RESULTS.md
+    tests/coverage/report.py EXPORT.json...         # shares of each folder, and what is missing, line by line
+    tests/coverage/report.py EXPORT.json... --md    # the same into tests/coverage/RESULTS.md
 
 A branch is one side of a condition or a case. It stands at a place of the source: what is compiled in several forms (templates,
-kernels) counts once, and as taken if any form takes it. Left out are conditions that the compiler decides, and the default that a
-switch over all values of an enum has not. MC/DC asks of each operand of && and || that it alone has turned a decision round; it
-is counted for the decisions of the fragment stages and of the rasterizer's rules. tests/coverage/reviewed.txt has the rest that
-somebody looked at: file | line of the source | reason.
+kernels) counts once, and as taken if any form takes it. Left out are conditions that the compiler decides, comparisons that it
+makes (`= default`), and the default that a switch over all values of an enum has not. MC/DC asks of each operand of && and || that
+it alone has turned a decision round; it is counted for the decisions of the fragment stages and of the rasterizer's rules.
+tests/coverage/reviewed.txt has the rest that somebody looked at: file | line of the source | reason.
 """
 import bisect
 import json
@@ -27,33 +27,60 @@ def executed_at(segments, starts, place):
     return segments[index][2] if index >= 0 and segments[index][3] else 0
 
 
-def is_default_of_switch(lines, place):
-    return lines[place[0] - 1][:place[1] - 1].rstrip().endswith("switch (")
+def is_nobodys(lines, place):
+    """The default of a switch that lists all values, and what the compiler makes of `= default`."""
+    line = lines[place[0] - 1]
+    return line[:place[1] - 1].rstrip().endswith("switch (") or line.rstrip().endswith("= default;")
 
 
-def branches_of(file, lines):
-    """{place: [taken, not taken]}, and the places that no form of the source decides at run time."""
-    starts = [tuple(s[:2]) for s in file["segments"]]
-    counts = {}
-    for begin_line, begin, end_line, end, yes, no, *_ in file["branches"]:
-        sums = counts.setdefault((begin_line, begin, end_line, end), [0, 0])
-        sums[0] += yes
-        sums[1] += no
-    folded = {p for p, sums in counts.items() if sums == [0, 0] and executed_at(file["segments"], starts, p[:2])}
-    return {p: s for p, s in counts.items() if p not in folded and not is_default_of_switch(lines, p)}, folded
+class Counts:
+    """Of one source, from all programs that hold it."""
+
+    def __init__(self, name):
+        self.name, self.lines = name, (ROOT / name).read_text().splitlines()
+        self.sums = {}  # of a branch's place: how often taken, how often not
+        self.executed, self.decisions = set(), []
+
+    def add(self, file):
+        starts = [tuple(s[:2]) for s in file["segments"]]
+        for begin_line, begin, end_line, end, yes, no, *_, kind in file["branches"]:
+            place = (begin_line, begin, end_line, end, kind)
+            sums = self.sums.setdefault(place, [0, 0])
+            sums[0] += yes
+            sums[1] += no
+            if executed_at(file["segments"], starts, place[:2]):
+                self.executed.add(place)
+        self.decisions += file["mcdc_records"]
+
+    def is_folded(self, place):
+        """No form of the source decides it at run time."""
+        return self.sums[place] == [0, 0] and place in self.executed
+
+    def branches(self):
+        return {p: s for p, s in sorted(self.sums.items()) if not self.is_folded(p) and not is_nobodys(self.lines, p)}
+
+    def conditions(self):
+        """{place of a condition: whether it alone turned its decision round}."""
+        places = sorted(p for p in self.sums if p[4] == IN_DECISION)
+        found = {}
+        for begin_line, begin, end_line, end, _, _, shown in self.decisions:
+            inside = [p for p in places if (begin_line, begin) <= p[:2] and p[2:4] <= (end_line, end)]
+            if len(inside) != len(shown):  # a decision within an operand of another
+                inside = [(begin_line, begin, i, end, IN_DECISION) for i in range(len(shown))]
+            for place, is_shown in zip(inside, shown):
+                if place not in self.sums or not self.is_folded(place):
+                    found[place] = found.get(place, False) or is_shown
+        return found
 
 
-def conditions_of(file, folded):
-    """{place of a condition: whether it alone turned its decision round}."""
-    places = sorted({tuple(b[:4]) for b in file["branches"] if b[8] == IN_DECISION})
+def sources_of(exports):
     found = {}
-    for begin_line, begin, end_line, end, _, _, shown in file["mcdc_records"]:
-        inside = [p for p in places if (begin_line, begin) <= p[:2] and p[2:] <= (end_line, end)]
-        if len(inside) != len(shown):  # a decision within an operand of another
-            inside = [(begin_line, begin, i, end) for i in range(len(shown))]
-        for place, is_shown in zip(inside, shown):
-            if place not in folded:
-                found[place] = found.get(place, False) or is_shown
+    for export in exports:
+        for file in json.loads(pathlib.Path(export).read_text())["data"][0]["files"]:
+            path = pathlib.Path(file["filename"])
+            name = str(path.resolve().relative_to(ROOT)) if path.is_absolute() else str(path)
+            if name.startswith(FLOORS):
+                found.setdefault(name, Counts(name)).add(file)
     return found
 
 
@@ -77,38 +104,31 @@ class Tally:
 
 
 def main():
-    data = json.loads(pathlib.Path(sys.argv[1]).read_text())["data"][0]
-    known, folders, missing, unused = reviewed(), {}, [], None
+    known, folders, missing = reviewed(), {}, []
     unused = set(known)
-    for file in data["files"]:
-        path = pathlib.Path(file["filename"])
-        name = str(path.resolve().relative_to(ROOT)) if path.is_absolute() else str(path)
-        if not name.startswith(FLOORS):
-            continue
-        lines = (ROOT / name).read_text().splitlines()
-        here = folders.setdefault("/".join(name.split("/")[:2]), Tally())
-        counts, folded = branches_of(file, lines)
+    for name, source in sorted(sources_of([a for a in sys.argv[1:] if a != "--md"]).items()):
+        here = folders.setdefault("/".join(name.split("/")[:-1][:2]), Tally())
 
-        def note(line, what):
-            source = lines[line - 1].strip()
-            unused.discard((name, source))
-            reason = known.get((name, source))
-            missing.append(f"{name}:{line} | {source} | {what}" + (f" | {reason}" if reason else ""))
+        def note(place, what):
+            line = source.lines[place[0] - 1].strip()
+            unused.discard((name, line))
+            reason = known.get((name, line))
+            missing.append((name, place[0], f"{line} | {what}", reason or ""))
             return reason is not None
 
-        for place, sums in sorted(counts.items()):
+        for place, sums in source.branches().items():
             here.all += 2
             here.taken += sum(c > 0 for c in sums)
             if 0 in sums:
-                text = lines[place[0] - 1][place[1] - 1:place[3] - 1] if place[0] == place[2] else "a condition of several lines"
+                text = source.lines[place[0] - 1][place[1] - 1:place[3] - 1] if place[0] == place[2] else "a condition of several lines"
                 what = "never reached" if sums == [0, 0] else f"always {'false' if sums[0] == 0 else 'true'}"
-                here.looked_at += note(place[0], f"{text}: {what}") * sums.count(0)
+                here.looked_at += note(place, f"{text}: {what}") * sums.count(0)
         if name.startswith(DECISIONS):
-            for place, is_shown in sorted(conditions_of(file, folded).items()):
+            for place, is_shown in sorted(source.conditions().items()):
                 here.conditions += 1
                 here.shown += is_shown
                 if not is_shown:
-                    here.conditions_looked_at += note(place[0], "alone turns no decision round")
+                    here.conditions_looked_at += note(place, "alone turns no decision round")
     total = Tally()
     for tally in folders.values():
         total.add(tally)
@@ -116,12 +136,16 @@ def main():
     for name, t in [*sorted(folders.items()), ("all", total)]:
         table.append(f"| {name} | {t.all} | {t.taken} | {percent(t.taken, t.all)} | {percent(t.taken + t.looked_at, t.all)} | {t.conditions or ''} | {t.shown if t.conditions else ''} | "
                      f"{percent(t.shown, t.conditions) if t.conditions else ''} | {percent(t.shown + t.conditions_looked_at, t.conditions) if t.conditions else ''} |")
-    page = "\n".join(table) + "\n\nNot taken:\n\n" + "\n".join("    " + m for m in sorted(missing)) + "\n"
     if "--md" in sys.argv:
+        lines = {}
+        for name, line, _, reason in missing:
+            lines.setdefault((name, reason), {})[line] = None
+        rows = [f"| {name} | {', '.join(map(str, sorted(found)))} | {reason} |" for (name, reason), found in sorted(lines.items())]
+        page = "\n".join([*table, "", "| file | lines with a branch that is not taken | looked at |", "|---|---|---|", *rows]) + "\n"
         target = ROOT / "tests" / "coverage" / "RESULTS.md"
         target.write_text(target.read_text().split("| folder |")[0] + page)
     else:
-        print(page)
+        print("\n".join([*table, "", "Not taken:", *(f"{name}:{line} | {what} | {reason}".rstrip(" |") for name, line, what, reason in sorted(missing))]))
     for file, source in sorted(unused):
         print(f"report.py: reviewed.txt: {file} | {source}: expected a branch that is not taken", file=sys.stderr)
 

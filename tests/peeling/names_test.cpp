@@ -7,23 +7,24 @@
 #include "pipeline/frame/observer.h"
 #include "tests/peeling/rendering.h"
 
-TEST_CASE("an algorithm tells what people call its targets") {
+TEST_CASE("an algorithm tells what people call its targets, and how many it renders to at once") {
     using namespace strata::testing;
     using Names = std::set<std::string>;
     struct NamesOf {
         const char* algorithm;
         Names names;
+        int render_targets = 1;  // of its widest pass
     };
-    const NamesOf expected[]{{"front_to_back", {"accumulated", "layer", "nearest"}},
+    const NamesOf expected[]{{"front_to_back", {"accumulated", "layer", "nearest", "result"}},
                              {"depth_units", {"layer", "nearest", "result"}},
                              {"unsorted", {"color"}},
-                             {"object_sorted", {"accumulated", "nearest"}},
-                             {"weighted_average", {"sums", "count", "result"}},
+                             {"object_sorted", {"accumulated", "nearest", "result"}},
+                             {"weighted_average", {"sums", "count", "result"}, 2},
                              {"weighted_sum", {"sums", "result"}},
-                             {"batched", {"layer", "nearest", "accumulated"}},
-                             {"dual", {"min_max", "front", "back_layer", "back"}},
-                             {"dual_independent", {"min_max", "front", "back"}},
-                             {"k_buffer", {"accumulated", "depths", "entry"}},
+                             {"batched", {"layer", "nearest", "accumulated", "result"}},
+                             {"dual", {"min_max", "front", "back_layer", "back", "result"}, 3},
+                             {"dual_independent", {"min_max", "front", "back", "result"}, 3},
+                             {"k_buffer", {"accumulated", "depths", "entry", "result"}, 6},
                              {"a_buffer", {"result"}}};
     FragmentScene scene{2, 2};
     for (GivenPixel& pixel : scene.pixels) pixel.fragments = {{0.25f, {1, 0, 0, 0.5f}}, {0.5f, {0, 1, 0, 0.5f}}};
@@ -36,5 +37,6 @@ TEST_CASE("an algorithm tells what people call its targets") {
         INFO(each.algorithm);
         CHECK(result.outcome == strata::peeling::Outcome::done);
         CHECK(heard == each.names);
+        CHECK(strata::peeling::find_algorithm(each.algorithm)->render_targets == each.render_targets);
     }
 }
