@@ -90,7 +90,7 @@ PRACTICE = [
     "What projects do that are known for it, and what is done here:", "",
     "| practice | whose | here |", "|---|---|---|",
     "| memory and input and output that fail at the n-th call, n = 1, 2, ... | SQLite, *How SQLite Is Tested* | done; of calls that the tests do not count (reading, mapping) it is not |",
-    "| every branch and every condition taken (MC/DC) | SQLite, the same | not reached |",
+    "| every branch and every condition taken (MC/DC) | SQLite, the same | not reached: the shares stand below |",
     "| mutation of branches in compiled code | SQLite, the same | of the sources, by `tools/mutate.py` |",
     "| a power loss simulated by a file system that loses what was not synced | SQLite, the same | kills alone: fsync is asked for in the right order by a test, no disk was cut off |",
     "| a journal whose lines carry a checksum | SQLite, *Write-Ahead Logging* | done: each line of a sweep carries its digest |",
