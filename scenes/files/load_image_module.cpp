@@ -3,6 +3,7 @@
 #include "scenes/files/load_image_module.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
 
 #include <filesystem>
 #include <vector>
@@ -68,20 +69,32 @@ ImageModuleEntry find_entry() {
                       "expected in " + looked_in + ", found in neither; image files need it");
 }
 
+// Asked for and given back: nothing of it is ever touched.
+bool has_address_space(std::size_t bytes) {
+    void* const place = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    return place != MAP_FAILED && ::munmap(place, bytes) == 0;
+}
+
 // OpenImageIO's libraries start threads as they are loaded, and the process aborts or hangs where one is refused: four of
-// its log library, one a processor of OpenEXR (found by counting them, OpenImageIO 2.4 of Debian 12).
-void require_threads() {
+// its log library, one a processor of OpenEXR (found by counting them, OpenImageIO 2.4 of Debian 12). It ends by a signal,
+// too, where the address space runs out behind the libraries' own 400 MiB (found by limiting it, megabyte by megabyte).
+void require_room() {
     constexpr int log_threads = 4;
-    constexpr std::size_t usual_stack = std::size_t{8} << 20;
+    constexpr std::size_t usual_stack = std::size_t{8} << 20, libraries = std::size_t{400} << 20;
     const int wanted = log_threads + thread_count(0);
     if (const int found = threads_to_be_had(wanted, usual_stack); found < wanted)
         throw SystemError(file_name, "load the image module",
                           "expected " + std::to_string(wanted) + " threads for the image library, the system gives " +
                               std::to_string(found));
+    const std::size_t bytes = libraries + static_cast<std::size_t>(wanted) * usual_stack;
+    if (!has_address_space(bytes))
+        throw SystemError(file_name, "load the image module",
+                          "expected " + std::to_string(bytes >> 20) +
+                              " MiB of address space for the image library, the system gives less");
 }
 
 const ImageModule& load() {
-    require_threads();
+    require_room();
     const ImageModule& module = *find_entry()();
     // The table's layout has no version of its own: program and module must come from one build of the project.
     if (module.version != std::string{STRATA_VERSION})

@@ -62,12 +62,9 @@ std::vector<std::string> to_row(const oracle::PassShown& pass) {
     std::string queries;
     for (const oracle::Query& query : pass.queries)
         queries += fmt::format("{}{}: {}", queries.empty() ? "" : ", ", query.count, query.goes_on ? "on" : "stop");
-    return {std::to_string(pass.number),
-            std::string(oracle::name(pass.kind)),
-            std::to_string(pass.iteration),
-            with_spaces(pass.reads),
-            with_spaces(pass.writes),
-            std::to_string(pass.passed),
+    return {std::to_string(pass.number),    std::string(oracle::name(pass.kind)),
+            std::to_string(pass.iteration), with_spaces(pass.reads),
+            with_spaces(pass.writes),       std::to_string(pass.passed),
             queries.empty() ? "-" : queries};
 }
 

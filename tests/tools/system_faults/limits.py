@@ -66,7 +66,7 @@ def cases(quick):
             for most in ((1, 3, 6, 40) if threads != "1" else (1,)) if quick else (*range(1, 33), 40, 100):
                 yield words, (resource.RLIMIT_NPROC, most)
         words = FRAME + ["--threads", "4"] + output
-        for mb in (20, 60, 200, 444, 447, 450) if quick else (*range(10, 1000, 10), *range(440, 456)):
+        for mb in (20, 60, 200, 424, 432, 441, 447, 470) if quick else (*range(10, 1000, 10), *range(440, 456)):
             yield words, (resource.RLIMIT_AS, mb * MB)
 
 
