@@ -15,7 +15,7 @@ namespace strata::scenes {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 32;
-constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::string_view npy_magic = "\x93NUMPY";
 
 // As NumPy's `descr` has it, in the order of the enum.
 constexpr std::array<std::string_view, 6> descriptions{"|u1", "<u2", "<u4", "<i4", "<f2", "<f4"};
@@ -110,13 +110,13 @@ std::string to_npy(const NumberArray& array) {
     constexpr std::size_t text_bytes = npy_header_bytes - 10;
     header.resize(text_bytes - 1, ' ');
     header += '\n';
-    std::string file{magic};
+    std::string file{npy_magic};
     file += {1, 0, static_cast<char>(text_bytes), 0};
     return file + header + array.bytes;
 }
 
 NumberArray parse_npy(std::string_view bytes, const std::string& file) {
-    if (!bytes.starts_with(magic) || bytes.size() < 12) throw InputError(file, "file", "a .npy file", "another");
+    if (!bytes.starts_with(npy_magic) || bytes.size() < 12) throw InputError(file, "file", "a .npy file", "another");
     const std::size_t length_bytes = bytes[6] == 1 ? 2 : 4;
     const std::size_t length = little_endian(bytes.substr(8, length_bytes)), begin = 8 + length_bytes;
     if (length > bytes.size() - begin) throw InputError(file, "header", "a whole one", "an end within it");
