@@ -6,8 +6,7 @@ const { width, height } = report, [originX, originY] = report.origin;
 const at = (id) => document.getElementById(id);
 const fates = ["none", "masked by its material's alpha", "discarded by the program", "alpha test", "sequential depth unit",
   "stencil test", "depth test"];
-// Told apart by lightness, too.
-const palette = ["#000000", "#f0e442", "#56b4e9", "#e69f00", "#cc79a7", "#d55e00", "#009e73", "#ffffff"];
+const palette = ["#000000", "#f0e442", "#56b4e9", "#e69f00", "#cc79a7", "#d55e00", "#009e73", "#ffffff"];  // by lightness, too
 
 async function bytesOf(number) {
   const packed = Uint8Array.from(atob(blobs[number]), (c) => c.charCodeAt(0));
