@@ -19,12 +19,13 @@ struct Image {
 
     Image() = default;
     Image(Format f, int w, int h, int s = 1) : format{f}, width{w}, height{h}, samples{s}, codes(size(), 0u) {}
-    // Its codes are not set: for many threads that write them all.
-    [[nodiscard]] static Image for_overwrite(Format f, int w, int h) {
+    // Its codes are not set: for those who write them all.
+    [[nodiscard]] static Image for_overwrite(Format f, int w, int h, int s = 1) {
         Image image;
         image.format = f;
         image.width = w;
         image.height = h;
+        image.samples = s;
         image.codes.resize(image.size());
         return image;
     }

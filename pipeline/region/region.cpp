@@ -221,7 +221,7 @@ Rgba Region::color(Target target, std::uint32_t pixel, int sample) const {
 
 Image Region::image(Target target) const {
     const TargetStorage& from = storage(target);
-    Image image{from.format(), rect_.width(), rect_.height(), from.samples()};
+    Image image = Image::for_overwrite(from.format(), rect_.width(), rect_.height(), from.samples());
     for (int y = 0; y < rect_.height(); ++y) read_row(from, y, &image.codes[image.index(0, y)]);
     finish_words();
     return image;

@@ -105,7 +105,7 @@ std::vector<FileImage> read_png(const std::string& path) {
     if (header.kind != ImageKind::png || bytes[24] != std::byte{8} || (bytes[25] & std::byte{2}) == std::byte{0})
         throw InputError(path, "format", "a PNG with 8-bit colours", "another image");
     const std::vector<std::uint8_t> codes = decode_image(bytes, header, place);
-    Image image{Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height)};
+    Image image = Image::for_overwrite(Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height));
     image.codes.assign(codes.begin(), codes.end());
     return {{"", "color", std::move(image)}};
 }
