@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Fuzzes what people hand to the program (tests/fuzz/inputs.h), as long as one likes.
 #   tools/fuzz.sh TARGET SECONDS         by libFuzzer under the address and undefined-behaviour sanitizers (preset fuzz, needs clang)
+#   tools/fuzz.sh --afl TARGET SECONDS   by AFL++ (preset afl, needs afl-fuzz), another engine on the same targets; it begins with the kept inputs
 #   tools/fuzz.sh --keep                 takes what was found into tests/fuzz/corpus: few files that together reach all the code that all reach
-# Targets: profile, camera, plan, pack, exr, calls or gltf. What is found stays in build/fuzz/inputs/TARGET; a fault ends the run with status 1 and
-# leaves its bytes in build/fuzz/faults.
+# Targets: profile, camera, plan, pack, exr, calls or gltf. What is found stays in build/fuzz/inputs/TARGET, from which --keep takes it, and
+# bytes of a fault in build/fuzz/faults; a fault gives status 1 (libFuzzer ends with the first). The corpora of AFL++ lie in build/afl/out.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -26,8 +27,8 @@ build_fuzz() {
     build/fuzz/tests/fuzz/make_corpus build/fuzz/seeds/gltf
 }
 
-# The program of a target.
-command_of() { if [ "$1" = gltf ]; then echo build/fuzz/tests/fuzz/load_render_fuzz; else echo "build/fuzz/tests/fuzz/$1_fuzz"; fi; }
+# The program of a target, of the preset fuzz or of another.
+command_of() { if [ "$1" = gltf ]; then echo "build/${2:-fuzz}/tests/fuzz/load_render_fuzz"; else echo "build/${2:-fuzz}/tests/fuzz/$1_fuzz"; fi; }
 
 fuzz() {
     local target=$1 seconds=$2 status=0
@@ -39,6 +40,28 @@ fuzz() {
         >"build/fuzz/$target.log" 2>&1 || status=1
     echo "$target: $(sed -n 's/^stat::number_of_executed_units: *//p' "build/fuzz/$target.log") inputs in $seconds s, status $status; build/fuzz/$target.log"
     return $status
+}
+
+# What afl-fuzz wrote about its run.
+afl_stat() { sed -n "s/^$2 *: *//p" "build/afl/out/$1/default/fuzzer_stats"; }
+
+# One fuzzer for TARGET; the address sanitizer reserves more than a limit of memory would allow, so there is none (-m none).
+fuzz_by_afl() {
+    local target=$1 seconds=$2 program
+    command -v afl-fuzz >/dev/null || { echo "tools/fuzz.sh: skipped: afl-fuzz is not here (Debian's package afl++)"; exit 77; }
+    quietly cmake --preset afl
+    quietly cmake --build --preset afl --target input_fuzz load_render_fuzz
+    program=$(command_of "$target" afl)
+    rm -rf "build/afl/out/$target"
+    mkdir -p "build/afl/out" build/fuzz/faults "build/fuzz/inputs/$target"
+    AFL_NO_UI=1 AFL_NO_AFFINITY=1 AFL_SKIP_CPUFREQ=1 AFL_I_DONT_CARE_ABOUT_MISSING_CRASHES=1 \
+        afl-fuzz -V "$seconds" -m none -t 10000 -G "$(length_of "$target")" -i "$kept/$target" -o "build/afl/out/$target" -- "$program" \
+        >"build/afl/$target.log" 2>&1 || { tail -n 20 "build/afl/$target.log" >&2; exit 1; }
+    find "build/afl/out/$target/default/queue" -name 'id:*' ! -name '*orig:*' -exec cp -t "build/fuzz/inputs/$target" {} +
+    find "build/afl/out/$target/default/crashes" "build/afl/out/$target/default/hangs" -name 'id:*' -exec cp -t build/fuzz/faults {} +
+    echo "$target: $(afl_stat "$target" execs_done) inputs in $(afl_stat "$target" run_time) s by AFL++, $(afl_stat "$target" corpus_found) new paths," \
+        "$(afl_stat "$target" saved_crashes) crashes, $(afl_stat "$target" saved_hangs) hangs; build/afl/$target.log"
+    [ "$(afl_stat "$target" saved_crashes)$(afl_stat "$target" saved_hangs)" = 00 ]
 }
 
 keep() {
@@ -58,7 +81,10 @@ keep() {
     echo "$(du -sb "$kept" | cut -f1) bytes in all"
 }
 
+engine=fuzz
 case "${1:-}" in
-    --keep) keep ;;
-    *) is_target "${1:-}" && [[ "${2:-}" =~ ^[0-9]+$ ]] || fail "expected TARGET SECONDS with TARGET one of ${targets[*]}, found '$*'"; fuzz "$1" "$2" ;;
+    --keep) keep; exit 0 ;;
+    --afl) engine=fuzz_by_afl; shift ;;
 esac
+is_target "${1:-}" && [[ "${2:-}" =~ ^[0-9]+$ ]] || fail "expected TARGET SECONDS with TARGET one of ${targets[*]}, found '$*'"
+"$engine" "$1" "$2"

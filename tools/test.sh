@@ -45,7 +45,7 @@ sanitizers() {
     local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
     [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs)
     build "$preset" "${targets[@]}"
-    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
@@ -54,17 +54,28 @@ sanitizers() {
     ctest --test-dir build/fuzz -R '^fuzz-(kept-inputs|corpus|load-render)' --output-on-failure
 }
 
-# The fast tests of the core under the sanitizers, and half a minute of fuzzing: scenes and images, which take as long to compile
-# again as the core does, are left to --sanitizers.
-sanitized() {
+# The two builds beside each other: the last and longest sources of one leave a processor to the other.
+builds() {
     local preset targets=(rasterizer_test pipeline_test peeling_test core_digests)
     preset=$(sanitizer_preset)
     if [ "$preset" = fuzz ]; then
         targets+=(differential_seeds differential_fuzz)
     fi
-    step "the fast tests of the core under the address and undefined-behaviour sanitizers (preset $preset)"
-    build "$preset" "${targets[@]}"
-    local fuzzing=""
+    step "building, and beside it the core under the address and undefined-behaviour sanitizers (preset $preset)"
+    build "$preset" "${targets[@]}" &
+    sanitized=$!  # seen by the trap, which outlives the function
+    trap 'kill "$sanitized" 2>/dev/null || true' EXIT
+    build release
+    trap - EXIT
+    wait "$sanitized"
+}
+
+# The fast tests of the core under the sanitizers, and half a minute of fuzzing: scenes and images, which take as long to compile
+# again as the core does, are left to --sanitizers.
+sanitized() {
+    local preset fuzzing=""
+    preset=$(sanitizer_preset)
+    step "the fast tests of the core under the sanitizers"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
     else
@@ -72,7 +83,7 @@ sanitized() {
         quietly fuzz ctest --test-dir build/fuzz/tests/fuzz -R '^fuzz-differential' --output-on-failure &
         fuzzing=$!
     fi
-    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
+    quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset/tests/golden" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
     [ -z "$fuzzing" ] || wait "$fuzzing"
 }
@@ -135,8 +146,7 @@ case "${1:-}" in
 esac
 
 tools/setup.sh
-step "building"
-build release
+builds
 sanitized
 step "all unit and golden tests"
 ctest --preset release -j "$(nproc)"
