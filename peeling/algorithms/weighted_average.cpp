@@ -5,7 +5,7 @@
 // Passes     1. An approximation: exact where all fragments of a pixel have the same colour and alpha.
 // Invariant  sums.rgb = sum of c a, sums.a = sum of a, count = fragments, in submission order and in the targets' precision.
 // By default the programs below are the definition and do not run. Outside literal execution, and where nothing is
-//            textured, the rasterizer's rows add straight into fp16 targets (pipeline/stages/sum_rows.h;
+//            textured, the rasterizer's rows add straight into fp16 and binary32 targets (pipeline/stages/sum_rows.h;
 //            Region::draw_sums chooses); the stored words of an 8-bit frame are resolved by average_words.h. Both need
 //            AVX2 and half conversion, both are proved equal to the programs by tests/peeling/execution_test.cpp.
 #include "peeling/algorithms/runs.h"

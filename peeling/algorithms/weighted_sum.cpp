@@ -25,7 +25,7 @@ void weighted_sum(Region& region) {
     add.blend[0] = blend_mode::sum;
     add.needs.shader_z = add.needs.code = false;
     region.begin_iteration();
-    static_cast<void>(region.draw(add, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+    static_cast<void>(region.draw_sums(add, [](const FragmentBatch& in, const Loads&, Outputs& out) {
         premultiply(in.color, out.color[0], lanes(in));
     }));
     PassState resolve;

@@ -64,8 +64,8 @@ Drawn Region::draw_depth(const PassState& state) {
     return drawn;
 }
 
-// Rows add halves to nearest, of colours by exact planes, without texture or shadow (execution.md 7). All else, and
-// sums into binary32, run the program.
+// Rows add halves to nearest, and binary32, of colours by exact planes, without texture or shadow (execution.md 7). All else runs the
+// program.
 bool Region::sums_suit_rows(const PassState& state) {
     const auto is_sum = [&](std::size_t k, Format format) {
         return is_one_sample(state.color[k]) && storage(state.color[k]).format() == format &&
@@ -74,8 +74,12 @@ bool Region::sums_suit_rows(const PassState& state) {
     const PreparedDraw& list = *frame_.transparent;
     const bool is_tested = state.depth == DepthTest{.enabled = true, .func = CompareFunc::less, .write = false};
     const bool has_count_target = state.color[1].exists();
-    return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) && is_sum(0, Format::rgba16f) &&
-           (!has_count_target || is_sum(1, Format::r16f)) && profile().half_rounding == HalfRounding::nearest_even &&
+    const auto are_sums = [&](Format sums, Format count) {
+        return is_sum(0, sums) && (!has_count_target || is_sum(1, count));
+    };
+    return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) &&
+           (are_sums(Format::rgba32f, Format::r32f) ||
+            (are_sums(Format::rgba16f, Format::r16f) && profile().half_rounding == HalfRounding::nearest_even)) &&
            profile().raster.color == rasterizer::ColorInterpolation::exact_plane && may_walk_rows(list) &&
            draws_rows(state, list) && list.needs.shadow == 0 && !needs_of_tile(list).texcoord;
 }
@@ -85,9 +89,11 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     begin_pass(state, PassKind::geometry);
     const bool is_open = depth_outcome(state, list) == DepthOutcome::open, has_count_target = state.color[1].exists();
     const Texels sums = at(state.color[0]).texels(0);
-    const SumPlanes planes{{sums.plane(0).words, sums.plane(1).words},
-                           has_count_target ? at(state.color[1]).texels(0).plane(0).words : nullptr,
-                           is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
+    SumPlanes planes{sums.words() == 4 ? SumWords::binary32 : SumWords::halves,
+                     {},
+                     has_count_target ? at(state.color[1]).texels(0).plane(0).words : nullptr,
+                     is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
+    for (std::size_t word = 0; word < sums.words(); ++word) planes.sums[word] = sums.plane(word).words;
     const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
                                                      rect_, planes, profile().denormals == DenormalRule::flush);
     count_rows(state, rows);

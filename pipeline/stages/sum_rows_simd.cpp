@@ -44,40 +44,64 @@ HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) 
     hn::BlendedStore(hn::BitCast(U32{}, hn::DemoteTo(HalfPair{}, sum)), hn::RebindMask(U32{}, covered), U32{}, words);
 }
 
-// Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered
-// lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same half,
-// whatever they are added to) or a sum is NaN: they are done for rows that have one.
+// How sums lie in halves.
 template <bool flushes>
-HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, std::uint32_t* red_green, std::uint32_t* blue_alpha) {
-    const F32 d;
-    if constexpr (flushes) {
-        const hn::RebindToSigned<U32> integers;
-        const auto signs = hn::Or(hn::Or(hn::BitCast(integers, source[0]), hn::BitCast(integers, source[1])),
-                                  hn::Or(hn::BitCast(integers, source[2]), hn::BitCast(integers, source[3])));
-        const auto negative = hn::RebindMask(d, hn::Lt(signs, hn::Zero(integers)));
-        if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(covered, negative))))
-            for (V32& v : source) v = flushed(U32{}, v);
+struct HalfSums {
+    // Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered
+    // lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same half,
+    // whatever they are added to) or a sum is NaN: they are done for rows that have one.
+    static HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
+        const F32 d;
+        if constexpr (flushes) {
+            const hn::RebindToSigned<U32> integers;
+            const auto signs = hn::Or(hn::Or(hn::BitCast(integers, source[0]), hn::BitCast(integers, source[1])),
+                                      hn::Or(hn::BitCast(integers, source[2]), hn::BitCast(integers, source[3])));
+            const auto negative = hn::RebindMask(d, hn::Lt(signs, hn::Zero(integers)));
+            if (HWY_UNLIKELY(!hn::AllFalse(d, hn::And(covered, negative))))
+                for (V32& v : source) v = flushed(U32{}, v);
+        }
+        VPair low = hn::Add(paired(source[0], source[1]), loaded(planes.sums[0] + pixel));
+        VPair high = hn::Add(paired(source[2], source[3]), loaded(planes.sums[1] + pixel));
+        // One test for both: NaN where either sum is one, and where infinities of both signs meet.
+        const VPair both = hn::Add(low, high);
+        if (HWY_UNLIKELY(!hn::AllTrue(Pair{}, hn::Eq(both, both)))) {
+            for (VPair* v : {&low, &high}) *v = canonical(hn::RebindToUnsigned<Pair>{}, *v);
+        }
+        store(low, covered, planes.sums[0] + pixel);
+        store(high, covered, planes.sums[1] + pixel);
     }
-    VPair low = hn::Add(paired(source[0], source[1]), loaded(red_green));
-    VPair high = hn::Add(paired(source[2], source[3]), loaded(blue_alpha));
-    // One test for both: NaN where either sum is one, and where infinities of both signs meet.
-    const VPair both = hn::Add(low, high);
-    if (HWY_UNLIKELY(!hn::AllTrue(Pair{}, hn::Eq(both, both)))) {
-        for (VPair* v : {&low, &high}) *v = canonical(hn::RebindToUnsigned<Pair>{}, *v);
+
+    // Counts one more in the low halves of words. NaN comes out as it does above.
+    static HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
+        const F32 d;
+        V32 sum = hn::Add(half_values(U32{}, hn::LoadU(U32{}, words)), hn::Set(d, 1.0f));
+        if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum)))) sum = canonical(U32{}, sum);
+        hn::BlendedStore(half_codes(U32{}, sum), hn::RebindMask(U32{}, covered), U32{}, words);
     }
-    store(low, covered, red_green);
-    store(high, covered, blue_alpha);
-}
+};
 
-// Counts one more in the low halves of words. NaN comes out as it does above.
-HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
-    const F32 d;
-    V32 sum = hn::Add(half_values(U32{}, hn::LoadU(U32{}, words)), hn::Set(d, 1.0f));
-    if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum)))) sum = canonical(U32{}, sum);
-    hn::BlendedStore(half_codes(U32{}, sum), hn::RebindMask(U32{}, covered), U32{}, words);
-}
+// How they lie in words of their own: combine<add> of blend_float.h on each.
+template <bool flushes>
+struct FloatSums {
+    static HWY_INLINE V32 kept(V32 v) {
+        if constexpr (flushes) return flushed(U32{}, v);
+        return v;
+    }
+    static HWY_INLINE void add_to(V32 source, raster::RowMask covered, std::uint32_t* words) {
+        const U32 d;
+        const V32 stored = hn::BitCast(F32{}, hn::LoadU(d, words));
+        const V32 sum = canonical(d, kept(hn::Add(kept(source), kept(stored))));
+        hn::BlendedStore(hn::BitCast(d, sum), hn::RebindMask(d, covered), d, words);
+    }
+    static HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
+        for (std::size_t c = 0; c < 4; ++c) add_to(source[c], covered, planes.sums[c] + pixel);
+    }
+    static HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
+        add_to(hn::Set(F32{}, 1.0f), covered, words);
+    }
+};
 
-template <bool is_tested, bool flushes>
+template <bool is_tested, class Sums>
 struct SumOf {
     // The planes of one triangle. Where nothing is tested no depth is computed: is_tested is a constant of the pass.
     template <bool unsnapped>
@@ -102,8 +126,8 @@ struct SumOf {
             V32 color[4];
             color_.template at<unsnapped>(row, b, color);
             for (std::size_t c = 0; c < 3; ++c) color[c] = hn::Mul(color[c], color[3]);
-            add<flushes>(color, covered, planes_.sums[0] + row.pixel, planes_.sums[1] + row.pixel);
-            if (planes_.count != nullptr) count(covered, planes_.count + row.pixel);
+            Sums::add(color, covered, planes_, row.pixel);
+            if (planes_.count != nullptr) Sums::count(covered, planes_.count + row.pixel);
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
             state_.drawn.fragments += pixels;
@@ -129,15 +153,21 @@ struct SumOf {
     };
 };
 
-template <bool is_tested, bool flushes>
+template <bool flushes>
 void add_all(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
              const rasterizer::Rect& region, SumState& state) {
-    raster::RowWalk<SumOf<is_tested, flushes>::template Shade, SumState>{state, geometry, region}.draw(triangles);
+    const auto add_to = [&]<class Sums>(Sums) {
+        const auto draw = [&]<bool is_tested>(std::bool_constant<is_tested>) {
+            raster::RowWalk<SumOf<is_tested, Sums>::template Shade, SumState>{state, geometry, region}.draw(triangles);
+        };
+        state.planes.opaque == nullptr ? draw(std::false_type{}) : draw(std::true_type{});
+    };
+    state.planes.words == SumWords::halves ? add_to(HalfSums<flushes>{}) : add_to(FloatSums<flushes>{});
 }
 
 #else
 
-template <bool is_tested, bool flushes>
+template <bool flushes>
 void add_all(const rasterizer::Geometry&, std::span<const std::uint32_t>, const rasterizer::Rect&, SumState&) {}
 
 #endif
@@ -146,10 +176,7 @@ rasterizer::DepthDrawn add_rows(const rasterizer::Geometry& geometry, std::span<
                                 const rasterizer::Rect& region, const rasterizer::DepthConversion<float>& to_code,
                                 double units, const SumPlanes& planes, bool flushes) {
     SumState state{planes, to_code, units};
-    if (planes.opaque == nullptr && flushes) add_all<false, true>(geometry, triangles, region, state);
-    if (planes.opaque == nullptr && !flushes) add_all<false, false>(geometry, triangles, region, state);
-    if (planes.opaque != nullptr && flushes) add_all<true, true>(geometry, triangles, region, state);
-    if (planes.opaque != nullptr && !flushes) add_all<true, false>(geometry, triangles, region, state);
+    flushes ? add_all<true>(geometry, triangles, region, state) : add_all<false>(geometry, triangles, region, state);
     return state.drawn;
 }
 
