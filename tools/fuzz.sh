@@ -57,7 +57,7 @@ fuzz_by_afl() {
     AFL_NO_UI=1 AFL_NO_AFFINITY=1 AFL_SKIP_CPUFREQ=1 AFL_I_DONT_CARE_ABOUT_MISSING_CRASHES=1 \
         afl-fuzz -V "$seconds" -m none -t 10000 -G "$(length_of "$target")" -i "$kept/$target" -o "build/afl/out/$target" -- "$program" \
         >"build/afl/$target.log" 2>&1 || { tail -n 20 "build/afl/$target.log" >&2; exit 1; }
-    find "build/afl/out/$target/default/queue" -name 'id:*' ! -name '*orig:*' -exec cp -t "build/fuzz/inputs/$target" {} +
+    find "build/afl/out/$target/default/queue" -maxdepth 1 -name 'id:*' ! -name '*orig:*' -exec cp -t "build/fuzz/inputs/$target" {} +
     find "build/afl/out/$target/default/crashes" "build/afl/out/$target/default/hangs" -name 'id:*' -exec cp -t build/fuzz/faults {} +
     echo "$target: $(afl_stat "$target" execs_done) inputs in $(afl_stat "$target" run_time) s by AFL++, $(afl_stat "$target" corpus_found) new paths," \
         "$(afl_stat "$target" saved_crashes) crashes, $(afl_stat "$target" saved_hangs) hangs; build/afl/$target.log"
