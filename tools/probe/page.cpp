@@ -12,11 +12,11 @@ void put(std::string& page, std::string_view mark, std::string_view text) {
 
 }  // namespace
 
-// A kit has no '<' that could end the element that holds it.
-std::string page_of(const std::vector<Item>& items) {
+// The element that holds the kit ends at "</", which no text of a kit has.
+std::string page_of(const std::vector<Item>& items, const std::vector<Operation>& operations) {
     std::string page{probe_html()};
     put(page, "/*SCRIPT*/", probe_js());
-    put(page, "/*KIT*/", to_json(items));
+    put(page, "/*KIT*/", to_json(items, operations));
     return page;
 }
 
