@@ -137,7 +137,7 @@ Operation shadow(const char* name, const char* format_name, DepthFormat format) 
     std::vector<Words> inputs;
     Dice dice{41};
     for (std::uint32_t i = 0; i < 64; ++i) {
-        const auto depth = static_cast<double>(dice.next()) * 0x1p-32;
+        const auto depth = i == 63 ? 1.0 : static_cast<double>(dice.next()) * 0x1p-32;
         const std::uint32_t code =
             is_float ? as_word(static_cast<float>(depth)) : static_cast<std::uint32_t>(depth * greatest);
         texture.texels.push_back(code);
@@ -148,7 +148,7 @@ Operation shadow(const char* name, const char* format_name, DepthFormat format) 
         }
     }
     for (const std::uint32_t r : {0xbf800000u, 0x80000000u, 0x3f800001u, 0x40000000u, 0x7f800000u, 0xff800000u})
-        inputs.push_back({5, r, texture.texels[5], 0});
+        for (const std::uint32_t texel : {5u, 63u}) inputs.push_back({texel, r, texture.texels[texel], 0});
     const auto stored = [is_float, greatest](const Words& a) {
         return is_float ? double{as_float(a[2])} : a[2] / greatest;
     };

@@ -4,10 +4,9 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/support/own_folder.h"
 #include "tools/probe/kit.h"
 #include "tools/probe/operation_findings.h"
 #include "tools/probe/pack.h"
@@ -102,10 +101,10 @@ TEST_CASE("positions of two programs are counted alike one by one") {
 }
 
 TEST_CASE("answers to operations are read as they were written; a pack without any, or of others, is told apart") {
-    const strata::testing::TemporaryFolder folder;
+    const strata::test::OwnFolder folder;
     ProbePack pack{.made_by = "test", .kit_digest = digest(std::vector<Item>{})};
-    const std::string without = (folder.path() / "without").string(), with = (folder.path() / "with").string(),
-                      other = (folder.path() / "other").string();
+    const std::string without = folder.path() + "/without", with = folder.path() + "/with",
+                      other = folder.path() + "/other";
     write_pack(pack, {}, without);
     CHECK(read_pack(without, {}).operations.empty());
     pack.operations_digest = digest(operations());
