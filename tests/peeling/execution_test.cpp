@@ -1,6 +1,8 @@
 // Nothing that a user sees depends on how a frame was executed: literal execution is the definition.
 #include <catch2/catch.hpp>
 
+#include "peeling/registry.h"
+#include "pipeline/region/region.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/difference.h"
 #include "tests/support/host_environment.h"
@@ -236,6 +238,60 @@ TEST_CASE("alpha for everything, other formats and the whole state of the raster
     options.raster.polygon_offset = {true, 1.5f, 2.0f};
     for (const char* algorithm : {"front_to_back", "dual", "dual_independent", "depth_units", "weighted_average"})
         check_all_ways(scene, {"geforce8_dx101", algorithm}, options);
+}
+
+// Rows and closed forms know colours by exact planes alone, even where depth is theirs.
+TEST_CASE("colours by the chip's weights execute alike on a device whose depth is an exact plane") {
+    strata::pipeline::DeviceProfile profile = *strata::pipeline::find_profile("ideal");
+    profile.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;
+    const TriangleScene scene = random_triangles(80, 8);
+    for (const char* algorithm : {"weighted_average", "weighted_sum", "front_to_back", "dual"})
+        for (const auto format : {strata::pipeline::Format::rgba8, strata::pipeline::Format::rgba32f}) {
+            RenderOptions options = small_frame();
+            options.color_format = format;
+            options.execution = Execution::literal;
+            const auto drawn = [&](const RenderOptions& how) {
+                strata::peeling::Renderer renderer{scene.list, scene.view, profile, how};
+                return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
+            };
+            const RenderResult expected = drawn(options);
+            REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+            options.execution = Execution::replay;
+            INFO(algorithm);
+            CHECK(difference(drawn(options), expected) == "");
+        }
+}
+
+// A clear of the opaque depth is remembered, so that tests against it may be left out; what is copied over it must be tested against.
+TEST_CASE("what an algorithm copies into the opaque depth hides what lies behind it, in every way of running") {
+    FragmentScene scene{20, 12};
+    for (std::size_t p = 0; p < scene.pixels.size(); ++p)
+        scene.pixels[p].fragments = {{p % 2 == 0 ? 0.25f : 0.75f, {1, 1, 1, 1}}};
+    strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("unsorted");
+    algorithm.body = [](strata::pipeline::Region& region) {
+        using namespace strata::pipeline;
+        const Target half = region.make_depth(), result = region.make_color();
+        region.clear(half, {.depth = 0.5f});
+        region.copy(half, region.opaque_depth());
+        region.clear(result, {});
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+        state.depth_target = region.opaque_depth();
+        state.color[0] = result;
+        state.needs.shader_z = state.needs.code = false;
+        static_cast<void>(
+            region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; }));
+        region.publish(result);
+    };
+    for (const auto& running : all_ways_of_running) {
+        RenderOptions options = options_for(scene);
+        running.apply(options);
+        options.audit = false;
+        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const RenderResult result = renderer.render(algorithm, {}, {});
+        for (std::size_t p = 0; p < scene.pixels.size(); ++p)
+            CHECK(result.frame.color.codes[4 * p] == (p % 2 == 0 ? 255u : 0u));
+    }
 }
 
 TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back", "[slow]") {
