@@ -1,6 +1,7 @@
 // What object_sorted and batched spend on objects whose order and depths are known: passes and fragments, counted by hand.
 #include <catch2/catch.hpp>
 
+#include "peeling/registry.h"
 #include "tests/peeling/rendering.h"
 
 namespace {
@@ -55,6 +56,32 @@ TEST_CASE("a batch draws the objects whose depths it may hold, and no others") {
         CHECK(result.frame.passes.geometry == 2 * 5);
         CHECK(result.frame.counters.fragments_rasterized == 2u * 5 * 4 * all.pixels.size());
     }
+}
+
+TEST_CASE("a limit that no tile passes by runs no tile again") {
+    FragmentScene all{16, 16};
+    std::vector<std::vector<float>> depths;
+    for (int i = 1; i <= 8; ++i) depths.push_back({static_cast<float>(i) / 16.0f});
+    const DrawList list = objects_at(depths, all);
+    RenderOptions options = options_for(all);
+    options.tile_size = 8;
+    options.max_passes = 100;
+    const RenderResult result = render(list, {}, {"geforce8", "batched"}, options);
+    CHECK(result.frame.passes.geometry == 2 * 5);
+    CHECK(result.frame.work.reruns == 0);
+}
+
+// One tile of 64 has something; those that are like another are copied, and count as done.
+TEST_CASE("progress comes to the whole where most tiles are copies of an empty one") {
+    FragmentScene scene{64, 64};
+    scene.pixels[100].fragments = {{0.5f, {1, 1, 1, 0.5f}}};
+    RenderOptions options = options_for(scene);
+    options.tile_size = 8;
+    double most = 0.0;
+    strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+    static_cast<void>(renderer.render(*strata::peeling::find_algorithm("front_to_back"),
+                                      [&](double share) { most = std::max(most, share); }));
+    CHECK(most == 1.0);
 }
 
 // Its bounds are one number, and a bound that is no interval is a bound.
