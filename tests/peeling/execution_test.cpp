@@ -294,6 +294,54 @@ TEST_CASE("what an algorithm copies into the opaque depth hides what lies behind
     }
 }
 
+// The second layer's program paints where it stands; its fragments are found by their keys, without rasterizing them again.
+TEST_CASE("a program sees the same window position in a pass that visits what it keeps") {
+    FragmentScene scene{20, 12};
+    for (std::size_t p = 0; p < scene.pixels.size(); ++p)
+        for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})
+            scene.pixels[p].fragments.push_back({depth, {1, 1, 1, 1}});
+    strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("front_to_back");
+    algorithm.closed_form = nullptr;
+    algorithm.body = [](strata::pipeline::Region& region) {
+        using namespace strata::pipeline;
+        const Target first = region.make_depth(), second = region.make_depth(), result = region.make_color();
+        region.clear(result, {});
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = first;
+        state.needs.color = false;
+        state.selection = {.keeps = Keeps::nearest};
+        region.clear(first, {.depth = 1.0f});
+        region.clear(second, {.depth = 1.0f});
+        static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+        state.depth_target = second;
+        state.color[0] = result;
+        state.reads[0] = first;
+        state.selection.behind = first;
+        static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+                out.alive[i] &= mask(in.code[i] > own.depth(0)[i]);
+                out.color[0][0][i] = static_cast<float>(in.x[i]) / 255.0f;
+                out.color[0][1][i] = static_cast<float>(in.y[i]) / 255.0f;
+            }
+        }));
+        region.publish(result);
+    };
+    for (const auto& running : all_ways_of_running) {
+        RenderOptions options = options_for(scene);
+        running.apply(options);
+        options.tile_size = 8;
+        options.audit = false;
+        options.color_format = strata::pipeline::Format::rgba8;
+        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const RenderResult result = renderer.render(algorithm, {}, {});
+        for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
+            CHECK(result.frame.color.codes[4 * p] == p % 20);
+            CHECK(result.frame.color.codes[4 * p + 1] == p / 20);
+        }
+    }
+}
+
 TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back", "[slow]") {
     TriangleScene scene = random_triangles(78, 30);
     scene.view.view = {0.95, 0.02, 0.1, 0, -0.03, 0.99, 0.05, 0, -0.1, -0.04, 0.97, 0, 0.01, 0.02, -0.03, 1};
