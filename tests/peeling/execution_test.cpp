@@ -342,6 +342,41 @@ TEST_CASE("a program sees the same window position in a pass that visits what it
     }
 }
 
+// An unclamped D32F buffer keeps -1, whose word is larger than that of any depth.
+TEST_CASE("nothing passes LESS against a depth below 0, in a pass that visits what it keeps") {
+    FragmentScene scene{20, 12};
+    for (GivenPixel& pixel : scene.pixels)
+        for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})
+            pixel.fragments.push_back({depth, {1, 1, 1, 1}});
+    strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("front_to_back");
+    algorithm.closed_form = nullptr;
+    algorithm.body = [](strata::pipeline::Region& region) {
+        using namespace strata::pipeline;
+        const Target depth = region.make_depth(), result = region.make_color();
+        region.clear(result, {});
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = depth;
+        state.selection = {.keeps = Keeps::nearest};
+        for (const float cleared : {1.0f, -1.0f}) {
+            if (cleared < 0) state.color[0] = result;
+            region.clear(depth, {.depth = cleared});
+            static_cast<void>(region.draw(
+                state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; }));
+        }
+        region.publish(result);
+    };
+    for (const auto& running : all_ways_of_running) {
+        RenderOptions options = options_for(scene);
+        running.apply(options);
+        options.audit = false;
+        options.raster.depth_clamp = false;
+        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const RenderResult result = renderer.render(algorithm, {}, {});
+        CHECK(std::ranges::count(result.frame.color.codes, 0u) == std::ssize(result.frame.color.codes));
+    }
+}
+
 TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back", "[slow]") {
     TriangleScene scene = random_triangles(78, 30);
     scene.view.view = {0.95, 0.02, 0.1, 0, -0.03, 0.99, 0.05, 0, -0.1, -0.04, 0.97, 0, 0.01, 0.02, -0.03, 1};
