@@ -112,7 +112,8 @@ def lines_of_errors(log):
 def build(arguments):
     SOURCE.mkdir(parents=True, exist_ok=True)
     barred = load("barred.json", [])
-    flags = f"-w -Wno-narrowing -I{SOURCE}/tests"
+    # An index beyond an array ends the test, as it does in the sanitized tests.
+    flags = f"-w -Wno-narrowing -I{SOURCE}/tests -D_GLIBCXX_ASSERTIONS -fsanitize=bounds -fno-sanitize-recover=bounds"
     for attempt in range(12):
         write_sources(barred, arguments.sample, arguments.seed)
         print(f"build {attempt + 1}", flush=True)
@@ -293,7 +294,7 @@ def reasons():
     return found
 
 
-LOOKED_AT = 274  # of the sample: tests were written for what survived of these, and for none behind them
+LOOKED_AT = 400  # of the sample: tests were written for what survived of these, and for none behind them
 
 
 def folder_of(row):

@@ -1,6 +1,7 @@
 // Nothing that a user sees depends on how a frame was executed: literal execution is the definition.
 #include <catch2/catch.hpp>
 
+#include "peeling/registry.h"
 #include "tests/peeling/rendering.h"
 #include "tests/support/difference.h"
 #include "tests/support/host_environment.h"
@@ -254,6 +255,28 @@ TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
                     options.alpha = alpha;
                     check_all_ways(scene, {profile, algorithm}, options, chosen);
                 }
+}
+
+// Rows and closed forms know colours by exact planes alone, even where depth is theirs.
+TEST_CASE("colours by the chip's weights execute alike on a device whose depth is an exact plane") {
+    strata::pipeline::DeviceProfile profile = *strata::pipeline::find_profile("ideal");
+    profile.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;
+    const TriangleScene scene = random_triangles(80, 8);
+    for (const char* algorithm : {"weighted_average", "weighted_sum", "front_to_back", "dual"})
+        for (const auto format : {strata::pipeline::Format::rgba8, strata::pipeline::Format::rgba32f}) {
+            RenderOptions options = small_frame();
+            options.color_format = format;
+            options.execution = Execution::literal;
+            const auto drawn = [&](const RenderOptions& how) {
+                strata::peeling::Renderer renderer{scene.list, scene.view, profile, how};
+                return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
+            };
+            const RenderResult expected = drawn(options);
+            REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+            options.execution = Execution::replay;
+            INFO(algorithm);
+            CHECK(difference(drawn(options), expected) == "");
+        }
 }
 
 TEST_CASE("a host with flush-to-zero or another rounding mode gets the same bits, and its environment back", "[slow]") {

@@ -57,6 +57,17 @@ TEST_CASE("targets of a whole frame have every pixel, those of tiles the pixels 
     CHECK(whole == tiled);
 }
 
+// weighted_average's own: sums of two words, a count and a result of one each; nothing of it is kept for a later pass.
+TEST_CASE("targets are those that the algorithm makes when it runs, and lists are the oracle's alone") {
+    RenderOptions literal = options_of(1000, 500);
+    literal.execution = Execution::literal;
+    literal.audit = false;
+    CHECK(need_of("weighted_average", literal).targets >= std::uint64_t{1000} * 500 * 4 * (2 + 1 + 1));
+    CHECK(need_of("depth_units", literal).targets >= std::uint64_t{1000} * 500 * 4 * 2);
+    CHECK(need_of("weighted_average", literal).fragments == 0);
+    CHECK(need_of("a_buffer", literal).fragments >= std::uint64_t{6} * 1000 * 500 * 4);
+}
+
 TEST_CASE("a refused frame needs nothing") { CHECK(need_of("dual", options_of(64, 64), "geforce3").total() == 0); }
 
 TEST_CASE("neither a larger frame nor more threads, memory for fragments, layers or an audit need less") {

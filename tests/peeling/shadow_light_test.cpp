@@ -93,6 +93,29 @@ TEST_CASE("the floor is dark where the blocker stands between it and the light, 
         }
 }
 
+// The eye's first plane keeps what lies right of the window's middle, as the eye sees it. What the light sees it does not cut: the shadow
+// of the blocker's left half still falls on the floor's right half.
+TEST_CASE("a clip plane of the eye cuts what the eye sees and not the light's map") {
+    const DrawList list = floor_and_blocker(AlphaMode::opaque, false);
+    strata::peeling::RenderOptions options;
+    options.width = options.height = size;
+    options.threads = 1;
+    const auto whole = render(list, from_above, {"geforce8", "unsorted"}, options);
+    options.raster.clip_planes[0] = {1, 0, 0, 0};
+    options.raster.clip_plane_count = 1;
+    const auto right = render(list, from_above, {"geforce8", "unsorted"}, options);
+    REQUIRE(right.outcome == strata::peeling::Outcome::done);
+    std::size_t unlike = 0, left = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const std::size_t at = whole.frame.color.index(x, y);
+            if (x > size / 2) unlike += right.frame.color.codes[at] != whole.frame.color.codes[at] ? 1 : 0;
+            if (x < size / 2 - 1) left += right.frame.color.codes[at] != 0 ? 1 : 0;
+        }
+    CHECK(unlike == 0);
+    CHECK(left == 0);
+}
+
 TEST_CASE("transparent surfaces let the light through, and colours in shadow are the same in every execution") {
     const DrawList list = floor_and_blocker(AlphaMode::blend, true);
     strata::peeling::RenderOptions options;

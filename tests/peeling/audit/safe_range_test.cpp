@@ -134,6 +134,26 @@ TEST_CASE("where no epsilon is safe, the named fragments alone exclude each othe
     CHECK(wrong == 0);
 }
 
+// Of D24 codes 20 and 30 with references of 22 and 31: the first hides behind itself from 2 codes on, the second is lost at 11.
+TEST_CASE("an absolute epsilon is safe between the same two numbers however many pixels ask for it") {
+    const std::vector<PathPair> pixel{{0, 0, 20, 22}, {0, 1, 30, 31}};
+    std::vector<PathPair> four;
+    for (std::uint32_t p = 0; p < 4; ++p)
+        for (PathPair pair : pixel) {
+            pair.pixel = p;
+            four.push_back(pair);
+        }
+    const auto format = strata::pipeline::DepthFormat::d24;
+    const SafeAbsolute alone = safe_absolute(pixel, std::vector<std::uint32_t>(1, 1000u), format);
+    CHECK(safe_absolute(four, std::vector<std::uint32_t>(4, 1000u), format) == alone);
+    constexpr double code = 1.0 / 16777215.0;
+    REQUIRE(alone.lowest);
+    REQUIRE(alone.highest);
+    CHECK(*alone.lowest == Approx(2 * code));
+    CHECK(*alone.highest == Approx(11 * code));
+    CHECK(*alone.highest < 11 * code * (1 + 1e-9));
+}
+
 TEST_CASE("without fragments every epsilon is safe, with one layer every one from its difference on") {
     const std::vector<std::uint32_t> opaque{100};
     CHECK(safe_epsilon({}, opaque) == SafeRange{});

@@ -51,6 +51,12 @@ TEST_CASE("a pass needs what its program, its tests and its materials look at, a
     testing.depth.enabled = true;
     CHECK(pass_needs(testing, plain, Effects::needed).code);
     testing = state;
+    testing.needs.reference = true;  // a compared depth is compared with the stored one
+    CHECK(pass_needs(testing, plain, Effects::needed).code);
+    testing = state;
+    testing.depth_unit_count = 1;
+    CHECK(pass_needs(testing, plain, Effects::needed).code);
+    testing = state;
     testing.stencil = {.enabled = true, .two_sided = true, .front = {}, .back = {}};
     CHECK(pass_needs(testing, plain, Effects::needed).facing);
     const MaterialNeeds textured{.texcoord = true};

@@ -176,6 +176,7 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
         PassState state = peel_state(layer, depth);
         FragmentPathProgram program{region, path};
         program.apply(state);
+        CHECK(state.replaces_depth);
         static_cast<void>(region.draw(state, program));
         std::size_t wrong = 0, drawn = 0;
         for (int y = 0; y < height; ++y)
@@ -216,6 +217,7 @@ TEST_CASE("a depth texture that is written by its own pass is a feedback loop") 
     off.combiners = texture_environment({});
     FragmentPathProgram blind{region, off};
     blind.apply(state);
+    CHECK_FALSE(state.replaces_depth);
     CHECK_NOTHROW(region.draw(state, blind));
 }
 

@@ -324,6 +324,19 @@ TEST_CASE("depth clears keep -1 in an unclamped D32F buffer and clamp everywhere
     CHECK(region.storage(depth).depth(0)[0] == 0u);
 }
 
+TEST_CASE("a channel that a read target has not is 0, and alpha 1") {
+    Machine m{stacks({1, 1, 0, 1}), "geforce8"};
+    const Target one = m.region.make(Format::r32f), out = m.region.make(Format::rgba32f);
+    m.region.clear(one, {.color = {0.375f, 0, 0, 0}});
+    m.region.clear(out, {});
+    PassState state;
+    state.reads[0] = one;
+    state.color[0] = out;
+    static_cast<void>(
+        m.region.draw(state, [](const FragmentBatch&, const Loads& own, Outputs& o) { o.color[0] = own.color(0); }));
+    for (const std::uint32_t p : {0u, 1u, 3u}) CHECK(m.region.color(out, p) == Rgba{0.375f, 0, 0, 1});
+}
+
 TEST_CASE("a copy keeps every bit, NaN payloads among them, and is counted") {
     Machine m{FragmentScene{2, 1}, "geforce8"};
     const Target from = m.region.make(Format::rgba32f), to = m.region.make(Format::rgba32f);

@@ -88,6 +88,10 @@ TEST_CASE("a draw list is refused by the name of its first wrong field, what fit
           "draw list: materials[1].alpha_cutoff: expected a finite number, found nan");
     CHECK(refused([](DrawList& l) { l.textures[0].texels.pop_back(); }) ==
           "draw list: textures[0].texels: expected 16 bytes, found 15");
+    CHECK(refused([](DrawList& l) { l.textures[0].width = 0, l.textures[0].texels.clear(); }) ==
+          "draw list: textures[0].width: expected 1 to 16384, found 0");
+    CHECK(refused([](DrawList& l) { l.textures[0].width = 16385; }) ==
+          "draw list: textures[0].width: expected 1 to 16384, found 16385");
     CHECK(refused([](DrawList& l) { l.textures[0].height = 0; }) ==
           "draw list: textures[0].height: expected 1 to 16384, found 0");
     CHECK(refused([](DrawList& l) { l.textures[0].wrap_t = static_cast<TextureWrap>(3); }) ==

@@ -44,6 +44,15 @@ template <std::size_t n>
 
 }  // namespace
 
+TEST_CASE("NV20's finite numbers are all but infinities and NaN of any payload") {
+    for (const std::uint32_t sign : {0u, 0x80000000u}) {
+        for (const std::uint32_t bits : {0u, 1u, 0x007fffffu, 0x00800000u, 0x3f800001u, 0x7f7fffffu})
+            CHECK(nv20::is_finite(std::bit_cast<float>(sign | bits)));
+        for (const std::uint32_t bits : {0x7f800000u, 0x7f800001u, 0x7fc00000u, 0x7fffffffu})
+            CHECK_FALSE(nv20::is_finite(std::bit_cast<float>(sign | bits)));
+    }
+}
+
 TEST_CASE("NV20 multiplies by cutting, flushes denormals, and 0 times anything is +0") {
     Random random{920};
     std::uint64_t wrong = 0;

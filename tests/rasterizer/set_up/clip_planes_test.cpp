@@ -78,6 +78,10 @@ struct PlaneCase {
 
 }  // namespace
 
+TEST_CASE("a clip plane that nobody set keeps everything in front of the eye") {
+    CHECK(ClipPlane{} == ClipPlane{.a = 0, .b = 0, .c = 0, .d = 1});
+}
+
 TEST_CASE(
     "a vertex is outside as many planes as the rule's inequalities say, for every state, and bit 0 is the plane of w",
     "[slow]") {

@@ -100,6 +100,20 @@ TEST_CASE("no fragment of a sliver lies behind the bound of a plane that is step
     CHECK(tally.drawn > 300);
 }
 
+// Corners at 0, 2000 and 4000 on a diagonal, the last a subpixel beside it: an area of 7.8 of products of 8,000,000 may be off by all of
+// itself in binary32, and so may the slope.
+TEST_CASE("a sliver whose area binary32 does not know has no bound") {
+    const std::uint32_t only = 0;
+    for (const int beside : {1, 4000}) {
+        const SetupTriangle sliver =
+            window_triangle({{{0, 0}, {2000 << 8, 2000 << 8}, {4000 << 8, (4000 << 8) + beside}}}, 8, {0.0, 0.5, 0.25});
+        const RasterRules rules{
+            .subpixel_bits = 8, .plane_origin = PlaneOrigin::unsnapped, .plane_rule = PlaneRule::reciprocal_area};
+        const Geometry geometry = window_geometry({sliver}, 4096, 4096, rules);
+        CHECK(std::isinf(depth_bound(geometry, {&only, 1})) == (beside == 1));
+    }
+}
+
 TEST_CASE("the bound of several triangles is the greatest of theirs, and of none it is below every depth") {
     const Geometry geometry = set_up(random_soup(901, 20, SoupKind::perspective), scene_state(40, 40), {}, 1);
     double greatest = -std::numeric_limits<double>::infinity();

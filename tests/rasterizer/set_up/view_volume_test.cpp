@@ -148,9 +148,9 @@ TEST_CASE("vertices are projected with one rounding or two, and those that clipp
 }
 
 TEST_CASE("a corner that clipping made is projected as such, the others of its polygon as given") {
+    const ClipVolume volume = GENERATE(ClipVolume::view_volume, ClipVolume::guard_band);
     std::uint64_t unlike = 0, wrong = 0, given = 0;
-    RasterRules rules{
-        .clip = ClipVolume::view_volume, .w_divide = WDivide::reciprocal, .viewport = ViewportArithmetic::fused_given};
+    RasterRules rules{.clip = volume, .w_divide = WDivide::reciprocal, .viewport = ViewportArithmetic::fused_given};
     const RasterState state = scene_state(333, 77);
     const TriangleSoup soup = random_soup(513, 200, SoupKind::needs_clipping);
     const Geometry geometry = set_up(soup, state, rules, 1);

@@ -227,13 +227,16 @@ TEST_CASE("r and q are clipped with their vertex and drop a triangle over whose 
     soup.runs = {{0, 3, 0, 0, true, false}};
     add_rq(soup, state, {});
     CHECK(soup.extras.values == std::vector<float>{0.5f, 1, 0.5f, 1, 3, 2});  // (z + w) / 2
-    const Geometry clipped = set_up(soup, state, {}, 1);                      // cut where z = w, at t = 1/3
-    REQUIRE(clipped.counters.clipped == 1);
-    REQUIRE(clipped.extras.values.size() == 2 * clipped.vertices.size());
-    for (std::size_t i = 0; i < clipped.vertices.size(); ++i) {
-        const ClipVertex& v = clipped.vertices[i];
-        CHECK(clipped.extras.of(i)[1] == Approx(v.w));
-        CHECK(clipped.extras.of(i)[0] == Approx((v.z + v.w) / 2));
+    for (const ClipVolume volume : {ClipVolume::guard_band, ClipVolume::view_volume}) {
+        const Geometry clipped = set_up(soup, state, {.clip = volume}, 1);  // cut where z = w, at t = 1/3
+        REQUIRE(clipped.counters.clipped == 1);
+        REQUIRE(clipped.extras.values.size() == 2 * clipped.vertices.size());
+        CHECK(clipped.vertices.size() > 3);
+        for (std::size_t i = 0; i < clipped.vertices.size(); ++i) {
+            const ClipVertex& v = clipped.vertices[i];
+            CHECK(clipped.extras.of(i)[1] == Approx(v.w));
+            CHECK(clipped.extras.of(i)[0] == Approx((v.z + v.w) / 2));
+        }
     }
     soup.extras.values[0] = 0x1p120f;
     soup.vertices[0].w = 0x1p-20f;

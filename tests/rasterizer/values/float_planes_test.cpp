@@ -167,6 +167,15 @@ TEST_CASE("a fused multiply-add a hair beside the middle of two numbers goes to 
     CHECK(fused_multiply_add(up, above, least) == next);
 }
 
+// 8815417 * 15964927 = 2^47 + 2^19 - 57. The sum 1 + 2^-24 + 2^-52 - 57 * 2^-71 rounds to an odd binary64 above the middle of two
+// binary32, and stays there: one step down it would be that middle, which goes to 1.
+TEST_CASE("a fused multiply-add leaves a sum that is odd already where it is") {
+    const float a = 8815417 * 0x1p-24f, b = 15964927 * 0x1p-47f;
+    CHECK(fused_multiply_add(a, b, 1.0f) == 1.0f + 0x1p-23f);
+    CHECK(fused_multiply_add(-a, b, -1.0f) == -1.0f - 0x1p-23f);
+    CHECK(std::fma(a, b, 1.0f) == 1.0f + 0x1p-23f);
+}
+
 TEST_CASE("a fused multiply-add of every three special values is std::fma's: infinities, zeros, denormals, NaN") {
     constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     constexpr std::array<float, 13> special{inf,    -inf,   0.0f,    -0.0f,          1.0f, -1.0f, 3e38f,

@@ -1,0 +1,130 @@
+// Passes that no algorithm of the papers makes, written against Region as a user would: the same pixels in every way of running, and
+// those that the passes' own words ask for.
+#include <catch2/catch.hpp>
+
+#include "peeling/registry.h"
+#include "pipeline/region/region.h"
+#include "tests/peeling/rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+
+}  // namespace
+
+// A clear of the opaque depth is remembered, so that tests against it may be left out; what is copied over it must be tested against.
+TEST_CASE("what an algorithm copies into the opaque depth hides what lies behind it, in every way of running") {
+    FragmentScene scene{20, 12};
+    for (std::size_t p = 0; p < scene.pixels.size(); ++p)
+        scene.pixels[p].fragments = {{p % 2 == 0 ? 0.25f : 0.75f, {1, 1, 1, 1}}};
+    strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("unsorted");
+    algorithm.body = [](strata::pipeline::Region& region) {
+        using namespace strata::pipeline;
+        const Target half = region.make_depth(), result = region.make_color();
+        region.clear(half, {.depth = 0.5f});
+        region.copy(half, region.opaque_depth());
+        region.clear(result, {});
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = false};
+        state.depth_target = region.opaque_depth();
+        state.color[0] = result;
+        state.needs.shader_z = state.needs.code = false;
+        static_cast<void>(
+            region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; }));
+        region.publish(result);
+    };
+    for (const auto& running : all_ways_of_running) {
+        RenderOptions options = options_for(scene);
+        running.apply(options);
+        options.audit = false;
+        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const RenderResult result = renderer.render(algorithm, {}, {});
+        for (std::size_t p = 0; p < scene.pixels.size(); ++p)
+            CHECK(result.frame.color.codes[4 * p] == (p % 2 == 0 ? 255u : 0u));
+    }
+}
+
+// The second layer's program paints where it stands; its fragments are found by their keys, without rasterizing them again.
+TEST_CASE("a program sees the same window position in a pass that visits what it keeps") {
+    FragmentScene scene{20, 12};
+    for (std::size_t p = 0; p < scene.pixels.size(); ++p)
+        for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})
+            scene.pixels[p].fragments.push_back({depth, {1, 1, 1, 1}});
+    strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("front_to_back");
+    algorithm.closed_form = nullptr;
+    algorithm.body = [](strata::pipeline::Region& region) {
+        using namespace strata::pipeline;
+        const Target first = region.make_depth(), second = region.make_depth(), result = region.make_color();
+        region.clear(result, {});
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = first;
+        state.needs.color = false;
+        state.selection = {.keeps = Keeps::nearest};
+        region.clear(first, {.depth = 1.0f});
+        region.clear(second, {.depth = 1.0f});
+        static_cast<void>(region.draw(state, [](const FragmentBatch&, const Loads&, Outputs&) {}));
+        state.depth_target = second;
+        state.color[0] = result;
+        state.reads[0] = first;
+        state.selection.behind = first;
+        static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+                out.alive[i] &= mask(in.code[i] > own.depth(0)[i]);
+                out.color[0][0][i] = static_cast<float>(in.x[i]) / 255.0f;
+                out.color[0][1][i] = static_cast<float>(in.y[i]) / 255.0f;
+            }
+        }));
+        region.publish(result);
+    };
+    for (const auto& running : all_ways_of_running) {
+        RenderOptions options = options_for(scene);
+        running.apply(options);
+        options.tile_size = 8;
+        options.audit = false;
+        options.color_format = strata::pipeline::Format::rgba8;
+        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const RenderResult result = renderer.render(algorithm, {}, {});
+        for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
+            CHECK(result.frame.color.codes[4 * p] == p % 20);
+            CHECK(result.frame.color.codes[4 * p + 1] == p / 20);
+        }
+    }
+}
+
+// An unclamped D32F buffer keeps -1, whose word is larger than that of any depth.
+TEST_CASE("nothing passes LESS against a depth below 0, in a pass that visits what it keeps") {
+    FragmentScene scene{20, 12};
+    for (GivenPixel& pixel : scene.pixels)
+        for (const float depth : {0.75f, 0.25f, 0.5f, 0.875f, 0.625f, 0.9375f})
+            pixel.fragments.push_back({depth, {1, 1, 1, 1}});
+    strata::peeling::Algorithm algorithm = *strata::peeling::find_algorithm("front_to_back");
+    algorithm.closed_form = nullptr;
+    algorithm.body = [](strata::pipeline::Region& region) {
+        using namespace strata::pipeline;
+        const Target depth = region.make_depth(), result = region.make_color();
+        region.clear(result, {});
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = depth;
+        state.selection = {.keeps = Keeps::nearest};
+        for (const float cleared : {1.0f, -1.0f}) {
+            if (cleared < 0) state.color[0] = result;
+            region.clear(depth, {.depth = cleared});
+            static_cast<void>(region.draw(
+                state, [](const FragmentBatch& in, const Loads&, Outputs& out) { out.color[0] = in.color; }));
+        }
+        region.publish(result);
+    };
+    for (const auto& running : all_ways_of_running) {
+        RenderOptions options = options_for(scene);
+        running.apply(options);
+        options.audit = false;
+        options.raster.depth_clamp = false;
+        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const RenderResult result = renderer.render(algorithm, {}, {});
+        CHECK(std::ranges::count(result.frame.color.codes, 0u) == std::ssize(result.frame.color.codes));
+    }
+}
