@@ -14,14 +14,14 @@ using namespace pipeline;
 namespace {
 
 // Whether a path takes r and q of the vertices.
-bool is_quotient(std::optional<rasterizer::DepthPath> path) {
+bool has_quotient(std::optional<rasterizer::DepthPath> path) {
     return path == rasterizer::DepthPath::perspective_rq || path == rasterizer::DepthPath::depth_replace;
 }
 
 }  // namespace
 
 bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
-    return is_quotient(depth.path) || is_quotient(depth.reference);
+    return has_quotient(depth.path) || has_quotient(depth.reference);
 }
 
 PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {

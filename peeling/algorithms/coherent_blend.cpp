@@ -18,10 +18,9 @@ namespace {
 // rgb = source 1 x destination alpha: the depth before; alpha = the new one. As printed, (ZERO, DST_ALPHA), rgb becomes the
 // product of all depths before: too small from the third update on, and the pixel stalls (E16).
 Blend shift(bool published) {
-    const auto zero = BlendFactor::zero, dst_alpha = BlendFactor::dst_alpha;
-    return {.enabled = true,
-            .color = {BlendEquation::add, published ? zero : dst_alpha, published ? dst_alpha : zero},
-            .alpha = {BlendEquation::add, BlendFactor::one, zero}};
+    using enum BlendFactor;
+    const BlendTerm as_printed{BlendEquation::add, zero, dst_alpha}, resolved{BlendEquation::add, dst_alpha, zero};
+    return {.enabled = true, .color = published ? as_printed : resolved, .alpha = {BlendEquation::add, one, zero}};
 }
 
 Drawn find_nearest(CoherentPeel& peel) {

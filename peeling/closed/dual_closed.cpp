@@ -359,7 +359,7 @@ bool peel_region(Region& region) {
     shortcuts.book(of_copy(bytes_a_color, area) + of_clear(bytes_a_color + rg32f_bytes, area),
                    {.copies = 1});  // front, back, min-max
     shortcuts.book(of_initialize(*fragments), {.geometry = 1});
-    for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
+    for (std::size_t passes = 1;; ++passes) {  // no limit: peels_to_the_end()
         region.begin_iteration();
         shortcuts.book(of_peel(*fragments, area, bytes_a_color), {.geometry = 1, .full_screen = 1});
         if (!region.any(RegionShortcuts::query_of(depths.left(passes)), Idle::steady)) break;

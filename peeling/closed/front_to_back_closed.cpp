@@ -310,7 +310,7 @@ class OtherBlocks {
 // Goes through the passes as the algorithm does, with the same questions in the same order; only the books are written.
 void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
     PassCounters counters{region, fragments, tallies};
-    for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
+    for (std::size_t pass = 1;; ++pass) {  // no limit: peels_to_the_end()
         region.begin_iteration();
         RegionShortcuts{region}.book(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
         if (!region.any(RegionShortcuts::query_of(counters.passed()), Idle::when_zero)) break;

@@ -19,7 +19,7 @@ struct Side {
     int sign;
 };
 
-[[nodiscard]] int sign_of(double v) noexcept { return v > 0 ? 1 : v < 0 ? -1 : 0; }
+[[nodiscard]] int sign_of(double v) noexcept { return int{v > 0} - int{v < 0}; }
 
 // The determinant of (a, b, p) with all products written out.
 [[nodiscard]] int exact_sign(const RealCorner& a, const RealCorner& b, double x, double y) noexcept {

@@ -21,9 +21,9 @@ constexpr DepthTest leaves_the_nearest{.enabled = true, .func = CompareFunc::les
 bool routes_arrivals(const PassState& state) {
     constexpr auto decr = StencilOp::decr;
     const StencilFace& face = state.stencil.front;
-    const bool counts_down = face.func == CompareFunc::equal && face.func_mask == 0xff && face.write_mask == 0xff &&
-                             face.fail == decr && face.depth_fail == decr && face.pass == decr;
-    return state.stencil.enabled && !state.stencil.two_sided && counts_down && face.ref > 0 &&
+    const StencilFace counts_down{
+        .func = CompareFunc::equal, .ref = face.ref, .fail = decr, .depth_fail = decr, .pass = decr};
+    return state.stencil.enabled && !state.stencil.two_sided && face == counts_down && face.ref > 0 &&
            state.saturates_by_design && state.sample_mask == 0xff && state.selection.outside == Outside::discarded &&
            state.depth == DepthTest{.enabled = true, .func = CompareFunc::always, .write = true};
 }
@@ -72,11 +72,10 @@ bool has_foreign_stages(const PassState& state) {
            state.alpha.enabled != is_killed_by_alpha || state.depth_unit_count != (is_killed_by_unit ? 1 : 0);
 }
 
-// Whether selections of this kind look at stored codes alone.
+// Whether selections of this kind look at stored codes alone: where they know what a depth test leaves, or what registers hold.
 bool wants_stored_codes(const PassState& state) {
     const FragmentSelection& s = state.selection;
-    return s.keeps == Keeps::arrivals || s.keeps == Keeps::previous || s.keeps == Keeps::last_two ||
-           s.keeps == Keeps::last_run || state.stencil.enabled || s.behind_value.target.exists() ||
+    return state.depth.enabled || s.keeps == Keeps::last_run || s.behind_value.target.exists() ||
            s.before_value.target.exists();
 }
 

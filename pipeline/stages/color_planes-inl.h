@@ -46,7 +46,7 @@ class ColorPlanes {
         for (const Channels& v : value_) colorful |= (bits_of(v[0]) ^ bits_of(v[1])) | (bits_of(v[0]) ^ bits_of(v[2]));
         is_flat_ = varying == 0;
         is_grey_ = colorful == 0;
-        has_w_ = !is_flat_ && !(w_[0] == 1.0f && w_[1] == 1.0f && w_[2] == 1.0f);
+        has_w_ = !is_flat_ && w_ != Corners{1.0f, 1.0f, 1.0f};
         find_planes(triangle.weights.is_exact());
     }
 

@@ -48,7 +48,7 @@ struct PieceShape {
     const std::array position{a->unsnapped, b->unsnapped, c->unsnapped};
     if (!FloatSpans{position}.is_drawn()) return {0, {}};
     const float area = float_area(position);
-    return {area > 0.0f ? 1 : area < 0.0f ? -1 : 0, float_box(position)};
+    return {area > 0.0f ? 1 : -1, float_box(position)};  // what is drawn has an area
 }
 
 }  // namespace

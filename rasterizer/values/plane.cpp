@@ -90,7 +90,7 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, float* _
     const FilterPlane filter{plane, lanes.is_exact};
     const bool unsure = scalar::round(filter, lanes.weight1, lanes.weight2, count, out);
     // One pass finds whether any lane is open; nearly always none is.
-    if (!unsure || !lanes.is_exact) return 0;
+    if (!unsure) return 0;  // an inexact plane is sure of all: its filter has no error
     const auto exact = [&](const EdgeValues& e) { return exact_float(plane, e, lanes.edges->area()); };
     return decide(filter, 0.0, filter.error, ToBinary32{}, exact, lanes, out);
 }
@@ -115,7 +115,7 @@ int round_plane(const RationalPlane& plane, const TriangleLanes& lanes, CodeRoun
         unsure |= ends.difference();
         out[i] = ends.low;
     }
-    if (unsure == 0 || !lanes.is_exact) return 0;
+    if (unsure == 0) return 0;
     const auto exact = [&](const EdgeValues& e) { return exact_code(plane, e, lanes.edges->area(), rounding); };
     return decide(filter, half, error, to_code, exact, lanes, out);
 }

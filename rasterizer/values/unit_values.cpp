@@ -38,7 +38,7 @@ int FragmentValues::fill_units(const DrawnTriangle& triangle, int first, Fragmen
     int fallbacks = 0;
     for (std::size_t u = 0; u < texture_units; ++u) {
         AttributeLanes varying;
-        varying.has_w = !(w[0] == 1.0f && w[1] == 1.0f && w[2] == 1.0f);
+        varying.has_w = w != std::array{1.0f, 1.0f, 1.0f};
         varying.inverse_w = {{w[0], w[1], w[2]}};
         std::array<CutCoordinate, 4> cut_ones;
         std::size_t cut_count = 0;

@@ -1,0 +1,216 @@
+// Frames that come seldom: sums and counts that stop growing, colours that MAX does not order, depths that blending flushes, limits of a
+// pass or two, lists in parts, ties that are equal in everything. Models: literal execution; pixels counted by hand; the same frame with
+// room enough.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "peeling/audit/image_error.h"
+#include "peeling/programs/average.h"
+#include "peeling/programs/fragment_lists.h"
+#include "peeling/programs/tie_order.h"
+#include "tests/peeling/rendering.h"
+#include "tests/support/random_triangles.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::peeling;
+using namespace strata::pipeline;
+
+// `layers` fragments at one pixel of 8 by 8, one at some others.
+FragmentScene one_deep_pixel(int layers) {
+    FragmentScene scene{8, 8};
+    for (int i = 0; i < layers; ++i) scene.pixels[19].fragments.push_back({0.5f, {0.25f, 0.5f, 1, 0.25f}});
+    for (const std::size_t p : {2u, 40u, 41u}) scene.pixels[p].fragments = {{0.25f, {1, 0, 0, 0.5f}}};
+    return scene;
+}
+
+RenderResult on(const DeviceProfile& profile, const DrawList& list, const char* algorithm, const RenderOptions& options,
+                const View& view = {}) {
+    Renderer renderer{list, view, profile, options};
+    return renderer.render(*find_algorithm(algorithm));
+}
+
+// The same frame literally and in tiles: pictures, books and audits.
+void check_both_ways(const DeviceProfile& profile, const DrawList& list, const char* algorithm, RenderOptions options,
+                     const View& view = {}) {
+    options.execution = Execution::literal;
+    const RenderResult literal = on(profile, list, algorithm, options, view);
+    options.execution = Execution::replay;
+    options.tile_size = 8;
+    const RenderResult tiled = on(profile, list, algorithm, options, view);
+    INFO(algorithm << " on " << profile.name);
+    REQUIRE(literal.refusal.has_value() == tiled.refusal.has_value());
+    CHECK(literal.frame.color == tiled.frame.color);
+    CHECK(literal.frame.counters == tiled.frame.counters);
+    CHECK(literal.frame.passes == tiled.frame.passes);
+    CHECK(literal.frame.diagnostics == tiled.frame.diagnostics);
+    CHECK(literal.audit == tiled.audit);
+}
+
+}  // namespace
+
+TEST_CASE("a count of 2048 and a sum that is infinite are reported at their pixels, on every instruction set") {
+    const DeviceProfile& profile = *find_profile("geforce8");
+    for (const strata::Simd simd : strata::available_simd())
+        for (const Execution execution : {Execution::literal, Execution::replay}) {
+            RenderOptions options = options_for(one_deep_pixel(1));
+            options.simd = simd;
+            options.execution = execution;
+            options.tile_size = 8;
+            const auto stuck = [&](int layers) {
+                return on(profile, draw_list(one_deep_pixel(layers)), "weighted_average", options);
+            };
+            INFO("set " << static_cast<int>(simd));
+            CHECK(diagnosed(stuck(2047), Fault::half_saturated) == 0);
+            const RenderResult full = stuck(2048);
+            CHECK(diagnosed(full, Fault::half_saturated) == 1);
+            for (const Diagnostic& d : full.frame.diagnostics)
+                if (d.fault == Fault::half_saturated) CHECK((d.first_x == 3 && d.first_y == 2));
+            options.alpha = 3e5f;  // a sum of one such alpha, 75,000, is beyond the halves
+            CHECK(diagnosed(stuck(1), Fault::half_saturated) == 4);
+            options.average_count = Format::r32f;
+            CHECK(diagnosed(stuck(1), Fault::half_saturated) == 4);
+            options.alpha.reset();
+            CHECK(diagnosed(stuck(2048), Fault::half_saturated) == 0);
+        }
+}
+
+TEST_CASE("a binary32 count is a whole number up to 2^30") {
+    CHECK(scalar::OneAverage::whole(0x1p31f) == 1u << 30);
+    CHECK(scalar::OneAverage::whole(7.0f) == 7);
+    CHECK(scalar::OneAverage::whole(-1.0f) == 0);
+}
+
+TEST_CASE("tiles leave what the frame does where colours are signed zeros or depths are flushed") {
+    FragmentScene signed_zeros{16, 8};
+    Random random{19};
+    for (GivenPixel& pixel : signed_zeros.pixels)
+        for (int i = random_int(random, 0, 5); i-- > 0;) {
+            const auto depth = static_cast<float>(random_int(random, 0, 7)) / 8.0f;
+            const float zero = random_int(random, 0, 1) == 0 ? 0.0f : -0.0f;
+            pixel.fragments.push_back({depth, {zero, -zero, 0.5f, 0.5f}});
+        }
+    const DrawList list = draw_list(signed_zeros);
+    for (const char* algorithm : {"dual", "dual_independent", "front_to_back", "depth_units"})
+        for (const char* profile : {"geforce8", "geforce8_dx101", "ideal"})
+            for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
+                for (const float far : {1.0f, 0x1p-127f}) {
+                    RenderOptions options = options_for(signed_zeros);
+                    options.color_format = format;
+                    options.raster.depth_far = far;
+                    check_both_ways(*find_profile(profile), list, algorithm, options);
+                }
+}
+
+TEST_CASE("a closed form cuts blended colours where its profile does") {
+    DeviceProfile cuts = *find_profile("geforce8");
+    cuts.blend_rounding = BlendRounding::truncate;
+    const TriangleScene scene = random_triangles(23, 20);
+    RenderOptions options;
+    options.width = options.height = 32;
+    options.threads = 1;
+    for (const char* algorithm : {"dual", "front_to_back", "batched", "weighted_average", "layer_peel"}) {
+        check_both_ways(cuts, scene.list, algorithm, options, scene.view);
+        check_both_ways(*find_profile("geforce8"), scene.list, algorithm, options, scene.view);
+    }
+    CHECK(on(cuts, scene.list, "dual", options, scene.view).frame.color !=
+          on(*find_profile("geforce8"), scene.list, "dual", options, scene.view).frame.color);
+}
+
+TEST_CASE("a limit of any number of passes ends every algorithm at that number, in tiles as in the frame") {
+    const TriangleScene scene = random_triangles(24, 14);
+    RenderOptions options;
+    options.width = options.height = 24;
+    options.threads = 1;
+    for (const Algorithm& algorithm : algorithms())
+        for (const int most : {1, 2, 3, 5, 8}) {
+            options.max_passes = most;
+            if (refusal(algorithm, *find_profile("ideal"))) continue;
+            check_both_ways(*find_profile("ideal"), scene.list, algorithm.name.c_str(), options, scene.view);
+            CHECK(on(*find_profile("ideal"), scene.list, algorithm.name.c_str(), options, scene.view)
+                      .frame.passes.geometry <= std::max(most, 2));
+        }
+}
+
+TEST_CASE("masks that --alpha makes transparent are dropped by every peel, and the rest is in order") {
+    const TriangleScene scene = random_triangles(25, 20);
+    RenderOptions options;
+    options.width = options.height = 32;
+    options.threads = 1;
+    options.alpha = 0.5f;
+    for (const char* algorithm :
+         {"coherent_ideal", "coherent_stencil", "coherent_blend", "depth_units", "front_to_back"}) {
+        check_both_ways(*find_profile("ideal"), scene.list, algorithm, options, scene.view);
+        INFO(algorithm);
+        CHECK(on(*find_profile("ideal"), scene.list, algorithm, options, scene.view).audit.order_errors == 0u);
+    }
+}
+
+TEST_CASE("an A-buffer with room for a few pixels' lists at a time composites what one with room for all does") {
+    const TriangleScene scene = random_triangles(26, 30);
+    RenderOptions options;
+    options.width = options.height = 32;
+    options.threads = 1;
+    options.audit = false;
+    options.execution = Execution::literal;
+    const RenderResult whole = on(*find_profile("geforce8"), scene.list, "a_buffer", options, scene.view);
+    options.fragment_memory = 4000;
+    const RenderResult parts = on(*find_profile("geforce8"), scene.list, "a_buffer", options, scene.view);
+    CHECK(parts.frame.color == whole.frame.color);
+    CHECK(parts.frame.passes == whole.frame.passes);
+    CHECK(parts.frame.counters.fragments_rasterized == whole.frame.counters.fragments_rasterized);
+}
+
+TEST_CASE("batches know no bounds of a w buffer's depths, and peel it as they peel any other") {
+    DeviceProfile w_peels = *find_profile("ideal");
+    w_peels.raster = find_profile("geforce3")->raster;
+    const TriangleScene scene = random_triangles(27, 16);
+    RenderOptions options;
+    options.width = options.height = 32;
+    options.threads = 1;
+    options.depth = DepthFormat::d24;
+    options.depth_path = strata::rasterizer::DepthPath::w_buffer;
+    const RenderResult by_w = on(w_peels, scene.list, "batched", options, scene.view);
+    REQUIRE(by_w.outcome == Outcome::done);
+    CHECK(by_w.audit.order_errors == 0u);
+    CHECK(by_w.frame.color == on(w_peels, scene.list, "front_to_back", options, scene.view).frame.color);
+}
+
+TEST_CASE("fragments that are equal in everything may stand for each other in the audit") {
+    FragmentScene twins{4, 4};
+    for (GivenPixel& pixel : twins.pixels)
+        for (const float depth : {0.5f, 0.25f, 0.5f, 0.25f, 0.5f})
+            pixel.fragments.push_back({depth, {depth, depth, 0.5f, 0.5f}});
+    for (const Algorithm& algorithm : algorithms()) {
+        const RenderResult result =
+            on(*find_profile("ideal"), draw_list(twins), algorithm.name.c_str(), options_for(twins));
+        INFO(algorithm.name);
+        if (algorithm.exact) CHECK(result.audit.order_errors == 0u);
+    }
+}
+
+TEST_CASE("an order that is almost sorted is sorted whatever it was, and no tie policy leaves it as it is") {
+    std::vector<KeyedFragment> fragments(300);
+    FragmentOrder near_order;
+    for (std::uint32_t i = 0; i < fragments.size(); ++i) {
+        fragments[i].key = i / 3;
+        fragments[i].exact_code = 299 - i;  // the other way round: more steps than an insertion sort is given
+        near_order.push_back(std::uint64_t{fragments[i].key} << 32 | i);
+    }
+    FragmentOrder sorted;
+    sort_almost(&KeyedFragment::exact_code, fragments, near_order, sorted);
+    REQUIRE(sorted.size() == 300);
+    for (std::uint32_t k = 0; k < 300; ++k) CHECK(place_of(sorted[k]) == 299 - k);
+    FragmentOrder by_key = near_order;
+    apply(TiePolicy::none, by_key);
+    CHECK(by_key == near_order);
+}
+
+TEST_CASE("depths and stencils have no colour") {
+    for (const Format format : {Format::d24, Format::d32f, Format::s8}) {
+        Image image = Image::for_overwrite(format, 1, 1, 1);
+        std::fill(image.codes.begin(), image.codes.end(), 7u);
+        CHECK(channel_value(image, 0, 0, 0) == 0.0);
+    }
+}

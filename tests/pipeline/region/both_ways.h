@@ -1,0 +1,70 @@
+// tests/pipeline/region/both_ways.h - one body run literally, which never selects a fragment and never walks a row, and tile by tile:
+// what each leaves in all of its targets, what it counts and reports, or the words with which it refuses.
+#pragma once
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "pipeline/device/check.h"
+#include "tests/pipeline/frames.h"
+
+namespace strata::testing {
+
+struct WhatIsLeft {
+    std::vector<std::uint32_t> codes;  // of the frame, target after target, channel after channel, sample after sample
+    pipeline::Counters counters;
+    std::vector<pipeline::Diagnostic> diagnostics;
+    std::uint64_t visited = 0;
+    std::string refusal;
+};
+
+// Puts the codes of a region's targets where the frame has its pixels.
+inline void collect(pipeline::Region& region, std::vector<std::uint32_t>& codes) {
+    const auto& whole = region.frame().rect();
+    const auto& own = region.rect();
+    std::size_t plane = 0;
+    for (int t = 0; t < region.target_count(); ++t) {
+        const pipeline::TargetStorage& storage = region.storage({t});
+        for (int channel = 0; channel < std::max(1, info(storage.format()).channels); ++channel)
+            for (int sample = 0; sample < storage.samples(); ++sample, ++plane) {
+                codes.resize(std::max(codes.size(), (plane + 1) * whole.area()));
+                for (std::size_t p = 0; p < own.area(); ++p) {
+                    const std::size_t x = static_cast<std::size_t>(own.x0) + p % static_cast<std::size_t>(own.width());
+                    const std::size_t y = static_cast<std::size_t>(own.y0) + p / static_cast<std::size_t>(own.width());
+                    codes[plane * whole.area() + y * static_cast<std::size_t>(whole.width()) + x] =
+                        storage.code(p, channel, sample);
+                }
+            }
+    }
+}
+
+[[nodiscard]] inline WhatIsLeft run_one_way(const pipeline::Frame& frame, const pipeline::Body& body,
+                                            pipeline::Execution execution, const pipeline::Instruments& instruments) {
+    WhatIsLeft left;
+    pipeline::Watch watch;
+    watch.ended = [&](pipeline::Region& region, std::size_t, const pipeline::Image&) { collect(region, left.codes); };
+    try {
+        const pipeline::FrameResult result = run(frame, body, execution, 1, {}, instruments, watch);
+        left.counters = result.counters;
+        left.diagnostics = result.diagnostics;
+        left.visited = result.work.visited;
+    } catch (const pipeline::Refused& refused) {
+        left.refusal = refused.what();
+    } catch (const std::logic_error& broken) {
+        left.refusal = broken.what();
+    }
+    return left;
+}
+
+// What tiles leave otherwise than the definition does: a word, or nothing.
+[[nodiscard]] inline std::string difference_of(const WhatIsLeft& literal, const WhatIsLeft& tiled) {
+    if (literal.refusal != tiled.refusal) return "'" + literal.refusal + "' against '" + tiled.refusal + "'";
+    if (!literal.refusal.empty()) return {};
+    if (literal.codes != tiled.codes) return "codes";
+    if (!(literal.counters == tiled.counters)) return "counters";
+    if (!(literal.diagnostics == tiled.diagnostics)) return "diagnostics";
+    return {};
+}
+
+}  // namespace strata::testing

@@ -1,0 +1,218 @@
+// A pass that selects fragments, and the same pass with one piece of its state changed: the selection's promise then holds no longer, or
+// of other stages. Model: literal execution, which visits every fragment.
+#include <catch2/catch.hpp>
+
+#include "pipeline/frame/selection.h"
+#include "tests/pipeline/region/both_ways.h"
+#include "tests/pipeline/region/changed_states.h"
+#include "tests/support/random_numbers.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+
+constexpr StencilFace counts_back{.func = CompareFunc::less, .ref = 1, .pass = StencilOp::decr};
+constexpr StencilFace counts_in_order{
+    .func = CompareFunc::greater, .ref = 128, .depth_fail = StencilOp::invert, .pass = StencilOp::incr};
+constexpr StencilFace counts_first{.func = CompareFunc::equal, .ref = 255, .fail = StencilOp::incr};
+constexpr StencilFace routes{.func = CompareFunc::equal,
+                             .ref = 2,
+                             .fail = StencilOp::decr,
+                             .depth_fail = StencilOp::decr,
+                             .pass = StencilOp::decr};
+
+// Up to seven layers a pixel in any order, ties among them, and an opaque surface at every fifth.
+const FragmentScene& layered_scene() {
+    static const FragmentScene scene = [] {
+        FragmentScene made{16, 16};
+        Random random{2051};
+        for (std::size_t p = 0; p < made.pixels.size(); ++p) {
+            for (int i = random_int(random, 0, 7); i-- > 0;) {
+                const auto depth = static_cast<float>(random_int(random, 0, 15)) / 16.0f;
+                Rgba color = random_color(random);
+                color[3] = static_cast<float>(random_int(random, 0, 4)) / 4.0f;
+                made.pixels[p].fragments.push_back({depth, color});
+            }
+            if (p % 5 == 0) made.pixels[p].opaque = GivenFragment{0.625f, {0, 1, 0, 1}};
+        }
+        return made;
+    }();
+    return scene;
+}
+
+// A pass of one kind: the targets that it finds, and its state.
+struct Stage {
+    Keeps keeps;
+    int samples = 1;
+    float start = 1.0f;        // of the depth target; 1: a copy of the opaque depth where it has one sample
+    std::uint8_t stencil = 0;  // cleared to
+    const StencilFace* face = nullptr;
+    DepthTest depth{};
+    Blend blend{};
+    Format color = Format::rgba32f;
+    bool walks_twice = false;  // another pass has counted this one's updates
+    std::uint32_t least = 0;   // of the window
+    Outside outside = Outside::discarded;
+    bool writes_registers = false;
+};
+
+constexpr DepthTest any_stays{.enabled = true, .func = CompareFunc::always, .write = true};
+// As coherent peeling shifts depths: rgb of the last update times the alpha of the one before.
+constexpr Blend shifts{.enabled = true,
+                       .color = {BlendEquation::add, BlendFactor::dst_alpha, BlendFactor::zero},
+                       .alpha = {BlendEquation::add, BlendFactor::one, BlendFactor::zero}};
+
+const std::vector<Stage> stages{
+    {.keeps = Keeps::nearest, .depth = nearest_stays},
+    {.keeps = Keeps::nearest, .face = &counts_updates, .depth = nearest_stays},
+    {.keeps = Keeps::last_two, .depth = nearest_stays, .blend = shifts},
+    {.keeps = Keeps::previous, .face = &counts_back, .depth = nearest_stays, .walks_twice = true},
+    {.keeps = Keeps::window, .blend = blend_mode::over, .least = 0x3f400000},
+    {.keeps = Keeps::run,
+     .start = 0.0f,
+     .face = &counts_in_order,
+     .depth = {.enabled = true, .func = CompareFunc::greater, .write = true}},
+    {.keeps = Keeps::nearest_after, .stencil = 253, .face = &counts_first, .depth = nearest_stays},
+    {.keeps = Keeps::arrivals, .samples = 4, .face = &routes, .depth = any_stays},
+    {.keeps = Keeps::ends, .blend = blend_mode::max, .color = Format::rg32f, .outside = Outside::nothing_new},
+    {.keeps = Keeps::last_run, .blend = blend_mode::under, .outside = Outside::nothing_new, .writes_registers = true},
+};
+
+// The window of every stage: keys from `least` on, before the opaque surface. MAX of (-z, z) and registers let what lies outside
+// of it write what changes nothing.
+struct StageProgram {
+    const Stage& stage;
+    DepthKey key;
+    void operator()(const FragmentBatch& in, const Loads& own, Outputs& out) const {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            const bool is_inside = key == DepthKey::shader_z
+                                       ? in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i])
+                                       : in.code[i] >= stage.least && in.code[i] < own.depth(0)[i];
+            for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = 0.5f;
+            if (stage.keeps == Keeps::ends) {
+                out.color[0][0][i] = is_inside ? -in.shader_z[i] : -1.0f;
+                out.color[0][1][i] = is_inside ? in.shader_z[i] : -1.0f;
+                continue;
+            }
+            if (!is_inside && !stage.writes_registers) out.discard(static_cast<int>(i));
+            for (std::size_t c = 0; c < 4; ++c) out.color[0][c][i] = stage.writes_registers ? 0.0f : in.color[c][i];
+        }
+    }
+};
+
+// A draw of the stage with `change` made to its state.
+void draw_stage(Region& region, const Stage& stage, const Changed& change) {
+    const auto depth_target = [&] {
+        const Target made = region.make(target_format(region.frame().key_request().format), stage.samples);
+        if (stage.samples == 1 && stage.start == 1.0f)
+            region.copy(region.opaque_depth(), made);
+        else
+            region.clear(made, {.depth = stage.start});
+        return made;
+    };
+    PassState state;
+    state.reads[0] = region.opaque_depth();
+    state.selection = {
+        .keeps = stage.keeps, .outside = stage.outside, .before = region.opaque_depth(), .least = stage.least};
+    state.depth = stage.depth;
+    if (stage.depth.enabled) state.depth_target = depth_target();
+    if (stage.face != nullptr) {
+        state.stencil = {.enabled = true, .front = *stage.face, .back = {}};
+        state.stencil_target = region.make(Format::s8, stage.samples);
+        region.clear(state.stencil_target, {.stencil = stage.stencil});
+        for (int s = 0; stage.keeps == Keeps::arrivals && s < stage.samples; ++s)
+            region.clear(state.stencil_target, {.stencil = static_cast<std::uint8_t>(s + 2)},
+                         static_cast<std::uint8_t>(1u << s));
+        state.saturates_by_design = stage.keeps == Keeps::arrivals;
+    }
+    const StageProgram program{stage, region.frame().key};
+    PassState first = state;
+    state.color[0] = region.make(stage.color, stage.samples);
+    state.blend[0] = stage.blend;
+    if (stage.blend.enabled) region.clear(state.color[0], {.color = {-1, -1, -1, 1}});
+    if (stage.writes_registers) {
+        state.color[1] = region.make(Format::rgba32f);
+        region.clear(state.color[1], {.color = {0.5f, 0.5f, 0.5f, 0.5f}});
+        state.ordered_rmw = true;
+    }
+    change(state, region);
+    if (stage.walks_twice && state.depth_target != first.depth_target) state.selection = {};  // other updates
+    if (stage.walks_twice) {  // the stencil holds the number of updates
+        first.selection.keeps = Keeps::nearest;
+        first.stencil.front = counts_updates;
+        first.primitives = state.primitives;
+        static_cast<void>(region.draw(first, program));
+        region.copy(region.opaque_depth(), first.depth_target);
+    }
+    static_cast<void>(region.draw(state, program));
+    region.publish(region.opaque_color());
+}
+
+struct Ways {
+    WhatIsLeft literal, tiled;
+};
+
+Ways both_ways(const Stage& stage, const Changed& change, const std::function<void(Frame&)>& reframe = {},
+               const Instruments& instruments = {}) {
+    TestFrame test{layered_scene(), "ideal"};
+    test.frame.replay = {std::uint64_t{1} << 20, {}};
+    if (reframe) reframe(test.frame);
+    const Body body = [&](Region& region) { draw_stage(region, stage, change); };
+    return {run_one_way(test.frame, body, Execution::literal, instruments),
+            run_one_way(test.frame, body, Execution::replay, instruments)};
+}
+
+}  // namespace
+
+TEST_CASE("a pass that selects leaves and counts what one does that visits every fragment, whatever state is changed") {
+    for (std::size_t number = 0; number < stages.size(); ++number)
+        for (const Change& change : changes()) {
+            const Ways ways = both_ways(stages[number], change.make);
+            INFO("stage " << number << ", changed: " << change.name);
+            CHECK(difference_of(ways.literal, ways.tiled).empty());
+        }
+}
+
+TEST_CASE("a selection is taken where nothing is changed, and not where its tests are others") {
+    for (std::size_t number = 0; number < stages.size(); ++number) {
+        const Ways ways = both_ways(stages[number], changes().front().make);
+        INFO("stage " << number);
+        CHECK(ways.tiled.visited < ways.literal.visited);
+        const Ways changed = both_ways(stages[number], [](PassState& s, Region&) { s.replaces_depth = true; });
+        CHECK(changed.tiled.visited > ways.tiled.visited);
+    }
+}
+
+TEST_CASE("frames without memory, with every effect or with another key select nothing wrong") {
+    const std::vector<std::function<void(Frame&)>> frames{
+        [](Frame& f) { f.replay.bytes = 0; },          [](Frame& f) { f.replay.bytes = 512; },
+        [](Frame& f) { f.replay.bytes = 12'000; },     [](Frame& f) { f.effects = Effects::all; },
+        [](Frame& f) { f.key = DepthKey::shader_z; },  [](Frame& f) { f.second = f.transparent; },
+        [](Frame& f) { f.replay.needs.color = false; }};
+    for (std::size_t number = 0; number < stages.size(); ++number)
+        for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+            const Ways ways = both_ways(
+                stages[number], [](PassState&, Region&) {}, frames[frame]);
+            INFO("stage " << number << ", frame " << frame);
+            CHECK(difference_of(ways.literal, ways.tiled).empty());
+        }
+}
+
+TEST_CASE("what measures and checks a pass changes nothing that it leaves or counts") {
+    std::vector<Instruments> all{{.log_passes = true}, {.check_selections = true}};
+    for (const Effect effect :
+         {Effect::color, Effect::texcoord, Effect::shader_z, Effect::code, Effect::facing, Effect::loads,
+          Effect::alpha_test, Effect::stencil_test, Effect::depth_test, Effect::blending})
+        all.push_back({.once_more = effect});
+    for (std::size_t number = 0; number < stages.size(); ++number) {
+        const WhatIsLeft plain = both_ways(stages[number], [](PassState&, Region&) {}).literal;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            const Ways ways = both_ways(
+                stages[number], [](PassState&, Region&) {}, {}, all[k]);
+            INFO("stage " << number << ", instrument " << k);
+            CHECK(difference_of(plain, ways.literal).empty());
+            CHECK(difference_of(plain, ways.tiled).empty());
+        }
+    }
+}

@@ -1,0 +1,209 @@
+// Values that random triangles hardly meet: edge values outside of a triangle and beyond 2^34, areas beyond 2^36, terms of depth that no
+// sum can see, infinities and NaN. Models: rationals cut by the rules (rational.h); corners at which only one term is left.
+#include <catch2/catch.hpp>
+
+#include "rasterizer/base/nv20_arithmetic.h"
+#include "rasterizer/chip/cut_weight.h"
+#include "rasterizer/chip/perspective_weights.h"
+#include "rasterizer/chip/w_buffer.h"
+#include "rasterizer/chip/window_z.h"
+#include "rasterizer/coverage/float_spans.h"
+#include "rasterizer/set_up/depth_bound.h"
+#include "rasterizer/values/depth_paths.h"
+#include "rasterizer/values/depth_quotient.h"
+#include "tests/rasterizer/rational.h"
+#include "tests/rasterizer/scene.h"
+
+namespace {
+
+using namespace strata::rasterizer;
+
+// A whole number of up to `bits` bits, and at least 1.
+[[nodiscard]] std::uint64_t random_whole(Random& random, int bits) { return (random() >> (64 - bits)) | 1u; }
+
+[[nodiscard]] Rational signed_cut(const Rational& v, int bits) {
+    return v < 0 ? Rational{-cut_to_bits(-v, bits)} : v == 0 ? v : cut_to_bits(v, bits);
+}
+
+const float infinity = std::numeric_limits<float>::infinity();
+const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
+
+TEST_CASE("an edge value is cut to 24 bits toward zero on either side of its edge, however large it is") {
+    Random random{71};
+    std::size_t wrong = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const auto size = static_cast<std::int64_t>(random_whole(random, random_int(random, 1, 62)));
+        for (const std::int64_t e : {size, -size})
+            wrong += Rational{cut_edge(e)} != signed_cut(Rational{e}, 24) ? 1 : 0;
+    }
+    CHECK(cut_edge(0) == 0.0);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("weights by a cut reciprocal are those of rationals for areas and edge values of up to 48 bits") {
+    Random random{72};
+    std::size_t wrong = 0, large = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const std::uint64_t area = random_whole(random, random_int(random, 8, 48));
+        const std::uint64_t e = random() % (area + 1);
+        const Rational r = cut_to_bits(Rational{1} / Rational{area}, 28);
+        const Rational expected = e == 0 ? Rational{0} : cut_to_bits(Rational{e} * r, 24);
+        wrong += Rational{value(CutReciprocal{area}.weight(e))} != expected ? 1 : 0;
+        const CutWeights weights{static_cast<std::int64_t>(area), {.weights = WeightRule::area, .reciprocal_bits = 28}};
+        const auto size = static_cast<std::int64_t>(e);
+        const std::array<double, 3> b = weights.at({size, -size, 0});
+        wrong += Rational{b[0]} != expected || b[1] != -b[0] || b[2] != 0.0 ? 1 : 0;
+        large += e >= std::uint64_t{1} << 34 ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(large > 500);
+}
+
+TEST_CASE("perspective weights take the sizes of edge values and of w, whatever their signs") {
+    Random random{73};
+    std::size_t wrong = 0;
+    for (int i = 0; i < 500; ++i) {
+        std::array<float, 3> w{}, turned_w{};
+        EdgeValues e{}, turned_e{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            w[k] = random_float(random, 0.25f, 9);
+            e[k] = random_int(random, 1, 1 << 28);
+            turned_w[k] = random_int(random, 0, 1) == 0 ? w[k] : -w[k];
+            turned_e[k] = random_int(random, 0, 1) == 0 ? e[k] : -e[k];
+        }
+        wrong += PerspectiveWeights{w, {}}.at(e) != PerspectiveWeights{turned_w, {}}.at(turned_e) ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("the corner of the largest edge value is the one that depths start from, on either side of the edges") {
+    CHECK(reference_vertex({-(1 << 20), 5, 7}) == 0);
+    CHECK(reference_vertex({5, -(1 << 20), 7}) == 1);
+    CHECK(reference_vertex({5, 7, -(1 << 20)}) == 2);
+}
+
+TEST_CASE("a difference of depths is exact, and 0 of equal ones") {
+    const Dyadic none = difference(3.0f, 3.0f);
+    CHECK(none.magnitude == 0);
+    const Dyadic far = difference(0x1p60f, -0x1p60f);
+    CHECK(far.magnitude == 1);
+    CHECK(far.exponent == 61);
+    const Dyadic both_zero = difference(0.0f, -0.0f);
+    CHECK(both_zero.magnitude == 0);
+}
+
+TEST_CASE("a depth's terms that lie far below the largest leave nothing of themselves, and all of 0 is 0") {
+    // Weights of powers of two: 1/2, 1/4 and 1/4 of an area of 2^20. Differences too far apart for binary64's products.
+    const std::int64_t area = 1 << 20;
+    const WindowZ24 apart{{0.0, 1.0, 0x1p-110}, area};
+    CHECK(apart.value({area / 2, area / 4, area / 4}) == 0.25);  // and 2^-112, which is cut away
+    CHECK(apart.value({area, 0, 0}) == 0.0);                     // at the corner of depth 0
+    CHECK(apart.value({0, area, 0}) == 1.0);
+    CHECK(apart.value({0, 0, area}) == 0x1p-110);
+    const WindowZ24 close{{0x1p-110, 0x1p-112, 0x1p60}, area};
+    CHECK(close.value({area / 2, area / 2, 0}) == 0x1p-111 + 0x1p-113);
+    CHECK(close.value({area / 4, area / 4, area / 2}) == 0x1p59);
+}
+
+TEST_CASE("NV20's product is IEEE's where a factor is infinite or no number, and so are its reciprocals' ends") {
+    CHECK(nv20::multiply(infinity, 2.0f) == infinity);
+    CHECK(nv20::multiply(2.0f, -infinity) == -infinity);
+    CHECK(std::isnan(nv20::multiply(not_a_number, 2.0f)));
+    CHECK(nv20::reciprocal(infinity) == 0.0f);
+    CHECK(nv20::reciprocal(-infinity) == 0.0f);
+    CHECK(std::isnan(nv20::reciprocal(not_a_number)));
+    CHECK(nv20::reciprocal(-0.0f) == -infinity);
+}
+
+TEST_CASE("cut divisions leave zeros, infinities and NaN as they are") {
+    for (const float v : {0.0f, -0.0f, infinity, -infinity}) {
+        CHECK(std::bit_cast<std::uint32_t>(toward_zero(v)) == std::bit_cast<std::uint32_t>(v));
+        CHECK(std::bit_cast<std::uint32_t>(round_mantissa(v, 16)) == std::bit_cast<std::uint32_t>(v));
+    }
+    CHECK(std::isnan(toward_zero(not_a_number)));
+    CHECK(std::isnan(round_mantissa(not_a_number, 20)));
+    CHECK(toward_zero(1.0f) == 1.0f - 0x1p-24f);
+    CHECK(toward_zero(-1.0f) == -1.0f + 0x1p-24f);
+    CHECK(divide(1.0f, infinity, DivideRule::low_reciprocal) == 0.0f);
+    CHECK(divide(1.0f, 0.0f, DivideRule::low_reciprocal) == infinity);
+}
+
+TEST_CASE("two needs together are what either of them needs, value by value") {
+    constexpr bool FragmentNeeds::*values[]{
+        &FragmentNeeds::shader_z, &FragmentNeeds::code,   &FragmentNeeds::exact_code, &FragmentNeeds::color,
+        &FragmentNeeds::texcoord, &FragmentNeeds::facing, &FragmentNeeds::reference};
+    const auto needs_of = [&](unsigned bits) {
+        FragmentNeeds needs;
+        for (unsigned k = 0; k < 7; ++k) needs.*values[k] = (bits >> k & 1) != 0;
+        needs.units = static_cast<UnitMask>(bits << 3);
+        return needs;
+    };
+    std::size_t wrong = 0;
+    for (unsigned a = 0; a < 128; ++a)
+        for (unsigned b = 0; b < 128; ++b) wrong += (needs_of(a) | needs_of(b)) == needs_of(a | b) ? 0 : 1;
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("a w buffer's slope is taken along the axis in which w changes, from the first row that has pixels") {
+    // 1/w = 1/8 + x/64 in pixels: its axis is x. Corners on the window's 1/16 pixels; the top one lies at x = 4.
+    constexpr int bits = 4;
+    const auto inverse_w = [](double x) { return 1.0 / 8 + x / 64; };
+    const auto triangle = [&](const std::array<std::array<int, 2>, 3>& pixels) {
+        std::array<SubpixelPoint, 3> p;
+        std::array<float, 3> inverse;
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i] = {pixels[i][0] << bits, pixels[i][1] << bits};
+            inverse[i] = static_cast<float>(inverse_w(pixels[i][0]));
+        }
+        return window_triangle(p, bits, {1, 2, 3}, inverse);
+    };
+    const SetupTriangle along_x = triangle({{{4, 0}, {12, 8}, {0, 8}}});
+    RasterRules rules{.subpixel_bits = bits};
+    for (const WSlope slope : {WSlope::first_quad, WSlope::last_quad}) {
+        rules.hypothesis.w_slope = slope;
+        const int start = 4, second = slope == WSlope::first_quad ? start | 1 : start | 3;
+        const double expected = std::fabs(1 / inverse_w(second + 0.5) - 1 / inverse_w(second - 0.5));
+        CHECK(w_slope(along_x, along_x.w, {0, 0, 16, 16}, rules) == Approx(expected).epsilon(1e-5));
+    }
+    // A needle whose first rows hold no centre: the slope is that of a row below, and of w along x there, too.
+    SetupTriangle needle = triangle({{{4, 0}, {5, 16}, {4, 16}}});
+    const double at_second = std::fabs(1 / inverse_w(5.5) - 1 / inverse_w(4.5));
+    rules.hypothesis.w_slope = WSlope::first_quad;
+    CHECK(w_slope(needle, needle.w, {0, 0, 16, 16}, rules) == Approx(at_second).epsilon(1e-5));
+}
+
+TEST_CASE("r and q of vertices follow the clip volume's convention of z") {
+    const auto rows = [](ClipDepth clip) {
+        TriangleSoup soup;
+        soup.vertices.resize(1);
+        soup.vertices[0].z = 0.25f;
+        soup.vertices[0].w = 0.5f;
+        RasterState state;
+        state.clip_depth = clip;
+        state.depth_near = 0.25f;
+        state.depth_far = 0.75f;
+        add_rq(soup, state, {});
+        return std::vector<float>(soup.extras.values.begin(), soup.extras.values.end());
+    };
+    // depth = n + (f - n) z/w of Direct3D's volume, 1/4 + 1/2 * 1/2; OpenGL's z/w of 1/2 lies at 3/4 of the range.
+    CHECK(rows(ClipDepth::zero_to_one) == std::vector<float>{0.5f * 0.5f, 0.5f});
+    CHECK(rows(ClipDepth::minus_one_to_one) == std::vector<float>{0.625f * 0.5f, 0.5f});
+}
+
+TEST_CASE("a triangle of floats without an area covers nothing, and a reversed order has no depth bound") {
+    const FloatSpans line{{{{0, 0}, {4, 4}, {8, 8}}}};
+    CHECK_FALSE(line.is_drawn());
+    int visited = 0;
+    line.visit({0, 0, 16, 16}, [&](int, int, int) { ++visited; });
+    CHECK(visited == 0);
+    const FloatSpans drawn{{{{0, 0}, {8, 0}, {0, 8}}}};
+    drawn.visit({0, 0, 16, 16}, [&](int, int, int) { ++visited; });
+    CHECK(visited > 0);
+    Geometry geometry = random_triangles(5, 6, 20, {});
+    const double bound = depth_bound(geometry, geometry.all_triangles);
+    CHECK(std::isfinite(bound));
+    geometry.state.depth_order = DepthOrder::greater;
+    CHECK(depth_bound(geometry, geometry.all_triangles) == std::numeric_limits<double>::infinity());
+}
