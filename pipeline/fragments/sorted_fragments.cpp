@@ -47,18 +47,6 @@ struct Fates {
 
 }  // namespace
 
-// What arrived in order of depth, either way, needs no sorting. Far to near, equal keys would stand in reverse.
-SortedFragments::ColumnArrival SortedFragments::sort_column(std::span<std::uint64_t> words) {
-    if (std::ranges::is_sorted(words)) return ColumnArrival::near_to_far;
-    const auto falls = [](std::uint64_t a, std::uint64_t b) { return a >> 32 <= b >> 32; };
-    if (std::ranges::adjacent_find(words, falls) == words.end()) {
-        std::ranges::reverse(words);
-        return ColumnArrival::far_to_near;
-    }
-    std::ranges::sort(words);
-    return ColumnArrival::mixed;
-}
-
 bool SortedFragments::sort(const FragmentStore& store, const SortRequest& request, std::size_t pixels,
                            std::uint64_t limit, const std::uint32_t* surface) {
     request_ = request;
@@ -72,7 +60,7 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
         if (start_[p] < start_[p + 1]) occupied_.push_back(static_cast<std::uint32_t>(p));
     if (!request.by_arrival)
         for (const std::uint32_t p : occupied_)
-            arrival_[p] = sort_column({words_.data() + start_[p], start_[p + 1] - start_[p]});
+            arrival_[p] = sort_arrivals({words_.data() + start_[p], start_[p + 1] - start_[p]});
     if (request.by_reference) take_stored(store);
     for (auto& finger : finger_) finger.assign(pixels, Found{});
     updates_end_.assign(pixels, not_counted);

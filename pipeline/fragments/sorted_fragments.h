@@ -16,6 +16,7 @@
 #include "pipeline/device/state.h"
 #include "pipeline/fragments/earliest_index.h"
 #include "pipeline/fragments/fragment_store.h"
+#include "pipeline/fragments/sort_arrivals.h"
 #include "pipeline/frame/run_settings.h"
 #include "rasterizer/base/uninitialized.h"
 
@@ -133,7 +134,6 @@ class SortedFragments {
 
   private:
     enum class State : std::uint8_t { empty, sorted, declined };
-    enum class ColumnArrival : std::uint8_t { near_to_far, far_to_near, mixed };
 
     [[nodiscard]] static std::uint32_t first_from(std::span<const std::uint64_t> words, std::uint64_t word,
                                                   std::uint32_t hint) noexcept;
@@ -144,7 +144,6 @@ class SortedFragments {
     void look_at_values(const FragmentStore& store, const rasterizer::FragmentBatch& batch) noexcept;
     void count_updates(std::size_t pixel, std::uint32_t last);
     void count_later(std::size_t pixel, std::uint32_t last);
-    [[nodiscard]] static ColumnArrival sort_column(std::span<std::uint64_t> words);
     void count_stored_updates(std::size_t pixel, std::uint32_t surface);
 
     State state_ = State::empty;
