@@ -68,28 +68,29 @@ TargetStorage random_target(Random& random, Format format, int samples) {
 int wrong_pixels(Random& random, Format format, UnormRounding rounding) {
     constexpr int passes = 3, pass_samples = 8;
     const TargetStorage background = random_target(random, format, 1);
-    std::vector<TargetStorage> colors, depths;
+    std::vector<TargetStorage> sample_colors, sample_depths;
     for (int pass = 0; pass < passes; ++pass) {
-        colors.push_back(random_target(random, format, pass_samples));
-        depths.emplace_back(Format::d24, pass_samples, plane_pixels);
+        sample_colors.push_back(random_target(random, format, pass_samples));
+        sample_depths.emplace_back(Format::d24, pass_samples, plane_pixels);
         for (int s = 0; s < pass_samples; ++s)
             for (std::uint32_t p = 0; p < plane_pixels; ++p) {
                 const bool is_empty = random_int(random, 0, 3) == 0;
-                depths.back().depth_plane(s).words[p] =
+                sample_depths.back().depth_plane(s).words[p] =
                     is_empty ? no_sample : static_cast<std::uint32_t>(random_int(random, 0, 30));
             }
     }
     std::vector<SamplePlanes> planes;
     for (std::size_t pass = 0; pass < passes; ++pass)
-        for (int s = 0; s < pass_samples; ++s) planes.push_back({depths[pass].depth(s), colors[pass].texels(s)});
+        for (int s = 0; s < pass_samples; ++s)
+            planes.push_back({sample_depths[pass].depth(s), sample_colors[pass].texels(s)});
     SampleColumns columns{planes, no_sample, rounding};
     int wrong = 0;
     for (std::uint32_t p = 0; p < plane_pixels; ++p) {
         std::vector<PlainSample> samples;
         for (std::size_t pass = 0; pass < passes; ++pass)
             for (int s = 0; s < pass_samples; ++s)
-                if (const std::uint32_t code = depths[pass].code(p, 0, s); code != no_sample)
-                    samples.push_back({code, plain_color(colors[pass], p, s, rounding)});
+                if (const std::uint32_t code = sample_depths[pass].code(p, 0, s); code != no_sample)
+                    samples.push_back({code, plain_color(sample_colors[pass], p, s, rounding)});
         const Rgba expected = plain_composite(samples, plain_color(background, p, 0, rounding));
         const Rgba found = columns.composite(p, background.texels(0));
         for (std::size_t c = 0; c < 4; ++c)
@@ -101,7 +102,8 @@ int wrong_pixels(Random& random, Format format, UnormRounding rounding) {
 
 }  // namespace
 
-TEST_CASE("samples of a pixel are composited nearest first, equal depths by number, with the bits of one by one") {
+TEST_CASE(
+    "samples of a pixel are composited nearest first, equal sample_depths by number, with the bits of one by one") {
     Random random{43};
     for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
         for (const UnormRounding rounding : {UnormRounding::half_up, UnormRounding::product_even}) {
