@@ -5,11 +5,11 @@
 // Passes     ceil(M / 8) for M fragments at the deepest pixel, at most 31. Equal depths: all, the first arrival in front.
 // Invariant  after pass p sample s holds fragment 8 p + s of its pixel, in order of arrival; the last sample's stencil is 0
 //            where more have come.
-#include <algorithm>
 #include <vector>
 
 #include "peeling/algorithms/runs.h"
 #include "peeling/programs/depth_range.h"
+#include "peeling/programs/sample_columns.h"
 #include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
@@ -69,22 +69,13 @@ Count overflowing(Region& region, Target stencil) {
     return region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs&) {}).passed;
 }
 
-struct Sample {
-    std::uint32_t code = 0;
-    Rgba color{};
-};
-
-// In the post-processing program's registers: binary32 UNDER, nearest first, ties as they came.
-Rgba composite(std::vector<Sample>& samples, const Rgba& background) {
-    std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.code < b.code; });
-    Rgba front{0, 0, 0, 1};
-    for (const Sample& s : samples) {
-        for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * (s.color[3] * s.color[c]);
-        front[3] *= 1.0f - s.color[3];
-    }
-    for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * background[c];
-    front[3] = 1.0f;
-    return front;
+// The words of every sample that the passes have filled, in the order of arrival.
+std::vector<SamplePlanes> samples_of(const Region& region, const std::vector<Capture>& captures) {
+    std::vector<SamplePlanes> samples;
+    for (const Capture& c : captures)
+        for (int s = 0; s < pass_samples; ++s)
+            samples.push_back({region.storage(c.depth).depth(s), region.storage(c.color).texels(s)});
+    return samples;
 }
 
 // One full-screen pass that loads every sample: more than a pass's reads can name, so it runs here, in the machine's books.
@@ -93,16 +84,13 @@ Target resolve(Region& region, const std::vector<Capture>& captures) {
     const Target result = region.make_color();
     region.call(result, "result");
     const std::uint32_t empty = rasterizer::max_code(region.frame().key_request().format);
-    std::vector<Sample> samples;
+    SampleColumns columns{samples_of(region, captures), empty, region.profile().unorm_rounding};
+    const Texels background = region.storage(region.opaque_color()).texels(0);
     for (std::uint32_t pixel = 0; pixel < region.rect().area(); ++pixel) {
-        samples.clear();
-        for (const Capture& c : captures)
-            for (int s = 0; s < pass_samples; ++s)
-                if (const std::uint32_t code = region.storage(c.depth).depth(s)[pixel]; code != empty)
-                    samples.push_back({code, region.color(c.color, pixel, s)});
-        shortcuts.store_pixel(result, pixel, composite(samples, region.color(region.opaque_color(), pixel)));
+        shortcuts.store_pixel(result, pixel, columns.composite(pixel, background));
         if (!region.frame().trace) continue;
-        for (const Sample& s : samples) region.trace({pixel, s.code, 0, Side::front, false});
+        for (const std::uint64_t word : columns.order())
+            region.trace({pixel, static_cast<std::uint32_t>(word >> 32), 0, Side::front, false});
     }
     const auto bytes = [&](Target t) {
         return static_cast<std::uint64_t>(info(region.storage(t).format()).bytes_per_pixel) * region.rect().area();

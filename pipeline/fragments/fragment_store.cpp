@@ -115,12 +115,13 @@ bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
            has(needs_.reference, needs.reference) && (needs.units & ~needs_.units) == 0;
 }
 
-void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::uint32_t>& alive) const {
+void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::uint32_t>& alive,
+                           const FragmentNeeds& needs) const {
     assert(state_ == State::complete && number < batches_.size());
     const Packed& packed = batches_[number];
     const std::byte* at = packed.begin;
     const auto unpack = [&](auto& array) {
-        if (!is_left_out(batch, recalled_, &array)) std::memcpy(array.data(), at, packed.count * sizeof(array[0]));
+        if (!is_left_out(batch, needs, &array)) std::memcpy(array.data(), at, packed.count * sizeof(array[0]));
         at += packed.count * sizeof(array[0]);
     };
     batch.count = packed.count;
@@ -132,9 +133,17 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     for_each_array(needs_, batch, unpack);
 }
 
-// Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.
+// Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it. Colours
+// are taken channel after channel of a fragment: what is known of a place serves all four.
 void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs, Numbers numbers,
                           FragmentBatch& batch) const noexcept {
+    const auto is_skipped = [&](const void* array) {
+        return array == &batch.pixel || array == &batch.x || array == &batch.y ||
+               (array == &batch.primitive && numbers == Numbers::no) || is_left_out(batch, needs, array);
+    };
+    bool is_any = false;
+    for_each_array(needs_, batch, [&](auto& array) { is_any = is_any || !is_skipped(&array); });
+    if (!is_any) return;
     std::array<const std::byte*, rasterizer::batch_capacity> begin;
     std::array<std::uint32_t, rasterizer::batch_capacity> count, number;
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -143,15 +152,19 @@ void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentN
         number[i] = places[i] & 0xff;
         begin[i] = packed.begin + (packed.has_dead ? count[i] * sizeof(std::uint32_t) : 0);
     }
-    const auto is_skipped = [&](const void* array) {
-        return array == &batch.pixel || array == &batch.x || array == &batch.y ||
-               (array == &batch.primitive && numbers == Numbers::no) || is_left_out(batch, needs, array);
-    };
     std::uint32_t before = 0;
     for_each_array(needs_, batch, [&](auto& array) {
         constexpr auto size = static_cast<std::uint32_t>(sizeof(array[0]));
         const std::uint32_t start = std::exchange(before, before + size);
-        if (is_skipped(&array)) return;
+        const void* const address = &array;
+        if (is_skipped(address) || (address > &batch.color[0] && address <= &batch.color[3])) return;
+        if (address == &batch.color[0]) {
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                const std::byte* const red = begin[i] + (count[i] * start + number[i] * size);
+                for (std::size_t c = 0; c < 4; ++c) std::memcpy(&batch.color[c][i], red + c * count[i] * size, size);
+            }
+            return;
+        }
         for (std::size_t i = 0; i < places.size(); ++i)
             std::memcpy(&array[i], begin[i] + (count[i] * start + number[i] * size), size);
     });

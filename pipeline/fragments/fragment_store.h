@@ -32,7 +32,11 @@ class FragmentStore {
     [[nodiscard]] std::size_t batches() const noexcept { return batches_.size(); }
     // From now on batches are recalled without colours and depths that `needs` does not name.
     void recall_only(const rasterizer::FragmentNeeds& needs) noexcept { recalled_ = needs; }
-    void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive) const;
+    void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive) const {
+        recall(number, batch, alive, recalled_);
+    }
+    void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive,
+                const rasterizer::FragmentNeeds& needs) const;
 
     // A fragment's place among all of the store: places rise with arrival.
     [[nodiscard]] static constexpr std::uint32_t place(std::size_t batch, std::size_t lane) noexcept {

@@ -15,8 +15,6 @@
 
 namespace strata::pipeline {
 
-inline constexpr std::size_t pixels_ahead = 12;  // whose words are asked for: about as many as memory answers at once
-
 // The codes of a depth target in the form of sorted keys.
 class KeyBound {
   public:
@@ -92,19 +90,25 @@ class ValueBound {
 
 // The bounds of a selection's windows.
 struct KeyWindow {
+    using Key = std::uint64_t;
     std::uint64_t least, end;
     KeyBound behind, from, at, before, also_before, up_to;
     ValueBound behind_value, before_value;
     std::uint64_t behind_codes, greatest;
 
-    [[nodiscard]] bool has_high() const noexcept {
+    [[nodiscard]] bool is_one_key() const noexcept { return at.exists() && !has_other_end(); }
+    [[nodiscard]] bool has_high() const noexcept { return at.exists() || has_other_end(); }
+    // Whether something ends windows beside `at`.
+    [[nodiscard]] bool has_other_end() const noexcept {
         return end <= 0xffffffff || before.exists() || also_before.exists() || up_to.exists() || before_value.exists();
     }
     // The ends of the windows of `pixels`, bound after bound.
     void put(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
-        using Key = std::uint64_t;
+        put_low(pixels, ends);
+        put_high(pixels, ends);
+    }
+    void put_low(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
         const auto greater = [](Key key, Key code) { return std::max(key, code); };
-        const auto less = [](Key key, Key code) { return std::min(key, code); };
         ends.low.assign(pixels.size(), least);
         behind.narrow(pixels, ends.low, [raised = behind_codes, most = greatest](Key key, Key code) {
             return std::max(key, std::min(code + raised, most) + 1);
@@ -112,10 +116,15 @@ struct KeyWindow {
         from.narrow(pixels, ends.low, greater);
         at.narrow(pixels, ends.low, greater);
         behind_value.narrow_behind(pixels, ends.low);
+    }
+    void put_high(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
+        const auto less = [](Key key, Key code) { return std::min(key, code); };
+        const auto none_greater = [](Key key, Key code) { return std::min(key, code + 1); };
         ends.high.assign(has_high() ? pixels.size() : 0, end);
+        at.narrow(pixels, ends.high, none_greater);
         before.narrow(pixels, ends.high, less);
         also_before.narrow(pixels, ends.high, less);
-        up_to.narrow(pixels, ends.high, [](Key key, Key code) { return std::min(key, code + 1); });
+        up_to.narrow(pixels, ends.high, none_greater);
         before_value.narrow_before(pixels, ends.high);
     }
 };
@@ -168,25 +177,19 @@ struct WindowColumn {
     std::uint64_t low;
 };
 
-// Calls `visit` with every column. A window of one key is followed to its end.
+// Calls `visit` with every column.
 template <class Visit>
 void for_each_column(SortedFragments& sorted, const KeyWindow& window, WindowEnds& ends, const Visit& visit) {
+    using Cursor = SortedFragments::Cursor;
     const auto occupied = sorted.occupied();
     window.put(occupied, ends);
+    const auto first = sorted.numbers_below(ends.low, Cursor::low);
+    const bool is_open = ends.high.empty();
+    const auto end = is_open ? first : sorted.numbers_below(ends.high, Cursor::high);
     for (std::size_t k = 0; k < occupied.size(); ++k) {
-        if (k + pixels_ahead < occupied.size())
-            sorted.prefetch(occupied[k + pixels_ahead], SortedFragments::Finger::low);
-        const std::uint32_t p = occupied[k];
-        const std::uint64_t low = ends.low[k];
-        WindowColumn column{p, sorted.of(p), sorted.below(p, low, SortedFragments::Finger::low), 0, low};
-        column.last = column.first;
-        if (window.at.exists())
-            while (column.last < column.words.size() && column.words[column.last] >> 32 == low) ++column.last;
-        else if (ends.high.empty())
-            column.last = static_cast<std::uint32_t>(column.words.size());
-        else
-            column.last = std::max(column.first, sorted.below(p, ends.high[k], SortedFragments::Finger::high));
-        visit(column);
+        const auto words = sorted.column(k);
+        const auto size = static_cast<std::uint32_t>(words.size());
+        visit(WindowColumn{occupied[k], words, first[k], is_open ? size : std::max(first[k], end[k]), ends.low[k]});
     }
 }
 

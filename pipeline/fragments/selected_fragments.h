@@ -2,7 +2,10 @@
 // the others.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {
 
@@ -14,10 +17,29 @@ struct WindowEnds {
 // Several fragments of a pixel follow each other in the order of arrival, and a batch holds no pixel twice: so the
 // first ones of all pixels go ahead, then all second ones.
 struct SelectedFragments {
-    struct One {
-        std::uint32_t key, place, pixel;
+    // Pixels rise. Room for one fragment of every pixel that has any, so that nothing asks for it while they are added.
+    struct Rank {
+        UninitializedVector<std::uint32_t> key, place, pixel;
+        std::size_t count = 0;
+        void reserve(std::size_t columns) {
+            count = 0;
+            if (key.size() >= columns) return;
+            for (auto* const array : {&key, &place, &pixel}) array->resize(columns);
+        }
     };
-    std::vector<std::vector<One>> of_rank;      // pixels rise
+    // The arrays of a rank that is being filled, for a loop that keeps them in registers.
+    struct Filling {
+        std::uint32_t *key, *place, *pixel;
+        std::size_t count;
+        // A word of SortedFragments.
+        [[gnu::always_inline]] inline void add(std::uint32_t at_pixel, std::uint64_t word) noexcept {
+            key[count] = static_cast<std::uint32_t>(word >> 32);
+            place[count] = static_cast<std::uint32_t>(word);
+            pixel[count++] = at_pixel;
+        }
+    };
+    std::vector<Rank> of_rank;
+    std::size_t columns = 0;                    // pixels with fragments
     std::size_t ranks = 0, rank = 0, next = 0;  // in use; of the next batch, and its first fragment there
     WindowEnds windows;                         // of the occupied pixels
     bool is_routed = false;                     // of Keeps::arrivals: sample s takes what has rank s
@@ -26,25 +48,34 @@ struct SelectedFragments {
     std::uint64_t passed = 0;                   // of these, the ones that pass the depth test, of Keeps::nearest
     std::uint64_t killed = 0;                   // of these, the ones that the stencil test of Keeps::previous kills
 
-    void start() {
-        for (auto& fragments : of_rank) fragments.clear();
+    void start(std::size_t pixels_with_fragments) {
+        columns = pixels_with_fragments;
         ranks = rank = next = 0;
         inside = passed = killed = 0;
         is_routed = false;
     }
+    void open(std::size_t last_rank) {
+        if (of_rank.size() <= last_rank) of_rank.resize(last_rank + 1);
+        for (; ranks <= last_rank; ++ranks) of_rank[ranks].reserve(columns);
+    }
+    [[nodiscard]] Filling begin_first() {
+        if (ranks == 0) open(0);
+        Rank& first = of_rank[0];
+        return {first.key.data(), first.place.data(), first.pixel.data(), first.count};
+    }
+    void end_first(const Filling& filled) noexcept { of_rank[0].count = filled.count; }
     [[nodiscard]] std::uint64_t visited() const noexcept {
         std::uint64_t fragments = 0;
-        for (const auto& of : of_rank) fragments += of.size();
+        for (std::size_t r = 0; r < ranks; ++r) fragments += of_rank[r].count;
         return fragments;
     }
-    // A word of SortedFragments.
+    // A pixel has at most one of a rank.
     [[gnu::always_inline]] inline void add(std::size_t pixel, std::uint64_t word, std::size_t at_rank) {
-        if (at_rank >= ranks) {
-            ranks = at_rank + 1;
-            if (of_rank.size() < ranks) of_rank.resize(ranks);
-        }
-        of_rank[at_rank].push_back({static_cast<std::uint32_t>(word >> 32), static_cast<std::uint32_t>(word),
-                                    static_cast<std::uint32_t>(pixel)});
+        if (at_rank >= ranks) [[unlikely]]
+            open(at_rank);
+        Rank& to = of_rank[at_rank];
+        Filling filling{to.key.data(), to.place.data(), to.pixel.data(), to.count++};
+        filling.add(static_cast<std::uint32_t>(pixel), word);
     }
 };
 

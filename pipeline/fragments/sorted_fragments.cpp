@@ -4,22 +4,24 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <utility>
 
 #include "pipeline/formats/lane_mask.h"
+#include "pipeline/fragments/cursor_steps.h"
 #include "pipeline/stages/alpha_test.h"
 #include "rasterizer/rules/depth_code.h"
 
 namespace strata::pipeline {
 
 using rasterizer::FragmentBatch;
+using rasterizer::FragmentNeeds;
 using rasterizer::Lanes;
 
 namespace {
 
 constexpr std::uint64_t bytes_per_fragment = sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t) + 1;  // and its index
 constexpr std::uint64_t more_by_reference = 2 * sizeof(std::uint64_t);
-constexpr std::uint64_t bytes_per_pixel = 57;  // start, two ends, its number and arrival, five fingers
-constexpr std::uint32_t not_counted = ~0u;
+constexpr std::uint64_t bytes_per_pixel = 72;  // its column, what finds it, a word of ones
 
 [[nodiscard]] bool is_at_most(float value, float most) noexcept {
     return std::bit_cast<std::uint32_t>(value) <= std::bit_cast<std::uint32_t>(most);  // false for -0 and NaN
@@ -47,37 +49,20 @@ struct Fates {
 
 }  // namespace
 
-// What arrived in order of depth, either way, needs no sorting. Far to near, equal keys would stand in reverse.
-SortedFragments::ColumnArrival SortedFragments::sort_column(std::span<std::uint64_t> words) {
-    if (std::ranges::is_sorted(words)) return ColumnArrival::near_to_far;
-    const auto falls = [](std::uint64_t a, std::uint64_t b) { return a >> 32 <= b >> 32; };
-    if (std::ranges::adjacent_find(words, falls) == words.end()) {
-        std::ranges::reverse(words);
-        return ColumnArrival::far_to_near;
-    }
-    std::ranges::sort(words);
-    return ColumnArrival::mixed;
-}
-
 bool SortedFragments::sort(const FragmentStore& store, const SortRequest& request, std::size_t pixels,
                            std::uint64_t limit, const std::uint32_t* surface) {
     request_ = request;
     state_ = State::declined;
-    start_.assign(pixels + 1, 0);
+    columns_.assign(pixels, Column{});
     if (!take(store, limit, surface)) return false;
-    occupied_.clear();
     earliest_.forget();
-    arrival_.assign(pixels, ColumnArrival::near_to_far);
-    for (std::size_t p = 0; p < pixels; ++p)
-        if (start_[p] < start_[p + 1]) occupied_.push_back(static_cast<std::uint32_t>(p));
-    if (!request.by_arrival)
-        for (const std::uint32_t p : occupied_)
-            arrival_[p] = sort_column({words_.data() + start_[p], start_[p + 1] - start_[p]});
+    for (const std::uint32_t p : occupied_) {
+        Column& column = columns_[p];
+        if (!request.by_arrival) column.arrival = sort_arrivals({words_.data() + column.begin, column.size});
+    }
     if (request.by_reference) take_stored(store);
-    for (auto& finger : finger_) finger.assign(pixels, Found{});
-    updates_end_.assign(pixels, not_counted);
     updates_.resize(words_.size());
-    later_end_.assign(pixels, not_counted);
+    for (auto& cursors : cursors_) cursors.assign(occupied_.size(), 0);
     state_ = State::sorted;
     return true;
 }
@@ -86,16 +71,19 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
 // until then they stand in the order of arrival.
 bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface) {
     rasterized_ = masked_ = alpha_killed_ = hidden_ = 0;
-    has_plain_colors_ = stores_reference_ = true;
-    const std::size_t pixels = start_.size() - 1;
+    has_plain_colors_.reset();
+    stores_reference_ = store.needs().reference;
+    size_ = 0;
     if (store.batches() >= std::size_t{1} << 24) return false;
     const auto batch = std::make_unique<FragmentBatch>();
     Lanes<std::uint32_t> alive;
+    FragmentNeeds recalled = store.needs();
+    recalled.color = request_.alpha.enabled;
     const auto for_each_alive = [&](auto&& visit) {
         for (std::size_t number = 0; number < store.batches(); ++number) {
             const std::span<const PrimitiveRange> ranges = request_.primitives;
             if (!ranges.empty() && !meets(ranges, store.primitives(number))) continue;
-            store.recall(number, *batch, alive);
+            store.recall(number, *batch, alive, recalled);
             const auto count = static_cast<std::size_t>(batch->count);
             const auto dead = [&] {
                 return static_cast<std::uint64_t>(std::count(alive.begin(), alive.begin() + batch->count, 0u));
@@ -121,15 +109,16 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
             masked_ += lost.masked;
             hidden_ += lost.hidden;
             alpha_killed_ += lost.alpha_killed;
-            for (std::size_t i = 0; i < count; ++i) start_[batch->pixel[i] + 1] += is_alive[i] & 1u;
-            look_at_values(store, *batch);
+            for (std::size_t i = 0; i < count; ++i) columns_[batch->pixel[i]].size += is_alive[i] & 1u;
+            for (std::size_t i = 0; i < count && stores_reference_; ++i)
+                stores_reference_ = batch->reference_code[i] == batch->code[i];
             return has_sortable_keys(*batch);
         });
     if (!sortable) return false;
-    for (std::size_t p = 0; p < pixels; ++p) start_[p + 1] += start_[p];
+    place_columns();
     if (store.used_bytes() + needed_bytes() > limit) return false;
-    words_.resize(start_[pixels]);
-    updates_end_.assign(start_.begin(), start_.end() - 1);  // for now: where the column's next word goes
+    words_.resize(begin_.back());
+    for (const std::uint32_t begin : begin_) words_[begin - 1] = ~std::uint64_t{0};
     return for_each_alive(
         [&](std::size_t number, std::size_t count, const Lanes<std::uint32_t>& is_alive, const Fates&) {
             for (std::size_t i = 0; i < count; ++i) {
@@ -138,10 +127,25 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
                                           : request_.key == DepthKey::shader_z
                                               ? rasterizer::ordered_code(batch->shader_z[i])
                                               : batch->code[i];
-                words_[updates_end_[batch->pixel[i]]++] = std::uint64_t{key} << 32 | FragmentStore::place(number, i);
+                Column& column = columns_[batch->pixel[i]];
+                words_[column.begin + column.size++] = std::uint64_t{key} << 32 | FragmentStore::place(number, i);
             }
             return true;
         });
+}
+
+// Heights are counted again as words come.
+void SortedFragments::place_columns() {
+    occupied_.clear();
+    begin_.assign(1, 1);
+    for (std::size_t p = 0; p < pixels(); ++p) {
+        const std::uint32_t height = std::exchange(columns_[p].size, 0);
+        columns_[p].begin = begin_.back();
+        if (height == 0) continue;
+        occupied_.push_back(static_cast<std::uint32_t>(p));
+        begin_.push_back(begin_.back() + height + 1);
+        size_ += height;
+    }
 }
 
 bool SortedFragments::has_sortable_keys(const FragmentBatch& batch) const noexcept {
@@ -158,15 +162,32 @@ std::uint64_t SortedFragments::needed_bytes() const noexcept {
     return size() * (bytes_per_fragment + (request_.by_reference ? more_by_reference : 0)) + pixels() * bytes_per_pixel;
 }
 
-void SortedFragments::look_at_values(const FragmentStore& store, const FragmentBatch& batch) noexcept {
-    const auto count = static_cast<std::size_t>(batch.count);
-    const bool has_colors = store.needs().color, has_reference = store.needs().reference;
-    bool plain = has_colors, same = has_reference;
-    for (std::size_t i = 0; i < count && has_colors; ++i)
-        for (std::size_t c = 0; c < 4; ++c) plain &= is_at_most(batch.color[c][i], c == 3 ? 1.0f : 1024.0f);
-    for (std::size_t i = 0; i < count && has_reference; ++i) same &= batch.reference_code[i] == batch.code[i];
-    has_plain_colors_ &= plain;
-    stores_reference_ &= same;
+bool SortedFragments::has_plain_colors(const FragmentStore& store) {
+    if (has_plain_colors_) return *has_plain_colors_;
+    bool plain = store.needs().color;
+    const auto batch = std::make_unique<FragmentBatch>();
+    Lanes<std::uint32_t> alive;
+    for (std::size_t number = 0; plain && number < store.batches(); ++number) {
+        store.recall(number, *batch, alive, {.shader_z = false, .code = false, .color = true});
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch->count); ++i)
+                plain &= is_at_most(batch->color[c][i], c == 3 ? 1.0f : 1024.0f);
+    }
+    has_plain_colors_ = plain;
+    return plain;
+}
+
+std::span<const std::uint32_t> SortedFragments::numbers_below(std::span<const std::uint64_t> bounds, Cursor which) {
+    std::vector<std::uint32_t>& cursors = cursors_[static_cast<std::size_t>(which)];
+    const ColumnPlaces columns{words_.data(), begin_.data(), occupied_.size()};
+    constexpr std::size_t some = 8;  // that are found one by one where one of them has moved farther
+    for (std::size_t k = 0; (k = step_cursors(columns, bounds.data(), cursors.data(), k)) < columns.count;)
+        for (const std::size_t end = std::min(k + some, columns.count); k < end; ++k) {
+            const auto words = column(k);
+            cursors[k] = bounds[k] > 0xffffffff ? static_cast<std::uint32_t>(words.size())
+                                                : first_from(words, bounds[k] << 32, cursors[k]);
+        }
+    return cursors;
 }
 
 // Of neighbouring passes bounds are the same or a few words apart: steps that double, from where the last one was.
@@ -192,7 +213,7 @@ std::uint32_t SortedFragments::first_from(std::span<const std::uint64_t> words, 
 // From the far end on; next_nearer_ is, in depth order, the next fragment that arrived before this one.
 void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) {
     const std::span<const std::uint64_t> words = of(pixel);
-    std::uint32_t* const updates = updates_.data() + start_[pixel];
+    std::uint32_t* const updates = updates_.data() + columns_[pixel].begin;
     if (next_nearer_.size() < words.size()) next_nearer_.resize(2 * words.size());
     const auto place = [&](std::uint32_t k) { return static_cast<std::uint32_t>(words[k]); };
     for (std::uint32_t k = last; k-- > 0;) {
@@ -201,8 +222,8 @@ void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) {
         next_nearer_[k] = next;
         updates[k] = 1 + (next < last ? updates[next] : 0);
     }
-    updates_end_[pixel] = last;
-    finger_[static_cast<std::size_t>(Finger::update)][pixel] = {};
+    columns_[pixel].updates_end = last;
+    columns_[pixel].update = {};
 }
 
 // Chains lead from the nearest to those that passed before it, one update fewer each; what lies between two of a chain has
@@ -210,22 +231,26 @@ void SortedFragments::count_updates(std::size_t pixel, std::uint32_t last) {
 // peeled, it stays where it was found.
 std::uint32_t SortedFragments::update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
                                       std::uint32_t updates) {
+    Column& column = columns_[pixel];
+    if (column.arrival == ColumnArrival::near_to_far) return first;
+    if (column.arrival == ColumnArrival::far_to_near) return last - updates;
     static_cast<void>(passing(pixel, first, last));
-    const std::uint32_t* const of_word = updates_.data() + start_[pixel];
-    Found& found = finger_[static_cast<std::size_t>(Finger::update)][pixel];
-    Found& from = finger_[static_cast<std::size_t>(Finger::update_from)][pixel];
-    std::uint32_t at = found.bound == updates && from.at <= first && first <= found.at ? found.at : first;
+    const std::uint32_t* const of_word = updates_.data() + column.begin;
+    Found& found = column.update;
+    std::uint32_t at = found.bound == updates && column.update_from <= first && first <= found.at ? found.at : first;
     while (of_word[at] > updates) ++at;
     found = {updates, at};
-    from.at = first;
+    column.update_from = first;
     return at;
 }
 
 // The chain from `first` leaves the range at the first fragment behind it that arrived before all of the range's.
 std::uint32_t SortedFragments::passing_within(std::size_t pixel, std::uint32_t first, std::uint32_t last) {
     if (first >= last) return 0;
-    if (updates_end_[pixel] == not_counted || updates_end_[pixel] < last) count_updates(pixel, last);
-    const std::size_t column = start_[pixel], end = column + updates_end_[pixel];
+    const Column& of_pixel = columns_[pixel];
+    if (of_pixel.arrival != ColumnArrival::mixed) return passing(pixel, first, last);
+    if (of_pixel.updates_end < last) count_updates(pixel, last);
+    const std::size_t column = of_pixel.begin, end = column + of_pixel.updates_end;
     const std::uint32_t place = earliest().earliest(column + first, column + last);
     const std::size_t left = earliest_.first_before(column + last, end, place);
     return updates_[column + first] - (left < end ? updates_[left] : 0);
@@ -234,7 +259,7 @@ std::uint32_t SortedFragments::passing_within(std::size_t pixel, std::uint32_t f
 // Between two dead ones those pass that arrived before all nearer ones.
 std::uint32_t SortedFragments::passing_without(std::size_t pixel, std::uint32_t first, std::uint32_t last,
                                                std::span<const std::uint32_t> dead) {
-    const std::size_t column = start_[pixel];
+    const std::size_t column = columns_[pixel].begin;
     const EarliestIndex& index = earliest();
     std::uint32_t passed = 0, before = ~0u, from = first;
     for (std::size_t k = 0; from < last; ++k) {
@@ -275,11 +300,11 @@ class LaterCounts {
 // From the far end on: what is put down lies behind.
 void SortedFragments::count_later(std::size_t pixel, std::uint32_t last) {
     if (later_.size() < words_.size()) later_.resize(words_.size());
-    later_end_[pixel] = last;
+    columns_[pixel].later_end = last;
     const std::span<const std::uint64_t> words = of(pixel).first(last);
-    std::uint32_t* const later = later_.data() + start_[pixel];
-    if (arrival_[pixel] != ColumnArrival::mixed) {
-        const bool is_near_to_far = arrival_[pixel] == ColumnArrival::near_to_far;
+    std::uint32_t* const later = later_.data() + columns_[pixel].begin;
+    if (columns_[pixel].arrival != ColumnArrival::mixed) {
+        const bool is_near_to_far = is_in_order(pixel);
         for (std::uint32_t k = 0; k < last; ++k) later[k] = is_near_to_far ? last - 1 - k : 0;
         return;
     }

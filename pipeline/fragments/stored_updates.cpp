@@ -50,7 +50,10 @@ void SortedFragments::take_stored(const FragmentStore& store) {
     rasterizer::Lanes<std::uint32_t> places;
     for (std::size_t first = 0; first < words_.size(); first += places.size()) {
         const std::size_t count = std::min(places.size(), words_.size() - first);
-        for (std::size_t i = 0; i < count; ++i) places[i] = static_cast<std::uint32_t>(words_[first + i]);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint64_t word = words_[first + i];
+            places[i] = word == ~std::uint64_t{0} ? 0 : static_cast<std::uint32_t>(word);  // between columns: any
+        }
         store.fetch({places.data(), count}, code_alone, FragmentStore::Numbers::no, *batch);
         for (std::size_t i = 0; i < count; ++i) stored_[first + i] = std::uint64_t{batch->code[i]} << 32 | places[i];
     }
@@ -58,16 +61,16 @@ void SortedFragments::take_stored(const FragmentStore& store) {
 
 SortedFragments::Passing SortedFragments::passing_stored(std::size_t pixel, std::uint32_t first,
                                                          std::uint32_t surface) {
-    if (first >= of(pixel).size()) return {};
-    if (updates_end_[pixel] != surface) count_stored_updates(pixel, surface);
-    const std::uint64_t least = least_stored_[start_[pixel] + first];
+    if (first >= of(pixel).size() || surface == 0) return {};
+    if (columns_[pixel].updates_end != surface) count_stored_updates(pixel, surface);
+    const std::uint64_t least = least_stored_[columns_[pixel].begin + first];
     if (least >> 32 >= surface) return {};
-    return {least, updates_[start_[pixel] + first]};
+    return {least, updates_[columns_[pixel].begin + first]};
 }
 
 // `updates_` first takes where intervals begin and end, and then their sum.
 void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surface) {
-    const std::uint32_t begin = start_[pixel];
+    const std::uint32_t begin = columns_[pixel].begin;
     const auto size = static_cast<std::uint32_t>(of(pixel).size());
     const std::uint64_t* const stored = stored_.data() + begin;
     std::uint32_t* const updates = updates_.data() + begin;
@@ -95,7 +98,7 @@ void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surf
         if (k + 1 < size) --updates[k + 1];
     }
     for (std::uint32_t k = 1; k < size; ++k) updates[k] += updates[k - 1];
-    updates_end_[pixel] = surface;
+    columns_[pixel].updates_end = surface;
 }
 
 }  // namespace strata::pipeline

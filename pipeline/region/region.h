@@ -41,6 +41,8 @@ class RegionScratchPool;
 struct RegionScratch;  // the arrays that a batch passes through
 struct SortRequest;
 struct SelectedFragments;
+struct KeyWindow;
+class StoredDepth;
 
 class Region {
   public:
@@ -191,6 +193,8 @@ class Region {
     void capture_unseen(const PreparedDraw& list, const rasterizer::FragmentNeeds& kept);
     void select(const PassState& state);
     void select_nearest(const PassState& state);
+    void select_key(const KeyWindow& window);
+    void select_nearest_left(const KeyWindow& window, const StoredDepth& stored);
     struct ColumnPart {
         std::uint32_t first, last, end;  // a window [first, end), of which [first, last) lies before the stored depth
     };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pipeline/fragments/key_windows.h"
+#include "pipeline/frame/effects.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "rasterizer/rules/depth_code.h"
@@ -15,7 +16,7 @@ using rasterizer::FragmentNeeds;
 
 namespace {
 
-using Finger = SortedFragments::Finger;
+using Cursor = SortedFragments::Cursor;
 using Numbers = FragmentStore::Numbers;
 
 constexpr std::uint32_t greatest_stencil = 255;
@@ -34,7 +35,7 @@ std::span<const std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t
 
 void Region::select(const PassState& state) {
     if (std::exchange(scratch_->selected.is_ready, false)) return;
-    scratch_->selected.start();
+    scratch_->selected.start(scratch_->sorted.present().occupied().size());
     switch (state.selection.keeps) {
         case Keeps::nearest:
         case Keeps::last_two:
@@ -58,22 +59,49 @@ void Region::select_nearest(const PassState& state) {
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
+    const Keeps keeps = state.selection.keeps;
+    const bool is_counted = state.stencil.enabled;
+    if (keeps == Keeps::nearest && !is_counted && !window.has_high()) return select_nearest_left(window, stored);
+    std::uint64_t inside = 0, passed = 0;
     for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
         const auto& [p, words, first, end, low] = column;
-        const std::uint32_t last = std::min(end, sorted.below(p, stored.of(p), Finger::surface));
-        selected.inside += end - first;
+        const std::uint32_t last = std::min(end, sorted.before_surface(p, stored.of(p)));
+        inside += end - first;
         const std::uint32_t updates = sorted.passing(p, first, last);
-        if (state.selection.keeps == Keeps::previous) {
+        if (keeps == Keeps::previous) {
             select_previous(state, p, {first, last, end}, updates);
             return;
         }
         if (updates == 0) return;
-        selected.passed += updates;
-        if (state.stencil.enabled) count_up(state, p, updates - 1);
-        const bool has_two = state.selection.keeps == Keeps::last_two && updates > 1;
+        passed += updates;
+        if (is_counted) count_up(state, p, updates - 1);
+        const bool has_two = keeps == Keeps::last_two && updates > 1;
         if (has_two) selected.add(p, words[sorted.update(p, first, last, updates - 1)], 0);
         selected.add(p, words[first], has_two ? 1 : 0);
     });
+    selected.inside += inside;
+    selected.passed += passed;
+}
+
+// The same of windows that nothing but the surface ends, where no stencil counts: what most peels look for.
+void Region::select_nearest_left(const KeyWindow& window, const StoredDepth& stored) {
+    SortedFragments& sorted = scratch_->sorted.present();
+    SelectedFragments& selected = scratch_->selected;
+    SelectedFragments::Filling nearest = selected.begin_first();
+    const auto occupied = sorted.occupied();
+    window.put_low(occupied, selected.windows);
+    const auto first = sorted.numbers_below(selected.windows.low, Cursor::low);
+    std::uint64_t nearer = 0, passed = 0;
+    for (std::size_t k = 0; k < occupied.size(); ++k) {
+        const std::uint32_t p = occupied[k];
+        const std::uint32_t updates = sorted.passing(p, first[k], sorted.before_surface(p, stored.of(p)));
+        nearer += first[k];
+        passed += updates;
+        if (updates > 0) nearest.add(p, sorted.column_begin(k)[first[k]]);
+    }
+    selected.end_first(nearest);
+    selected.inside += sorted.size() - nearer;
+    selected.passed += passed;
 }
 
 // Increments a pixel's stencil up to 255, and reports the first increment that it does not take.
@@ -120,20 +148,49 @@ void Region::select_nearest_stored(const PassState& state) {
 void Region::select_window(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    selected.start();
+    selected.start(sorted.occupied().size());
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
+    if (window.is_one_key()) return select_key(window);
     std::vector<std::uint64_t> in_order;
+    std::uint64_t inside = 0;
     for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
         const auto& [p, words, first, last, low] = column;
-        selected.inside += last - first;
-        if (last - first == 1) {
-            selected.add(p, words[first], 0);
-            return;
-        }
+        inside += last - first;
+        if (last == first) return;
         const auto kept = in_order_of_arrival(words.subspan(first, last - first), in_order);
         for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
     });
+    selected.inside = inside;
+}
+
+// The same of windows of one key: most hold one fragment. Its word is not all ones, as that behind the last is.
+void Region::select_key(const KeyWindow& window) {
+    SortedFragments& sorted = scratch_->sorted.present();
+    SelectedFragments& selected = scratch_->selected;
+    const auto occupied = sorted.occupied();
+    window.put_low(occupied, selected.windows);
+    const auto first = sorted.numbers_below(selected.windows.low, Cursor::low);
+    SelectedFragments::Filling alone = selected.begin_first();
+    std::vector<std::uint32_t> shared;  // columns with several
+    const auto words = [&](std::size_t k) { return sorted.column_begin(k) + first[k]; };
+    const auto is_kept = [&](std::size_t k, std::uint64_t word) {
+        return word >> 32 == selected.windows.low[k] && word != ~std::uint64_t{0};
+    };
+    for (std::size_t k = 0; k < occupied.size(); ++k) {
+        const std::uint64_t* const word = words(k);
+        if (!is_kept(k, word[0])) continue;
+        alone.add(occupied[k], word[0]);
+        if (is_kept(k, word[1])) [[unlikely]]
+            shared.push_back(static_cast<std::uint32_t>(k));
+    }
+    selected.end_first(alone);
+    selected.inside = alone.count;
+    for (const std::uint32_t k : shared) {
+        std::size_t rank = 1;
+        for (; is_kept(k, words(k)[rank]); ++rank) selected.add(occupied[k], words(k)[rank], rank);
+        selected.inside += rank - 1;
+    }
 }
 
 // Those before have counted the stencil down by the time that the kept ones come, and met no sample's test. Where sample s
@@ -153,7 +210,8 @@ void Region::select_arrivals(const PassState& state) {
         return count_down(state, [&](std::size_t p) { return std::min(sorted.of(p).size(), past); });
     for (std::size_t rank = 0; rank < selected.ranks; ++rank) {
         std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(rank)).words;
-        for (const SelectedFragments::One& one : selected.of_rank[rank]) stored[one.pixel] = state.stencil.front.ref;
+        const SelectedFragments::Rank& kept = selected.of_rank[rank];
+        for (std::size_t k = 0; k < kept.count; ++k) stored[kept.pixel[k]] = state.stencil.front.ref;
     }
 }
 
@@ -193,31 +251,41 @@ void Region::count_down(const PassState& state, const FragmentsAt& fragments_at)
     }
 }
 
+namespace {
+
+constexpr std::span<const std::uint32_t> no_numbers;
+
+// The windows that a range target of (-near, far) leaves, both ends within; of an empty range nothing.
+void put_range(const Texels& range, std::span<const std::uint32_t> pixels, WindowEnds& ends) {
+    ends.low.resize(pixels.size());
+    ends.high.resize(pixels.size());
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const float near = -std::bit_cast<float>(range.plane(0).words[pixels[k]]);
+        const float far = std::bit_cast<float>(range.plane(1).words[pixels[k]]);
+        const bool is_empty = !(near <= far);
+        ends.low[k] = is_empty ? std::uint64_t{1} << 32 : rasterizer::ordered_code(near);
+        ends.high[k] = is_empty ? ends.low[k] : std::uint64_t{rasterizer::ordered_code(far)} + 1;
+    }
+}
+
+}  // namespace
+
 // Ends are taken by the columns' own keys: where a bound was flushed as a denormal, they are still the ones that decide.
 void Region::select_ends(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const FragmentSelection& selection = state.selection;
     const KeyBound before{codes_of(selection.before), frame_.key};
-    const auto range = selection.range.exists() ? at(selection.range).texels(0) : Texels{};
-    const auto occupied = sorted.occupied();
-    for (std::size_t column = 0; column < occupied.size(); ++column) {
-        if (const std::size_t ahead = column + pixels_ahead; ahead < occupied.size()) {
-            sorted.prefetch(occupied[ahead], Finger::low);
-            sorted.prefetch(occupied[ahead], Finger::high);
-        }
-        const std::uint32_t p = occupied[column];
-        const auto words = sorted.of(p);
+    if (selection.range.exists()) put_range(at(selection.range).texels(0), sorted.occupied(), selected.windows);
+    const auto near = selection.range.exists() ? sorted.numbers_below(selected.windows.low, Cursor::low) : no_numbers;
+    const auto far = selection.range.exists() ? sorted.numbers_below(selected.windows.high, Cursor::high) : no_numbers;
+    for (std::size_t column = 0; column < sorted.occupied().size(); ++column) {
+        const std::uint32_t p = sorted.occupied()[column];
+        const auto words = sorted.column(column);
         const auto size = static_cast<std::uint32_t>(words.size());
-        std::uint32_t first = 0, last = sorted.below(p, before.of(p), Finger::surface);
-        if (selection.range.exists()) {
-            const float near = -std::bit_cast<float>(range.plane(0).words[p]);
-            const float far = std::bit_cast<float>(range.plane(1).words[p]);
-            first = near <= far ? sorted.below(p, rasterizer::ordered_code(near), Finger::low) : last;
-            if (near <= far)
-                last = std::min(last, sorted.below(p, std::uint64_t{rasterizer::ordered_code(far)} + 1, Finger::high));
-        }
-        last = std::max(first, last);
+        const std::uint32_t surface = sorted.before_surface(p, static_cast<std::uint32_t>(before.of(p)));
+        const std::uint32_t first = near.empty() ? 0 : near[column];
+        const std::uint32_t last = std::max(first, far.empty() ? surface : std::min(surface, far[column]));
         selected.inside += last - first;
         std::size_t rank = 0;
         const auto add = [&](std::uint32_t k) { selected.add(p, words[k], rank++); };
@@ -255,19 +323,15 @@ void Region::find_positions(FragmentBatch& batch, std::size_t count) const {
 // Keys that are stored codes need no fetching. No program that selects looks at a primitive's number: the trace does.
 FragmentBatch* Region::next_selected(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
-    while (selected.rank < selected.ranks && selected.next == selected.of_rank[selected.rank].size())
+    while (selected.rank < selected.ranks && selected.next == selected.of_rank[selected.rank].count)
         ++selected.rank, selected.next = 0;
     if (selected.rank == selected.ranks) return nullptr;
-    const auto& all = selected.of_rank[selected.rank];
-    const std::size_t count = std::min<std::size_t>(all.size() - selected.next, batch_capacity);
+    const SelectedFragments::Rank& all = selected.of_rank[selected.rank];
+    const std::size_t count = std::min<std::size_t>(all.count - selected.next, batch_capacity);
     FragmentBatch& batch = scratch_->recalled;
-    Lanes<std::uint32_t>& places = scratch_->depth_stored;
-    for (std::size_t i = 0; i < count; ++i) {
-        const SelectedFragments::One& one = all[selected.next + i];
-        batch.pixel[i] = one.pixel;
-        batch.code[i] = one.key;
-        places[i] = one.place;
-    }
+    const std::span<const std::uint32_t> places{all.place.data() + selected.next, count};
+    std::copy_n(all.pixel.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.pixel.begin());
+    std::copy_n(all.key.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.code.begin());
     find_positions(batch, count);
     if (state.selection.by_reference && !scratch_->sorted.present().is_by_reference())
         std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
@@ -275,8 +339,9 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     batch.count = static_cast<int>(count);
     batch.material = 0;
     FragmentNeeds fetched = state.needs;
-    fetched.code = frame_.key == DepthKey::shader_z;  // else the key is the code
-    store().fetch({places.data(), count}, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
+    fetched.code =
+        frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it
+    store().fetch(places, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
     if (!frame_.trace) std::fill_n(batch.primitive.begin(), count, ~0u);
     return &batch;
 }

@@ -16,8 +16,6 @@ namespace {
 constexpr std::uint32_t full_stencil = 255;
 constexpr std::uint32_t none = ~0u;
 
-using Finger = SortedFragments::Finger;
-
 // The fragments [first, last) of a column in the order of arrival, up to the first that is no farther than one before it.
 class RunWalk {
   public:
@@ -141,7 +139,7 @@ void Region::select_nearest_after(const PassState& state) {
         counts[p] += dying;
         if (dying == end - first) return;
         take_first_arrivals(sorted, p, first, end, dying, dead);
-        const std::uint32_t last = std::min(end, sorted.below(p, stored.of(p), Finger::surface));
+        const std::uint32_t last = std::min(end, sorted.before_surface(p, stored.of(p)));
         const std::uint32_t nearest = first_without(dead, first);
         if (nearest >= last) return;
         selected.passed += sorted.passing_without(p, first, last, dead);

@@ -104,14 +104,14 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
         if (!store().serves(kept)) return false;
     }
     if (!sort_for(state)) return false;
-    const SortedFragments& sorted = scratch_->sorted.present();
+    SortedFragments& sorted = scratch_->sorted.present();
     const Target own =
         selection.keeps == Keeps::last_run ? state.color[1] : state.color[0];  // not blended with colours
     const bool blends_all = selection.keeps == Keeps::ends || selection.keeps == Keeps::last_run;
     const bool has_order = blends_all && std::ranges::any_of(state.color, [&](Target t) {
                                return t.exists() && info(at(t).format()).type != ChannelType::unorm8 && t != own;
                            });
-    if (has_order && !sorted.has_plain_colors()) return false;
+    if (has_order && !sorted.has_plain_colors(store())) return false;
     // Where a window holds most of the fragments, it is cheaper to visit all of them in a row.
     scratch_->selected.is_ready = selection.keeps == Keeps::window;
     if (!scratch_->selected.is_ready) return true;

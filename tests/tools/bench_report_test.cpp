@@ -38,6 +38,7 @@ BenchResult result_of(const char* algorithm, Execution execution, const BenchSce
     result.job.algorithm = algorithm == nullptr ? nullptr : strata::peeling::find_algorithm(algorithm);
     result.job.execution = execution;
     result.last.geometry_passes = 5;
+    result.last.visited = 400;
     result.last.counters.fragments_rasterized = 1000;
     result.last.counters.bytes_read = 3000;
     result.last.counters.bytes_written = 1000;
@@ -95,7 +96,7 @@ TEST_CASE("a job in JSON tells its words, its counts, its times and what follows
     CHECK(document.at("scene") == "planes:count=2");
     CHECK(document.at("refused").empty());
     const auto expected = ordered_json::parse(R"({"scene":"planes:count=2","algorithm":"dual","execution":"replay",
-        "simd":"scalar","effects":"needed","threads":3,"fragment_memory":268435456,"size":"64x48","profile":"geforce8","geometry_passes":5,"fragments":1000,
+        "simd":"scalar","effects":"needed","threads":3,"fragment_memory":268435456,"size":"64x48","profile":"geforce8","geometry_passes":5,"fragments":1000,"visited":400,
         "seconds":{"median":0.004,"min":0.002,"max":0.008,"all":[0.002,0.008,0.004]},"geometry_seconds":0.0015,
         "fragments_per_second":250000.0,"ns_per_fragment_pass":4000.0,"bytes_per_fragment":4.0,"digest":"d1","ratio":null})");
     CHECK(document.at("jobs").at(0).dump() == expected.dump());

@@ -4,7 +4,9 @@
     tools/bench/peels.py [--slices 64,256] [--size 512x512] [--orders near] [--models ../shared/models] [--formats rgba8] [--repeat 3]
 
 Standard library alone. A row is a job; its time is the processor's, which other work on the machine disturbs little; its ratio is over
-a_buffer's of the same profile, format and run. `most` is what the ratio is to keep to; the exit status is 1 if one does not.
+a_buffer's of the same profile, format and run. `most` is what the ratio is to keep to; the exit status is 1 if one does not. Where an
+algorithm's own listing needs half as many iterations as there are layers, each over all that is left, `most` is in visits: fragments that
+its programs may run on for each fragment of the stack, which is iterations times what one of them keeps.
 """
 import argparse
 import json
@@ -20,6 +22,9 @@ FORMATS = {"geforce3": ["rgba8"], "geforce8": ["rgba8", "rgba16f", "rgba32f"], "
 PEELS = ["front_to_back", "dual", "dual_independent", "depth_units", "shadow_map_depth_replace", "layer_peel", "coherent_stencil",
          "coherent_blend", "coherent_ideal", "stencil_routed_k_buffer", "hybrid", "batched"]
 MOST_ON_SLICES, MOST_ON_MODELS = 2.5, {"batched": 3.0, "stencil_routed_k_buffer": 3.0}
+# Visits a fragment: coherent_stencil and coherent_blend take two layers an iteration and keep eight fragments for them, and one
+# more a layer where the stencil counts no further; coherent_ideal takes a layer and keeps five.
+MOST_VISITS = {"coherent_stencil": 9, "coherent_blend": 9, "coherent_ideal": 5}
 LIMIT = 20  # of the rows with --max-passes
 
 
@@ -73,14 +78,25 @@ def jobs(options, scene, size, profile, color_format, extra):
     return {job["algorithm"]: frame_ms(command, job["algorithm"], int(options.repeat)) for job in json.loads(done.stdout)["jobs"]}
 
 
+def visits(options, scene, size, profile, color_format, extra, algorithm):
+    """Fragments that the algorithm's programs run on, for each fragment of the list."""
+    command = [*bench_command(options, scene, size, profile, color_format, extra), "--algorithm", algorithm, "--repeat", "1",
+               "--warm-up", "0", "--json", "-"]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(f"peels.py: {' '.join(command)} ended with exit status {done.returncode}: {done.stderr.strip()}")
+    job = json.loads(done.stdout)["jobs"][0]
+    return job["visited"] * job["geometry_passes"] / job["fragments"]
+
+
 def scenes_of(options):
     for slices in filter(None, options.slices.split(",")):
         for order in options.orders.split(","):
-            yield f"volume-beam:slices={slices},order={order}", options.size, [], MOST_ON_SLICES, {}
+            yield f"volume-beam:slices={slices},order={order}", options.size, [], MOST_ON_SLICES, {}, MOST_VISITS
     for model in ("bunny", "dragon") if options.models else ():
         path = pathlib.Path(options.models) / f"{model}.glb"
         if path.exists():
-            yield str(path), options.model_size, ["--alpha", "0.5"], 2.0, MOST_ON_MODELS
+            yield str(path), options.model_size, ["--alpha", "0.5"], 2.0, MOST_ON_MODELS, {}
         else:
             print(f"peels.py: no {path}: its rows are missing", file=sys.stderr)
 
@@ -111,9 +127,9 @@ def main():
     kept, ratios = True, {}
     print(f"# Every peel beside the oracle\n\nMade by `tools/bench/peels.py {' '.join(sys.argv[1:])}`: processor time of a frame on one thread, over "
           f"{options.repeat} frames; ratios over the a_buffer of the same profile, format and run. `most` is what a ratio is to keep to.\n")
-    print("| scene | profile | format | passes | job | ms | a_buffer | ratio | most | kept |")
-    print("|" + "---|" * 10)
-    for scene, size, extra, most, exceptions in scenes_of(options):
+    print("| scene | profile | format | passes | job | ms | a_buffer | ratio | visits | most | kept |")
+    print("|" + "---|" * 11)
+    for scene, size, extra, most, exceptions, most_visits in scenes_of(options):
         for profile in options.profiles.split(","):
             for color_format in [f for f in FORMATS.get(profile, ["rgba8"]) if f in options.formats.split(",")]:
                 for limit in [[] if most_passes == "all" else ["--max-passes", most_passes] for most_passes in options.limits.split(",")]:
@@ -121,11 +137,15 @@ def main():
                     base = times.pop("a_buffer")
                     for algorithm, ms in times.items():
                         bound = exceptions.get(algorithm, most)
-                        keeps = ms <= bound * base
+                        keeps, found = ms <= bound * base, "-"
+                        if algorithm in most_visits and not limit:
+                            bound = most_visits[algorithm]
+                            found = visits(options, scene, size, profile, color_format, extra + limit, algorithm)
+                            keeps, bound, found = found <= bound, f"{bound} visits", f"{found:.2f}"
                         kept = kept and keeps
                         ratios.setdefault((algorithm, limit[1] if limit else "all"), []).append((ms / base, keeps))
                         print(f"| {pathlib.Path(scene).stem} | {profile} | {color_format} | {limit[1] if limit else 'all'} | {algorithm} | "
-                              f"{ms:.1f} | {base:.1f} | {ms / base:.2f} | {bound} | {'yes' if keeps else '**no**'} |", flush=True)
+                              f"{ms:.1f} | {base:.1f} | {ms / base:.2f} | {found} | {bound} | {'yes' if keeps else '**no**'} |", flush=True)
     print_summary(ratios)
     sys.exit(0 if kept else 1)
 

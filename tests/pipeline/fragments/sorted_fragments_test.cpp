@@ -139,30 +139,43 @@ TEST_CASE("sorted fragments are each pixel's by key and arrival, without those t
     }
 }
 
-TEST_CASE("a bound is found wherever its finger stood, and as many fragments pass as a depth buffer lets through") {
+TEST_CASE("bounds are found wherever their cursors stood, and as many fragments pass as a depth buffer lets through") {
     Random random{18};
     StoredColumns given;
     fill_columns(random, 60, 40, given);
     SortedFragments sorted;
     REQUIRE(sorted.sort(given.store, without_faint, column_pixels, std::uint64_t{64} << 20));
+    const auto occupied = sorted.occupied();
+    REQUIRE(occupied.size() > column_pixels / 2);
+    std::vector<std::uint64_t> low(occupied.size()), high(occupied.size());
     std::uint64_t wrong_bounds = 0, wrong_counts = 0;
-    for (int look = 0; look < 40'000; ++look) {
-        const auto p = static_cast<std::size_t>(random_int(random, 0, column_pixels - 1));
-        const auto words = sorted.of(p);
-        const auto bound = [&] {
-            const auto key = static_cast<std::uint64_t>(random_int(random, 0, 41));
-            return key == 41 ? std::uint64_t{1} << 32 : key;
+    for (int look = 0; look < 150; ++look) {
+        // Anywhere, or a little behind where they were.
+        const auto move = [&](std::uint64_t& bound) {
+            const int key = look % 3 == 0 ? random_int(random, 0, 41)
+                                          : std::min<int>(41, static_cast<int>(bound) + random_int(random, 0, 1));
+            bound = static_cast<std::uint64_t>(key);
         };
-        const std::uint64_t low = bound();
-        const std::uint64_t high = bound();
-        const std::uint32_t first = sorted.below(p, low, SortedFragments::Finger::low);
-        const std::uint32_t last = sorted.below(p, high, SortedFragments::Finger::high);
-        const auto count = [&](std::uint64_t key) {
-            return std::count_if(words.begin(), words.end(), [&](std::uint64_t w) { return w >> 32 < key; });
+        std::ranges::for_each(low, move);
+        std::ranges::for_each(high, move);
+        const auto keys = [](std::vector<std::uint64_t> bounds) {
+            for (std::uint64_t& bound : bounds) bound = bound == 41 ? std::uint64_t{1} << 32 : bound;
+            return bounds;
         };
-        wrong_bounds += first == count(low) && last == count(high) ? 0 : 1;
-        const std::uint32_t expected = first < last ? passing_one_by_one(words, first, last) : 0;
-        wrong_counts += sorted.passing(p, first, last) == expected ? 0 : 1;
+        const auto first = sorted.numbers_below(keys(low), SortedFragments::Cursor::low);
+        const auto last = sorted.numbers_below(keys(high), SortedFragments::Cursor::high);
+        for (std::size_t k = 0; k < occupied.size(); ++k) {
+            const auto words = sorted.column(k);
+            REQUIRE(words.data() == sorted.of(occupied[k]).data());
+            const auto count = [&](std::uint64_t key) {
+                return std::count_if(words.begin(), words.end(), [&](std::uint64_t w) { return w >> 32 < key; });
+            };
+            wrong_bounds += first[k] == count(low[k]) && last[k] == count(high[k]) ? 0 : 1;
+            const std::uint32_t expected = first[k] < last[k] ? passing_one_by_one(words, first[k], last[k]) : 0;
+            wrong_counts += sorted.passing(occupied[k], first[k], last[k]) == expected ? 0 : 1;
+            const auto surface = static_cast<std::uint32_t>(random_int(random, 0, 41));
+            wrong_bounds += sorted.before_surface(occupied[k], surface) == count(surface) ? 0 : 1;
+        }
     }
     CHECK(wrong_bounds == 0);
     CHECK(wrong_counts == 0);
@@ -212,12 +225,13 @@ TEST_CASE("of any piece of the columns the first arrival is found, and the next 
     Random random{24};
     SortedFragments sorted = sorted_columns(random);
     const EarliestIndex& index = sorted.earliest();
-    const auto all = static_cast<int>(sorted.size());
+    const auto all = static_cast<int>(sorted.begin(column_pixels - 1) + sorted.of(column_pixels - 1).size());
     int wrong = 0;
     for (int look = 0; look < 20'000; ++look) {
         const int reach = look % 2 == 0 ? 70 : all;
         const auto first = static_cast<std::size_t>(random_int(random, 0, all));
-        const auto last = std::min(sorted.size(), first + static_cast<std::size_t>(random_int(random, 0, reach)));
+        const auto last =
+            std::min(static_cast<std::size_t>(all), first + static_cast<std::size_t>(random_int(random, 0, reach)));
         std::uint32_t least = ~0u;
         for (std::size_t k = first; k < last; ++k) least = std::min(least, place_of(sorted.word(k)));
         wrong += index.earliest(first, last) == least ? 0 : 1;
@@ -330,7 +344,7 @@ TEST_CASE("what has no order, or no room, is not sorted") {
     StoredColumns given;
     fill_columns(random, 10, 40, given);
     SortedFragments sorted;
-    const std::uint64_t needed = given.store.used_bytes() + 17 * (given.rasterized - given.masked) + 57 * column_pixels;
+    const std::uint64_t needed = given.store.used_bytes() + 17 * (given.rasterized - given.masked) + 72 * column_pixels;
     CHECK_FALSE(sorted.sort(given.store, {}, column_pixels, needed - 1));
     CHECK(sorted.sort(given.store, {}, column_pixels, needed));
     CHECK(sorted.sort(given.store, {.key = DepthKey::shader_z}, column_pixels, needed));

@@ -88,6 +88,7 @@ BenchRun run_once(const BenchJob& job) {
     run.seconds = taken.count();
     run.geometry_seconds = result.seconds.geometry;
     run.geometry_passes = result.frame.passes.geometry;
+    run.visited = result.frame.work.visited;
     run.iterations = result.frame.iterations;
     run.counters = result.frame.counters;
     // A depth pass leaves no colours; its picture is the depths.

@@ -45,7 +45,8 @@ struct BenchRun {
     int geometry_passes = 0, iterations = 0;
     // Literal execution's, whatever ran.
     pipeline::Counters counters;
-    pipeline::Image picture;  // the depths for `depth`
+    std::uint64_t visited = 0;  // fragments that programs ran on, in all passes that were no closed form
+    pipeline::Image picture;    // the depths for `depth`
 };
 
 struct BenchResult {

@@ -74,6 +74,7 @@ ordered_json to_json(const BenchResult& result, const Baseline& baseline) {
     ordered_json job = words_of(result.job);
     job["geometry_passes"] = result.last.geometry_passes;
     job["fragments"] = result.last.counters.fragments_rasterized;
+    job["visited"] = result.last.visited;
     job["seconds"] = {
         {"median", spread.median}, {"min", spread.least}, {"max", spread.greatest}, {"all", result.seconds}};
     // The part from transform to bins.
