@@ -135,6 +135,25 @@ TEST_CASE("a depth pass is refused for a colour format as any algorithm is: by i
     }
 }
 
+TEST_CASE("a depth pass is refused for a depth format and a size as any algorithm is") {
+    const FragmentScene scene = one_fragment();
+    const auto list = draw_list(scene);
+    const auto refusals_of = [&](const char* profile, const RenderOptions& options) {
+        strata::peeling::Renderer renderer{list, {}, *strata::pipeline::find_profile(profile), options};
+        const auto found = renderer.depth_pass();
+        CHECK(found.refusal == renderer.render(*strata::peeling::find_algorithm("unsorted")).refusal);
+        return found.refusal.has_value();
+    };
+    RenderOptions options = options_for(scene);
+    CHECK_FALSE(refusals_of("geforce3", options));
+    options.depth = DepthFormat::d32f;
+    CHECK(refusals_of("geforce3", options));
+    CHECK_FALSE(refusals_of("geforce8", options));
+    options.depth.reset();
+    options.width = 16384;
+    CHECK(refusals_of("geforce8", options));
+}
+
 TEST_CASE("depth paths run where their machine exists, and are refused by name elsewhere") {
     using strata::rasterizer::DepthPath;
     const auto with_path = [](const Machine& machine, DepthPath path) {
@@ -235,6 +254,9 @@ TEST_CASE("options that no profile could mean are input errors that name the fie
           "render options: termination.passes: expected 1 to 1000000, found 0");  // it would never end
     CHECK(message([](RenderOptions& o) { o.termination = {.rule = TerminationRule::ratio, .ratio = -0.5}; }) ==
           "render options: termination.ratio: expected a number of at least 0, found -0.500000");
+    CHECK(message([](RenderOptions& o) {
+              o.termination = {.ratio = -0.5};  // which no rule asks for
+          }).find("termination") == std::string::npos);
     CHECK(message([](RenderOptions& o) { o.alpha = std::nanf(""); }) ==
           "render options: alpha: expected a finite number, found nan");
     for (const double absolute : {1.5, -0.5})

@@ -46,13 +46,13 @@ std::uint32_t stored(float depth) {
     return static_cast<std::uint32_t>(static_cast<float>(double{scaled} + max_code * 0.5));
 }
 
-FragmentPath compare_with(Target depth, CompareFunc func) {
+FragmentPath compare_with(Target depth, CompareFunc func, std::size_t unit = 3) {
     FragmentPath path;
-    path.shader[3].op = ShaderOp::texture_rectangle;
-    path.shader[3].texture.depth = depth;
-    path.shader[3].texture.compare = {
+    path.shader[unit].op = ShaderOp::texture_rectangle;
+    path.shader[unit].texture.depth = depth;
+    path.shader[unit].texture.compare = {
         .func = func, .mode = DepthTextureMode::intensity, .target = TextureTarget::rectangle};
-    path.combiners = peel_combiners(3);
+    path.combiners = peel_combiners(unit);
     return path;
 }
 
@@ -68,7 +68,7 @@ PassState peel_state(Target layer, Target depth) {
 // Peels through the state: the second layer's depth is left in `second`. The comparison keeps what is behind layer one.
 struct Peel {
     Target first, second;
-    explicit Peel(Region& region) {
+    explicit Peel(Region& region, std::size_t unit = 3) {
         first = region.make_depth();
         second = region.make_depth();
         const Target texture = region.make_depth();
@@ -79,7 +79,7 @@ struct Peel {
         path.combiners = texture_environment({});
         peel(region, path, peel_state(layer, first));
         region.copy_rectangle(first, region.frame().rect(), texture, 0, 0);
-        peel(region, compare_with(texture, CompareFunc::lequal), peel_state(layer, second));
+        peel(region, compare_with(texture, CompareFunc::lequal, unit), peel_state(layer, second));
         region.publish(layer);
     }
     static void peel(Region& region, const FragmentPath& path, PassState state) {
@@ -89,20 +89,21 @@ struct Peel {
     }
 };
 
-TestFrame frame_of(const FragmentScene& scene, double dx, double dy) {
+TestFrame frame_of(const FragmentScene& scene, double dx, double dy, std::size_t unit = 3) {
     CoordinateUnits units{};
-    units[3] = screen_aligned(dx, dy, depth_row());
+    units[unit] = screen_aligned(dx, dy, depth_row());
     return TestFrame{draw_list(scene), {}, width, height, "geforce3", 8, units};
 }
 
 }  // namespace
 
-TEST_CASE("a screen-aligned depth texture peels: the second pass keeps what is behind the first layer") {
+TEST_CASE("a screen-aligned depth texture of any unit peels: the second pass keeps what is behind the first layer") {
+    const std::size_t unit = GENERATE(as<std::size_t>{}, 0, 1, 2, 3);
     const FragmentScene scene = layers(341);
-    TestFrame test = frame_of(scene, 0, 0);
+    TestFrame test = frame_of(scene, 0, 0, unit);
     RegionBooks books;
     Region region{test.frame, {test.frame.rect()}, books};
-    const Peel peel{region};
+    const Peel peel{region, unit};
     std::size_t wrong = 0, second_layers = 0;
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
         std::vector<std::uint32_t> codes{max_code, max_code};
@@ -258,4 +259,17 @@ TEST_CASE(
     const Target a = tile.make_depth(), b = tile.make_depth();
     CHECK_NOTHROW(tile.copy_rectangle(a, test.frame.rect(), b, 0, 0));
     CHECK_THROWS_AS(tile.copy_rectangle(a, test.frame.rect(), b, -1, 0), NeedsFrame);
+}
+
+TEST_CASE("combiners have the primary colour, whether or not the pass asked for colours") {
+    const FragmentScene scene = layers(342);
+    TestFrame test = frame_of(scene, 0, 0);
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
+    FragmentPath path;
+    path.combiners = texture_environment({});
+    PassState state;
+    state.needs.color = false;
+    FragmentPathProgram{region, path}.apply(state);
+    CHECK(state.needs.color);
 }

@@ -146,3 +146,20 @@ TEST_CASE("a triangle without a finite reciprocal area covers nothing, and is co
     CHECK(geometry.triangles.empty());
     CHECK(geometry.counters.degenerate == 1);
 }
+
+TEST_CASE("the area whose sign is a triangle's facing is twice the exact one, in whole pixels") {
+    Random random{509};
+    int wrong = 0;
+    for (int i = 0; i < 1000; ++i) {
+        std::array<WindowPosition, 3> p;
+        std::array<SubpixelPoint, 3> whole;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int x = random_int(random, -900, 900);
+            const int y = random_int(random, -900, 900);
+            p[k] = {static_cast<float>(x), static_cast<float>(y)};
+            whole[k] = {x, y};
+        }
+        wrong += Integer{static_cast<int>(float_area(p))} != doubled_area(whole[0], whole[1], whole[2]) ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+}

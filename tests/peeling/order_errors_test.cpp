@@ -1,0 +1,53 @@
+// Which cause an audit's order errors are given: a table, cause by cause, of keys-and-counts.md 7.3.
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "peeling/registry.h"
+#include "peeling/render_diagnostics.h"
+#include "peeling/render_options.h"
+
+namespace {
+
+using namespace strata::peeling;
+using strata::pipeline::Diagnostic;
+using strata::pipeline::Fault;
+
+struct Cause {
+    std::string algorithm;
+    bool is_invariant = true;
+    Fault fault = Fault::out_of_order;
+    std::string sentence;  // empty: nothing is said
+};
+
+const std::vector<Cause> causes{
+    {"painter", true, Fault::out_of_order, "triangles sorted by their centroids overlap out of order"},
+    {"painter", false, Fault::out_of_order, "triangles sorted by their centroids overlap out of order"},
+    {"object_sorted", true, Fault::out_of_order, "objects or their own triangles overlap out of order"},
+    {"hybrid", true, Fault::out_of_order, "the ordered set (--sorted) does not arrive front to back"},
+    {"batched", false, Fault::unlike_depths, "3 places lost, repeated or misplaced"},
+    {"front_to_back", false, Fault::unlike_depths, "3 places lost, repeated or misplaced"},
+    {"k_buffer", false, Fault::unlike_depths, "3 places lost, repeated or misplaced"},
+    {"k_buffer", true, {}, ""},
+    {"unsorted", true, {}, ""},
+    {"weighted_average", true, {}, ""}};
+
+}  // namespace
+
+TEST_CASE("order errors are given the cause that the algorithm's order and its depths name") {
+    AuditResult audit;
+    audit.order_errors = 3;
+    audit.misordered = {2, 1, 0};
+    for (const Cause& cause : causes) {
+        INFO(cause.algorithm << (cause.is_invariant ? "" : ", unlike depths"));
+        std::vector<Diagnostic> all;
+        add_audit_diagnostics(*find_algorithm(cause.algorithm), {}, {.is_invariant = cause.is_invariant}, audit, all);
+        REQUIRE(all.size() == (cause.sentence.empty() ? 0u : 1u));
+        if (!all.empty()) CHECK(all[0] == Diagnostic{cause.fault, 2, 1, 0, cause.sentence});
+    }
+}
+
+TEST_CASE("options stand as the book has them until somebody sets them") {
+    const RenderOptions options;
+    CHECK(options.fragment_memory == 268435456u);
+    CHECK(options.average_count == strata::pipeline::Format::r16f);
+}

@@ -1,0 +1,44 @@
+// What weighted_average tells of half precision that has run out. The model counts: from 2,048 on a half holds every second number
+// alone, so a count that goes up by one stands still.
+#include <catch2/catch.hpp>
+
+#include "tests/peeling/rendering.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::RenderOptions;
+using strata::pipeline::Diagnostic;
+using strata::pipeline::Fault;
+using strata::pipeline::Format;
+
+// 2,047 fragments on pixel 3, 2,049 on pixels 6 and 7.
+FragmentScene deep_pixels() {
+    FragmentScene scene{4, 2};
+    scene.pixels[3].fragments.assign(2047, {0.5f, {1, 0, 0, 0.25f}});
+    for (const std::size_t p : {std::size_t{6}, std::size_t{7}})
+        scene.pixels[p].fragments.assign(2049, {0.5f, {1, 0, 0, 0.25f}});
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a count of fragments that half precision cannot hold is told, with its pixels, in every way of running") {
+    const FragmentScene scene = deep_pixels();
+    for (const Running& running : all_ways_of_running)
+        for (const char* profile : {"geforce8", "geforce8_dx101"}) {
+            INFO(profile);
+            RenderOptions options = options_for(scene);
+            running.apply(options);
+            const auto result = render(scene, {profile, "weighted_average"}, options);
+            REQUIRE(diagnosed(result, Fault::half_saturated) == 2);
+            for (const Diagnostic& d : result.frame.diagnostics)
+                if (d.fault == Fault::half_saturated) {
+                    CHECK(d.first_x == 2);
+                    CHECK(d.first_y == 1);
+                }
+            CHECK_FALSE(has_diagnostic(result, Fault::early_end));
+            options.average_count = Format::r32f;
+            CHECK_FALSE(has_diagnostic(render(scene, {profile, "weighted_average"}, options), Fault::half_saturated));
+        }
+}
