@@ -67,39 +67,6 @@ ordered_json items_json(const std::vector<Item>& items) {
     return json;
 }
 
-std::string word_text(std::uint32_t word) { return fmt::format("{:08x}", word); }
-
-ordered_json texture_json(const OperationTexture& texture) {
-    std::string texels;
-    for (const std::uint32_t texel : texture.texels) texels += word_text(texel);
-    return {{"format", texture.format},
-            {"size", {texture.width, texture.height}},
-            {"linear", texture.is_linear},
-            {"compares", texture.compares},
-            {"texels", texels}};
-}
-
-ordered_json operation_json(const Operation& operation) {
-    constexpr std::array stages{"fragment", "vertex", "invariant_vertex"};
-    std::string inputs;
-    for (const Words& words : operation.inputs)
-        for (const std::uint32_t word : words) inputs += word_text(word);
-    ordered_json json;
-    json["name"] = operation.name;
-    json["stage"] = stages[static_cast<std::size_t>(operation.stage)];
-    json["body"] = operation.body;
-    json["texture"] = operation.texture ? texture_json(*operation.texture) : ordered_json{};
-    json["target"] = operation.into_srgb ? "srgb8" : "rgba32ui";
-    json["inputs"] = inputs;
-    return json;
-}
-
-ordered_json operations_json(const std::vector<Operation>& operations) {
-    ordered_json json = ordered_json::array();
-    for (const Operation& operation : operations) json.push_back(operation_json(operation));
-    return json;
-}
-
 }  // namespace
 
 const std::vector<Item>& kit() {
@@ -116,19 +83,12 @@ const std::vector<Item>& kit() {
     return items;
 }
 
-std::string to_json(const std::vector<Item>& items, const std::vector<Operation>& operations) {
-    const ordered_json document{{"format", "strata-kit"},
-                                {"version", 1},
-                                {"digest", digest(items)},
-                                {"items", items_json(items)},
-                                {"operations_digest", digest(operations)},
-                                {"operations", operations_json(operations)}};
+std::string to_json(const std::vector<Item>& items) {
+    const ordered_json document{
+        {"format", "strata-kit"}, {"version", 1}, {"digest", digest(items)}, {"items", items_json(items)}};
     return document.dump(1) + "\n";
 }
 
 std::string digest(const std::vector<Item>& items) { return scenes::digest_of_bytes(items_json(items).dump()); }
-std::string digest(const std::vector<Operation>& operations) {
-    return scenes::digest_of_bytes(operations_json(operations).dump());
-}
 
 }  // namespace strata::probe

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tools/probe/item.h"
-#include "tools/probe/operation.h"
 
 namespace strata::probe {
 
@@ -20,15 +19,13 @@ namespace strata::probe {
 [[nodiscard]] Item unseen_scene(int number);
 [[nodiscard]] std::vector<Item> unseen_scenes(int first, int count);
 
-// {"format": "strata-kit", "version": 1, "digest": "...", "items": [...], "operations_digest": "...", "operations": [...]}: floats as
-// the 8 hexadecimal digits of their bits.
-[[nodiscard]] std::string to_json(const std::vector<Item>& items, const std::vector<Operation>& operations);
-// Of the array of items as JSON without a space, and of the one of operations: a pack names the kit that it answers by them.
+// {"format": "strata-kit", "version": 1, "digest": "...", "items": [...]}: floats as the 8 hexadecimal digits of their bits.
+[[nodiscard]] std::string to_json(const std::vector<Item>& items);
+// Of the array of items as JSON without a space: a pack names the kit that it answers by it.
 [[nodiscard]] std::string digest(const std::vector<Item>& items);
-[[nodiscard]] std::string digest(const std::vector<Operation>& operations);
 
-// One HTML page that draws these items and runs these operations by WebGL 2 and offers the answers as an archive; it loads nothing.
-[[nodiscard]] std::string page_of(const std::vector<Item>& items, const std::vector<Operation>& operations);
+// One HTML page that draws these items by WebGL 2 and offers the answers as an archive; it loads nothing.
+[[nodiscard]] std::string page_of(const std::vector<Item>& items);
 
 // How far the triangles reach that tell a guard band, in pixels: each a twenty-fourth further than the one before.
 [[nodiscard]] std::vector<int> guard_reaches();

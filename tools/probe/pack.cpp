@@ -66,42 +66,6 @@ std::optional<Answer> read_answer(const Files& files, YDirection y, const Item& 
     return answer;
 }
 
-std::string file_name(const Operation& operation) { return fmt::format("probe/operations/{}.npy", operation.name); }
-
-std::string to_npy(const std::vector<Words>& answers) {
-    NumberArray array{.element = scenes::Element::u4, .shape = {answers.size(), 4}};
-    for (const Words& words : answers)
-        for (const std::uint32_t word : words) array.append(word);
-    return scenes::to_npy(array);
-}
-
-std::vector<Words> read_words(const std::string& bytes, const std::string& file, const Operation& operation) {
-    const NumberArray array = scenes::parse_npy(bytes, file);
-    const std::vector<std::size_t> sides{operation.inputs.size(), 4};
-    if (array.element != scenes::Element::u4 || array.shape != sides)
-        throw InputError(file, "shape", fmt::format("{} answers of four u4", sides[0]), "another array");
-    std::vector<Words> answers(sides[0]);
-    for (std::size_t i = 0; i < 4 * sides[0]; ++i) answers[i / 4][i % 4] = array.word(i);
-    return answers;
-}
-
-// What the pack has of operations; nothing in one that was made before there were any.
-void read_operations(const Files& files, const std::string& path, const json& probe, const json& missing,
-                     ProbePack& pack) {
-    pack.operations_digest = probe.value("operations", "");
-    if (pack.operations_digest.empty()) return;
-    if (const std::string expected = digest(operations()); pack.operations_digest != expected)
-        throw InputError(path + "/candidate.json", "/probe/operations", "the operations of this program, " + expected,
-                         pack.operations_digest);
-    for (const Operation& operation : operations()) {
-        const std::string file = file_name(operation), key = "operations/" + operation.name;
-        if (files.contains(file))
-            pack.operations[operation.name].words = read_words(files.at(file), path + "/" + file, operation);
-        else if (missing.contains(key) && missing[key].is_string())
-            pack.operations[operation.name].refusal = missing[key].get<std::string>();
-    }
-}
-
 // Features and limits are what the driver says, not what a picture shows.
 bool is_feature(const pipeline::ProfileField& field) {
     return field.key.starts_with("has_") || field.key.starts_with("max_");
@@ -126,8 +90,6 @@ ordered_json refusals(const ProbePack& pack) {
     for (const auto& [y, answers] : pack.answers)
         for (const auto& [item, reply] : answers)
             if (!reply.answer) all[fmt::format("{}/{}", name(y), item)] = reply.refusal;
-    for (const auto& [operation, reply] : pack.operations)
-        if (!reply.words) all["operations/" + operation] = reply.refusal;
     return all;
 }
 
@@ -155,15 +117,11 @@ void write_pack(const ProbePack& pack, const std::vector<Item>& items, const std
             place.write(file_name(y, item, "color"), scenes::to_npy(oracle::as_array(answer.color)));
             if (answer.depth) place.write(file_name(y, item, "depth"), scenes::to_npy(oracle::as_array(*answer.depth)));
         }
-    for (const Operation& operation : operations())
-        if (const auto reply = pack.operations.find(operation.name);
-            reply != pack.operations.end() && reply->second.words)
-            place.write(file_name(operation), to_npy(*reply->second.words));
-    ordered_json document{{"format", "strata-candidate"},
-                          {"version", 1},
-                          {"made_by", pack.made_by},
-                          {"probe", {{"kit", pack.kit_digest}, {"device", pack.device}, {"missing", refusals(pack)}}}};
-    if (!pack.operations_digest.empty()) document["probe"]["operations"] = pack.operations_digest;
+    const ordered_json document{
+        {"format", "strata-candidate"},
+        {"version", 1},
+        {"made_by", pack.made_by},
+        {"probe", {{"kit", pack.kit_digest}, {"device", pack.device}, {"missing", refusals(pack)}}}};
     place.write("candidate.json", document.dump(1) + "\n");
     place.keep();
 }
@@ -191,7 +149,6 @@ ProbePack read_pack(const std::string& path, const std::vector<Item>& items) {
             else if (missing.contains(key) && missing[key].is_string())
                 pack.answers[y][item.name] = {.answer = std::nullopt, .refusal = missing[key].get<std::string>()};
         }
-    read_operations(files, path, probe, missing, pack);
     return pack;
 }
 

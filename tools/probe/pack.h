@@ -2,8 +2,8 @@
 //
 // Rule     candidate.json has an object "probe": the kit's digest, the driver's features and limits by their keys in a profile,
 //          and the items without an answer with the reason. probe/ORIENTATION/ITEM/color.npy and depth.npy hold codes; a
-//          depth that a shader read is binary32 whatever the buffer's format, and becomes the nearest code.
-//          probe/operations/NAME.npy holds four words for each input of an operation. Read are a folder and a tar archive of it.
+//          depth that a shader read is binary32 whatever the buffer's format, and becomes the nearest code. Read are a folder
+//          and a tar archive of it.
 // Tests    tests/tools/probe/pack_test.cpp
 #pragma once
 #include <nlohmann/json.hpp>
@@ -11,7 +11,6 @@
 
 #include "pipeline/device/profile.h"
 #include "tools/probe/item.h"
-#include "tools/probe/operation.h"
 
 namespace strata::probe {
 
@@ -28,9 +27,6 @@ struct ProbePack {
     nlohmann::ordered_json device = nlohmann::ordered_json::object();
     // By the item's name, for each orientation that was drawn.
     std::map<YDirection, Answers> answers{};
-    // Of the operations that were answered; empty where none was asked: packs of earlier kits have none.
-    std::string operations_digest{};
-    OperationReplies operations{};
 };
 
 // All items answered by a device that is the profile.
@@ -38,7 +34,7 @@ struct ProbePack {
                                const std::vector<YDirection>& orientations);
 // `folder` must not exist or be empty. It appears under its name when it is complete.
 void write_pack(const ProbePack& pack, const std::vector<Item>& items, const std::string& folder);
-// InputError for what is no such pack, or one of another kit than `items`, or of other operations than operations().
+// InputError for what is no such pack, or one of another kit than `items`.
 [[nodiscard]] ProbePack read_pack(const std::string& path, const std::vector<Item>& items);
 
 }  // namespace strata::probe

@@ -12,11 +12,11 @@ void put(std::string& page, std::string_view mark, std::string_view text) {
 
 }  // namespace
 
-// The element that holds the kit ends at "</", which no text of a kit has.
-std::string page_of(const std::vector<Item>& items, const std::vector<Operation>& operations) {
+// A kit has no '<' that could end the element that holds it.
+std::string page_of(const std::vector<Item>& items) {
     std::string page{probe_html()};
     put(page, "/*SCRIPT*/", probe_js());
-    put(page, "/*KIT*/", to_json(items, operations));
+    put(page, "/*KIT*/", to_json(items));
     return page;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using namespace strata::rasterizer;
 
-constexpr int bits = 4;
+constexpr int window_bits = 4;
 
 // The weights, their reciprocal without the two roundings to binary64 that come before its cut.
 [[nodiscard]] std::array<Rational, 3> model_weights(const std::array<Rational, 3>& e, const DepthHypothesis& h) {
@@ -60,7 +60,7 @@ constexpr int bits = 4;
 }
 
 [[nodiscard]] Geometry geometry_of(const std::vector<SetupTriangle>& triangles, int width, int height,
-                                   DepthFormat format, int subpixel_bits = bits) {
+                                   DepthFormat format, int subpixel_bits = window_bits) {
     const RasterRules rules{
         .subpixel_bits = subpixel_bits, .window_z = WindowZ::buffer_units, .depth_rounding = DepthRounding::floor};
     Geometry geometry = window_geometry(triangles, width, height, rules);
@@ -76,7 +76,7 @@ struct Corner {
 // A quad's two triangles as the captures have them: (UL,UR,LR) and (UL,LR,LL).
 [[nodiscard]] std::array<SetupTriangle, 2> quad(Corner ul, Corner ur, Corner lr, Corner ll) {
     const auto triangle = [](Corner a, Corner b, Corner c) {
-        return window_triangle({{{a.x * 16, a.y * 16}, {b.x * 16, b.y * 16}, {c.x * 16, c.y * 16}}}, bits,
+        return window_triangle({{{a.x * 16, a.y * 16}, {b.x * 16, b.y * 16}, {c.x * 16, c.y * 16}}}, window_bits,
                                {a.z, b.z, c.z});
     };
     return {triangle(ul, ur, lr), triangle(ul, lr, ll)};
@@ -87,7 +87,7 @@ struct Difference {
 };
 
 [[nodiscard]] Difference differences(const SetupTriangle& t, DepthFormat format, bool with_model, int width = 640,
-                                     int height = 480, int subpixel_bits = bits) {
+                                     int height = 480, int subpixel_bits = window_bits) {
     const Geometry geometry = geometry_of({t}, width, height, format, subpixel_bits);
     Difference d;
     const std::array<float, 3> z{static_cast<float>(t.z[0]), static_cast<float>(t.z[1]), static_cast<float>(t.z[2])};
@@ -151,11 +151,11 @@ TEST_CASE("in the depth of a whole scene about 97 words of 100 equal floor(exact
     Difference sum;
     for (int n = 0; n < 40; ++n) {  // triangles whose depths differ by a part of the range, as a scene's do
         std::array<SubpixelPoint, 3> p;
-        for (SubpixelPoint& c : p) c = random_point(random, 640, 480, bits);
+        for (SubpixelPoint& c : p) c = random_point(random, 640, 480, window_bits);
         if (doubled_area(p[0], p[1], p[2]) == 0) continue;
         const double base = random_int(random, 0, 14000000);
         const auto z = [&] { return base + random_int(random, 0, 2000000); };
-        const Difference d = differences(window_triangle(p, bits, {z(), z(), z()}), DepthFormat::d24, false);
+        const Difference d = differences(window_triangle(p, window_bits, {z(), z(), z()}), DepthFormat::d24, false);
         sum.fragments += d.fragments;
         sum.from_exact += d.from_exact;
     }
@@ -185,7 +185,7 @@ TEST_CASE("window_z is the rule of the captures for triangles of every shape, wi
     Random random{seed};
     Difference sum;
     for (int n = 0; n < 400; ++n) {
-        const int subpixel_bits = n % 8 == 7 ? 12 : bits;
+        const int subpixel_bits = n % 8 == 7 ? 12 : window_bits;
         const int outside = n % 4 == 3 ? 30000 : (n % 4 == 2 ? 500 : 4);
         std::array<SubpixelPoint, 3> p;
         for (SubpixelPoint& c : p) c = random_point(random, 12, 12, subpixel_bits, outside);
@@ -221,7 +221,7 @@ TEST_CASE("where two corners have depth 0 the sum is the rule's, however small t
     std::uint64_t fragments = 0, wrong = 0;
     for (int n = 0; n < 120; ++n) {
         std::array<SubpixelPoint, 3> p;
-        for (SubpixelPoint& c : p) c = random_point(random, 12, 12, bits, 40);
+        for (SubpixelPoint& c : p) c = random_point(random, 12, 12, window_bits, 40);
         if (doubled_area(p[0], p[1], p[2]) <= 0) std::swap(p[1], p[2]);
         if (doubled_area(p[0], p[1], p[2]) == 0) continue;
         std::array<float, 3> z{};
@@ -231,9 +231,9 @@ TEST_CASE("where two corners have depth 0 the sum is the rule's, however small t
         const WindowZ24 rule{{z[0], z[1], z[2]}, edges.area()};
         for (int y = 0; y < 12; ++y)
             for (int x = 0; x < 12; ++x) {
-                const EdgeValues e = edges.at(pixel_centre(x, y, bits));
+                const EdgeValues e = edges.at(pixel_centre(x, y, window_bits));
                 if (std::min({e[0], e[1], e[2]}) < 0) continue;
-                wrong += Rational{rule.value(e)} != cut_to_bits(model_sum(p, z, x, y, bits), 24) ? 1 : 0;
+                wrong += Rational{rule.value(e)} != cut_to_bits(model_sum(p, z, x, y, window_bits), 24) ? 1 : 0;
                 ++fragments;
             }
     }
@@ -247,7 +247,7 @@ TEST_CASE("GeForce3 depth depends on the order of a triangle's vertices") {
     const std::array z{11184809.0, 11184809.0, 16777214.0};
     const FragmentNeeds codes{false, true, false, false, false, false};
     const auto drawn = [&](std::size_t a, std::size_t b, std::size_t c) {
-        const SetupTriangle t = window_triangle({p[a], p[b], p[c]}, bits, {z[a], z[b], z[c]});
+        const SetupTriangle t = window_triangle({p[a], p[b], p[c]}, window_bits, {z[a], z[b], z[c]});
         return draw(geometry_of({t}, 640, 480, DepthFormat::d24), {DepthPath::window_z, DepthFormat::d24}, codes)
             .fragments;
     };
@@ -269,18 +269,18 @@ TEST_CASE("other weights, reciprocals and aligned adds change what their hypothe
         std::uint64_t fragments = 0, wrong = 0, changed = 0;
         for (int n = 0; n < 12; ++n) {
             std::array<SubpixelPoint, 3> p;
-            for (SubpixelPoint& c : p) c = random_point(random, 24, 24, bits, 200);
+            for (SubpixelPoint& c : p) c = random_point(random, 24, 24, window_bits, 200);
             if (doubled_area(p[0], p[1], p[2]) <= 0) std::swap(p[1], p[2]);
             if (doubled_area(p[0], p[1], p[2]) == 0) continue;
             std::array<float, 3> z;
             for (float& each : z) each = random_float(random, 8388608.0f, 16777215.0f);
-            const SetupTriangle t = window_triangle(p, bits, {z[0], z[1], z[2]});
+            const SetupTriangle t = window_triangle(p, window_bits, {z[0], z[1], z[2]});
             Geometry geometry = geometry_of({t}, 24, 24, DepthFormat::d24);
             const auto given = draw(geometry, {DepthPath::window_z, DepthFormat::d24}, {.color = false}).fragments;
             geometry.rules.hypothesis = varied;
             const auto found = draw(geometry, {DepthPath::window_z, DepthFormat::d24}, {.color = false}).fragments;
             for (std::size_t i = 0; i < found.size(); ++i) {
-                const Integer model = model_window_z(p, z, found[i].x, found[i].y, bits, varied);
+                const Integer model = model_window_z(p, z, found[i].x, found[i].y, window_bits, varied);
                 wrong += Integer{found[i].code} != model ? 1 : 0;
                 changed += found[i].code != given[i].code ? 1 : 0;
             }

@@ -65,23 +65,6 @@ KitItem item_of(const json& described) {
     return item;
 }
 
-KitOperation operation_of(const json& described) {
-    KitOperation operation;
-    operation.name = described.at("name").get<std::string>();
-    operation.stage = described.at("stage").get<std::string>();
-    operation.body = described.at("body").get<std::string>();
-    operation.target = described.at("target").get<std::string>();
-    operation.inputs = words_of(described.at("inputs").get<std::string>());
-    const json& texture = described.at("texture");
-    if (!texture.is_null())
-        operation.texture = {.format = texture.at("format").get<std::string>(),
-                             .size = {texture.at("size").at(0).get<int>(), texture.at("size").at(1).get<int>()},
-                             .texels = words_of(texture.at("texels").get<std::string>()),
-                             .is_linear = texture.at("linear").get<bool>(),
-                             .compares = texture.at("compares").get<bool>()};
-    return operation;
-}
-
 }  // namespace
 
 Kit read_kit(const std::string& folder) {
@@ -92,12 +75,8 @@ Kit read_kit(const std::string& folder) {
         const json document = json::parse(stream);
         if (document.at("format") != "strata-kit" || document.at("version") != 1)
             throw std::runtime_error("expected a kit of version 1");
-        Kit kit{.digest = document.at("digest").get<std::string>(),
-                .operations_digest = document.at("operations_digest").get<std::string>(),
-                .items = {},
-                .operations = {}};
+        Kit kit{.digest = document.at("digest").get<std::string>(), .items = {}};
         for (const json& item : document.at("items")) kit.items.push_back(item_of(item));
-        for (const json& one : document.at("operations")) kit.operations.push_back(operation_of(one));
         return kit;
     } catch (const std::exception& error) {
         throw std::runtime_error(file + ": " + error.what());

@@ -33,24 +33,9 @@ struct KitItem {
     std::vector<KitDraw> draws;
 };
 
-struct KitTexture {
-    std::string format;
-    Size size;
-    std::vector<std::uint32_t> texels;
-    bool is_linear = false, compares = false;
-};
-
-// A function of four words in GLSL, and what it is given.
-struct KitOperation {
-    std::string name, stage, body, target;
-    std::optional<KitTexture> texture;
-    std::vector<std::uint32_t> inputs;
-};
-
 struct Kit {
-    std::string digest, operations_digest;
+    std::string digest;
     std::vector<KitItem> items;
-    std::vector<KitOperation> operations;
 };
 
 // Throws std::runtime_error with file and place.

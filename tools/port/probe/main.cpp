@@ -11,7 +11,6 @@
 #include "tools/port/context.h"
 #include "tools/port/npy.h"
 #include "tools/port/probe/kit.h"
-#include "tools/port/probe/operations.h"
 
 namespace strata::port {
 
@@ -152,13 +151,10 @@ int run(const Options& options) {
             else
                 answer(item, painter, made / "probe" / orientation / item.name);
     }
-    answer_operations(kit, (made / "probe" / "operations").string(),
-                      missing);  // +y is down: row 0 is the lowest of a window
-    ordered_json document{{"format", "strata-candidate"},
-                          {"version", 1},
-                          {"made_by", "strata_port_probe, " + context.renderer()},
-                          {"probe", {{"kit", kit.digest}, {"device", device()}, {"missing", missing}}}};
-    if (!kit.operations.empty()) document["probe"]["operations"] = kit.operations_digest;
+    const ordered_json document{{"format", "strata-candidate"},
+                                {"version", 1},
+                                {"made_by", "strata_port_probe, " + context.renderer()},
+                                {"probe", {{"kit", kit.digest}, {"device", device()}, {"missing", missing}}}};
     std::ofstream(made / "candidate.json") << document.dump(1) << "\n";
     fs::rename(made, options.output);
     return 0;

@@ -222,137 +222,29 @@ function rendererOf(gl) {
   return gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
 }
 
-// ---- operations: functions of four words in a shader ----
-
-const precisions = `#version 300 es
-precision highp float;
-precision highp int;
-uniform highp usampler2D given;
-`;
-
-// The program that runs the operation once for each texel of `given`.
-function operationProgram(gl, operation) {
-  const sampler = operation.texture === null ? '' : `uniform highp ${operation.texture.compares ? 'sampler2DShadow' : 'sampler2D'} table;\n`;
-  const head = precisions + sampler + operation.body;
-  const [type, value] = operation.target === 'srgb8' ? ['vec4', 'uintBitsToFloat(found)'] : ['uvec4', 'found'];
-  const out = `layout(location = 0) out highp ${type} result;\n`;
-  if (operation.stage === 'fragment') {
-    return makeProgram(gl, quadText, `${head}${out}void main() {
-  highp uvec4 found = operation(texelFetch(given, ivec2(gl_FragCoord.xy), 0));
-  result = ${value};
-}`);
-  }
-  const varying = operation.stage === 'invariant_vertex' ? 'invariant flat out' : 'flat out';
-  return makeProgram(gl, `${head}${varying} highp vec4 computed;
-void main() {
-  ivec2 size = textureSize(given, 0), at = ivec2(gl_VertexID % size.x, gl_VertexID / size.x);
-  computed = uintBitsToFloat(operation(texelFetch(given, at, 0)));
-  gl_Position = vec4((vec2(at) + 0.5) / vec2(size) * 2.0 - 1.0, 0.0, 1.0);
-  gl_PointSize = 1.0;
-}`, `#version 300 es
-precision highp float;
-flat in highp vec4 computed;
-layout(location = 0) out highp uvec4 result;
-void main() { result = floatBitsToUint(computed); }`);
-}
-
-// The texture that an operation looks up; depths of 24 bits are the upper ones of a word.
-function operationTexture(gl, texture) {
-  const [width, height] = texture.size, words = wordsOf(texture.texels);
-  const { format, data } = {
-    rgba8: () => ({ format: [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], data: new Uint8Array(words.buffer) }),
-    srgb8: () => ({ format: [gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE], data: new Uint8Array(words.buffer) }),
-    r32f: () => ({ format: [gl.R32F, gl.RED, gl.FLOAT], data: new Float32Array(words.buffer) }),
-    d16: () => ({ format: [gl.DEPTH_COMPONENT16, gl.DEPTH_COMPONENT, gl.UNSIGNED_SHORT], data: Uint16Array.from(words) }),
-    d24: () => ({ format: [gl.DEPTH_COMPONENT24, gl.DEPTH_COMPONENT, gl.UNSIGNED_INT], data: words.map((code) => (code << 8) | (code >>> 16)) }),
-    d32f: () => ({ format: [gl.DEPTH_COMPONENT32F, gl.DEPTH_COMPONENT, gl.FLOAT], data: new Float32Array(words.buffer) }),
-  }[texture.format]();
-  const name = gl.createTexture(), filter = texture.linear ? gl.LINEAR : gl.NEAREST;
-  gl.bindTexture(gl.TEXTURE_2D, name);
-  gl.texImage2D(gl.TEXTURE_2D, 0, format[0], width, height, 0, format[1], format[2], data);
-  const parameters = { TEXTURE_MIN_FILTER: filter, TEXTURE_MAG_FILTER: filter, TEXTURE_WRAP_S: gl.CLAMP_TO_EDGE, TEXTURE_WRAP_T: gl.CLAMP_TO_EDGE };
-  if (texture.compares) Object.assign(parameters, { TEXTURE_COMPARE_MODE: gl.COMPARE_REF_TO_TEXTURE, TEXTURE_COMPARE_FUNC: gl.LEQUAL });
-  for (const [parameter, value] of Object.entries(parameters)) gl.texParameteri(gl.TEXTURE_2D, gl[parameter], value);
-  return name;
-}
-
-const rowWidth = 64;  // inputs in a row of the texture that gives them
-
-// Four words for each input, as an array of a pack.
-function runOperation(device, operation) {
-  const { gl } = device, words = wordsOf(operation.inputs), count = words.length / 4, rows = Math.ceil(count / rowWidth);
-  while (gl.getError() !== gl.NO_ERROR);
-  const padded = new Uint32Array(4 * rowWidth * rows);
-  padded.set(words);
-  const isSrgb = operation.target === 'srgb8';
-  const given = makeTexture(gl, gl.RGBA32UI, rowWidth, rows);
-  gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, rowWidth, rows, gl.RGBA_INTEGER, gl.UNSIGNED_INT, padded);
-  const result = makeTexture(gl, isSrgb ? gl.SRGB8_ALPHA8 : gl.RGBA32UI, rowWidth, rows);
-  const target = gl.createFramebuffer();
-  gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, result, 0);
-  const program = operationProgram(gl, operation);
-  gl.useProgram(program);
-  gl.uniform1i(gl.getUniformLocation(program, 'given'), 0);
-  gl.uniform1i(gl.getUniformLocation(program, 'table'), 1);
-  gl.activeTexture(gl.TEXTURE1);
-  const table = operation.texture === null ? null : operationTexture(gl, operation.texture);
-  gl.activeTexture(gl.TEXTURE0);
-  gl.bindTexture(gl.TEXTURE_2D, given);
-  gl.viewport(0, 0, rowWidth, rows);
-  gl.disable(gl.DEPTH_TEST);
-  gl.disable(gl.BLEND);
-  gl.bindVertexArray(device.empty);
-  if (operation.stage === 'fragment') gl.drawArrays(gl.TRIANGLES, 0, 3);
-  else gl.drawArrays(gl.POINTS, 0, count);
-  let found = new Uint32Array(4 * rowWidth * rows);
-  if (isSrgb) {
-    const bytes = new Uint8Array(found.length);
-    gl.readPixels(0, 0, rowWidth, rows, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-    found = Uint32Array.from(bytes);
-  } else {
-    gl.readPixels(0, 0, rowWidth, rows, gl.RGBA_INTEGER, gl.UNSIGNED_INT, found);
-  }
-  const error = gl.getError();
-  gl.deleteFramebuffer(target);
-  gl.deleteProgram(program);
-  for (const texture of [given, result, table]) gl.deleteTexture(texture);
-  if (error !== gl.NO_ERROR) throw new Error(`WebGL error ${error}`);
-  return npy('<u4', [count, 4], new Uint8Array(found.buffer, 0, 16 * count));
-}
-
 const nextFrame = () => new Promise((resolve) => setTimeout(resolve, 0));
-
-// A step of the work: where its answer goes, and what gives its files.
-function stepsOf(kit, device) {
-  const scenes = kit.items.map((item) => ({ place: `${orientation}/${item.name}`, name: item.name,
-    files: () => Object.entries(answer(device, item)).map(([file, bytes]) => [`probe/${orientation}/${item.name}/${file}`, bytes]) }));
-  const operations = kit.operations.map((operation) => ({ place: `operations/${operation.name}`, name: operation.name,
-    files: () => [[`probe/operations/${operation.name}.npy`, runOperation(device, operation)]] }));
-  return [...scenes, ...operations];
-}
 
 async function measure() {
   const kit = JSON.parse(element('kit').textContent);
-  const device = makeDevice(), entries = [], missing = {}, steps = stepsOf(kit, device), count = steps.length;
+  const device = makeDevice(), entries = [], missing = {}, count = kit.items.length;
   element('progress').max = count;
-  for (const [number, step] of steps.entries()) {
+  for (const [number, item] of kit.items.entries()) {
+    const place = `${orientation}/${item.name}`;
     try {
-      for (const [name, bytes] of step.files()) entries.push(tarEntry(name, bytes));
+      for (const [name, bytes] of Object.entries(answer(device, item))) entries.push(tarEntry(`probe/${place}/${name}`, bytes));
     } catch (error) {
-      missing[step.place] = error.message;
+      missing[place] = error.message;
       const row = element('reasons').insertRow();
-      row.insertCell().textContent = step.name;
+      row.insertCell().textContent = item.name;
       row.insertCell().textContent = error.message;
       element('skipped').hidden = false;
     }
     element('progress').value = number + 1;
-    element('status').textContent = `Scene ${number + 1} of ${count}: ${step.name}`;
+    element('status').textContent = `Scene ${number + 1} of ${count}: ${item.name}`;
     await nextFrame();
   }
   const candidate = { format: 'strata-candidate', version: 1, made_by: `strata probe page, ${rendererOf(device.gl)}`,
     probe: { kit: kit.digest, device: featuresOf(device), missing } };
-  if (kit.operations.length > 0) candidate.probe.operations = kit.operations_digest;
   entries.push(tarEntry('candidate.json', new TextEncoder().encode(JSON.stringify(candidate, null, 1))), new Uint8Array(1024));
   element('download').href = URL.createObjectURL(new Blob(entries, { type: 'application/x-tar' }));
   element('offer').hidden = false;

@@ -11,7 +11,6 @@
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/probe/items.h"
-#include "tools/strata/probe/operations_text.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -125,13 +124,7 @@ int run(const InferOptions& options) {
                          "answers of that orientation (--y names another)", "none");
     const Inference result = probe::infer(pack, items, options.orientation);
     if (!options.output.empty()) scenes::write_file(options.output, scenes::to_json(result.profile));
-    ordered_json document;
-    if (options.json) {
-        document = to_json(result);
-        document.update(operations_json(pack.operations));
-    }
-    const std::string told =
-        options.json ? document.dump(1) + "\n" : to_text(result) + operations_text(pack.operations);
+    const std::string told = options.json ? to_json(result).dump(1) + "\n" : to_text(result);
     scenes::is_standard_output(options.output) ? say_note(told) : print(told);
     return 0;
 }

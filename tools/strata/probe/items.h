@@ -10,11 +10,6 @@ namespace strata::tools {
     return unseen > 0 ? probe::unseen_scenes(0, unseen) : probe::kit();
 }
 
-// Operations belong to the kit: unseen scenes have none.
-[[nodiscard]] inline std::vector<probe::Operation> operations_of(int unseen) {
-    return unseen > 0 ? std::vector<probe::Operation>{} : probe::operations();
-}
-
 inline void add_orientation(CLI::App& app, probe::YDirection& target, const std::string& help) {
     static const std::vector<Choice<probe::YDirection>> choices{{"up", probe::YDirection::up},
                                                                 {"down", probe::YDirection::down}};

@@ -66,11 +66,10 @@ int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) 
     return sum.is_none() ? 0 : 1;
 }
 
-void write_kit(const ProbeOptions& options, const std::vector<probe::Item>& items) {
-    const std::vector<probe::Operation> operations = operations_of(options.unseen);
-    scenes::NewFolder place{options.output};
-    place.write("kit.json", probe::to_json(items, operations));
-    place.write("probe.html", probe::page_of(items, operations));
+void write_kit(const std::vector<probe::Item>& items, const std::string& folder) {
+    scenes::NewFolder place{folder};
+    place.write("kit.json", probe::to_json(items));
+    place.write("probe.html", probe::page_of(items));
     place.keep();
 }
 
@@ -82,17 +81,11 @@ int run(const ProbeOptions& options) {
     }
     if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder, found none");
     if (options.profile.empty()) {
-        write_kit(options, items);
+        write_kit(items, options.output);
     } else {
         const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
         const auto& both = enum_values<probe::YDirection>;
-        probe::ProbePack pack = answer(profile, items, {both.begin(), both.end()});
-        if (options.unseen == 0) {
-            // A profile says nothing of a shader's arithmetic: its device computes by the definitions.
-            pack.operations_digest = probe::digest(probe::operations());
-            pack.operations = probe::answers_by(0);
-        }
-        write_pack(pack, items, options.output);
+        write_pack(answer(profile, items, {both.begin(), both.end()}), items, options.output);
     }
     return 0;
 }
