@@ -171,8 +171,10 @@ void take_colors(const PackedPlaces& from, std::uint32_t start, std::array<Lanes
 void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs, Numbers numbers,
                           FragmentBatch& batch) const noexcept {
     const auto is_skipped = [&](const void* array) {
+        const bool is_reference = array == &batch.reference_z || array == &batch.reference_code;
         return array == &batch.pixel || array == &batch.x || array == &batch.y ||
-               (array == &batch.primitive && numbers == Numbers::no) || is_left_out(batch, needs, array);
+               (array == &batch.primitive && numbers == Numbers::no) || (is_reference && !needs.reference) ||
+               is_left_out(batch, needs, array);
     };
     bool is_any = false;
     for_each_array(needs_, batch, [&](auto& array) { is_any = is_any || !is_skipped(&array); });

@@ -340,12 +340,13 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     std::copy_n(all.pixel.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.pixel.begin());
     std::copy_n(all.key.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.code.begin());
     find_positions(batch, count);
-    if (state.selection.by_reference && !scratch_->sorted.present().is_by_reference())
-        std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
+    const bool is_reference_key = state.selection.by_reference && !scratch_->sorted.present().is_by_reference();
+    if (is_reference_key) std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
     selected.next += count;
     batch.count = static_cast<int>(count);
     batch.material = 0;
     FragmentNeeds fetched = state.needs;
+    fetched.reference &= !is_reference_key;  // a program that asks by_reference looks at no other depth
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it
     store().fetch(places, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
