@@ -34,15 +34,15 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
         classify(compare, in, own.color(0), own.depth(1), side);
         write_min_max(in, side.is_between, out.color[0]);
         premultiply(in.color, out.color[1], lanes(in));
-        out.color[2] = in.color;
+        for (std::size_t c = 0; c < 4; ++c)  // (0, 0, 0, 0) is neutral in both blends
+            for (std::size_t i = 0; i < lanes(in); ++i) {
+                out.color[1][c][i] = select(side.is_near[i], out.color[1][c][i], 0.0f);
+                out.color[2][c][i] = select(side.is_far[i], in.color[c][i], 0.0f);
+            }
         out.traced = true;
         for (std::size_t i = 0; i < lanes(in); ++i) {
             const std::uint32_t is_near = side.is_near[i], is_far = side.is_far[i];
             out.alive[i] &= is_near | is_far | side.is_between[i];
-            for (std::size_t c = 0; c < 4; ++c) {  // (0, 0, 0, 0) is neutral in both blends
-                if (is_near == 0) out.color[1][c][i] = 0.0f;
-                if (is_far == 0) out.color[2][c][i] = 0.0f;
-            }
             out.side[i] = is_near != 0 ? Side::front : is_far != 0 ? Side::back : Side::none;
             out.key[i] = ordered_code(in.shader_z[i]);
         }

@@ -7,7 +7,7 @@ namespace strata::peeling {
 using namespace pipeline;
 
 // OVER, far to near (algorithms.md 2). A pixel without such a layer holds alpha 0, which leaves it alone, and the
-// opaque depth, by which the trace knows it.
+// opaque depth, by which the trace knows it: nothing else looks at depths, which are textures as good as loads then.
 void composite_quads(Region& region, const SavedLayers& layers, Target result) {
     for (std::size_t layer = layers.color.size(); layer-- > 0;) {
         region.count_with(static_cast<int>(layer) + 1);
@@ -15,15 +15,20 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
         state.color[0] = result;
         state.blend[0] = blend_mode::over;
         state.blend[0].write_mask = 0x7;  // the final alpha stays 1
-        state.reads = {layers.color[layer], layers.depth[layer], region.opaque_depth()};
-        static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
-            out.color[0] = own.color(0);
-            out.traced = true;
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? Side::back : Side::none;
-                out.key[i] = own.depth(1)[i];
-            }
-        }));
+        const bool is_traced = region.frame().trace;
+        state.reads[0] = layers.color[layer];
+        (is_traced ? state.reads[1] : state.textures[0]) = layers.depth[layer];
+        (is_traced ? state.reads[2] : state.textures[1]) = region.opaque_depth();
+        static_cast<void>(
+            region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                out.color[0] = own.color(0);
+                if (!is_traced) return;
+                out.traced = true;
+                for (std::size_t i = 0; i < lanes(in); ++i) {
+                    out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? Side::back : Side::none;
+                    out.key[i] = own.depth(1)[i];
+                }
+            }));
     }
 }
 

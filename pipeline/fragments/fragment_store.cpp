@@ -133,13 +133,48 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     for_each_array(needs_, batch, unpack);
 }
 
-// Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it. Colours
-// are taken channel after channel of a fragment: what is known of a place serves all four.
+namespace {
+
+// Fragments of packed batches: where each one's batch begins, how many it holds, and the fragment's number there.
+struct PackedPlaces {
+    const std::byte* const* begin;
+    const std::uint32_t *count, *number;
+    std::size_t size;
+};
+
+// The array that begins where fragments have `start` bytes before it.
+template <class T>
+void take(const PackedPlaces& from, std::uint32_t start, T* to) noexcept {
+    const auto [begin, count, number, size] = from;  // copies: what is stored could lie anywhere
+    for (std::size_t i = 0; i < size; ++i)
+        std::memcpy(to + i, begin[i] + (count[i] * start + number[i] * std::uint32_t{sizeof(T)}), sizeof(T));
+}
+
+// Four channels that follow each other: what is known of a place serves all.
+void take_colors(const PackedPlaces& from, std::uint32_t start, std::array<Lanes<float>, 4>& to) noexcept {
+    const auto [begin, count, number, size] = from;
+    float *const red = to[0].data(), *const green = to[1].data(), *const blue = to[2].data(),
+                 *const alpha = to[3].data();
+    for (std::size_t i = 0; i < size; ++i) {
+        const std::size_t channel = count[i] * sizeof(float);
+        const std::byte* const at = begin[i] + (count[i] * start + number[i] * sizeof(float));
+        std::memcpy(red + i, at, sizeof(float));
+        std::memcpy(green + i, at + channel, sizeof(float));
+        std::memcpy(blue + i, at + 2 * channel, sizeof(float));
+        std::memcpy(alpha + i, at + 3 * channel, sizeof(float));
+    }
+}
+
+}  // namespace
+
+// Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.
 void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs, Numbers numbers,
                           FragmentBatch& batch) const noexcept {
     const auto is_skipped = [&](const void* array) {
+        const bool is_reference = array == &batch.reference_z || array == &batch.reference_code;
         return array == &batch.pixel || array == &batch.x || array == &batch.y ||
-               (array == &batch.primitive && numbers == Numbers::no) || is_left_out(batch, needs, array);
+               (array == &batch.primitive && numbers == Numbers::no) || (is_reference && !needs.reference) ||
+               is_left_out(batch, needs, array);
     };
     bool is_any = false;
     for_each_array(needs_, batch, [&](auto& array) { is_any = is_any || !is_skipped(&array); });
@@ -152,21 +187,14 @@ void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentN
         number[i] = places[i] & 0xff;
         begin[i] = packed.begin + (packed.has_dead ? count[i] * sizeof(std::uint32_t) : 0);
     }
+    const PackedPlaces from{begin.data(), count.data(), number.data(), places.size()};
     std::uint32_t before = 0;
     for_each_array(needs_, batch, [&](auto& array) {
-        constexpr auto size = static_cast<std::uint32_t>(sizeof(array[0]));
-        const std::uint32_t start = std::exchange(before, before + size);
+        const std::uint32_t start = std::exchange(before, before + std::uint32_t{sizeof(array[0])});
         const void* const address = &array;
-        if (is_skipped(address) || (address > &batch.color[0] && address <= &batch.color[3])) return;
-        if (address == &batch.color[0]) {
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                const std::byte* const red = begin[i] + (count[i] * start + number[i] * size);
-                for (std::size_t c = 0; c < 4; ++c) std::memcpy(&batch.color[c][i], red + c * count[i] * size, size);
-            }
-            return;
-        }
-        for (std::size_t i = 0; i < places.size(); ++i)
-            std::memcpy(&array[i], begin[i] + (count[i] * start + number[i] * size), size);
+        if (is_skipped(address)) return;
+        if (address == &batch.color[0]) take_colors(from, start, batch.color);
+        if (address < &batch.color[0] || address > &batch.color[3]) take(from, start, array.data());
     });
 }
 

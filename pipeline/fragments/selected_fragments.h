@@ -1,8 +1,8 @@
 // pipeline/fragments/selected_fragments.h - the fragments that a selection keeps of one pass, on their way to the program, and the counts of
 // the others.
 #pragma once
+#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "rasterizer/base/uninitialized.h"
@@ -58,12 +58,19 @@ struct SelectedFragments {
         if (of_rank.size() <= last_rank) of_rank.resize(last_rank + 1);
         for (; ranks <= last_rank; ++ranks) of_rank[ranks].reserve(columns);
     }
-    [[nodiscard]] Filling begin_first() {
-        if (ranks == 0) open(0);
-        Rank& first = of_rank[0];
-        return {first.key.data(), first.place.data(), first.pixel.data(), first.count};
+    // The first ranks, empty, to be filled in a loop.
+    template <std::size_t count>
+    [[nodiscard]] std::array<Filling, count> begin_ranks() {
+        if (ranks < count) open(count - 1);
+        std::array<Filling, count> begun;
+        for (std::size_t r = 0; r < count; ++r)
+            begun[r] = {of_rank[r].key.data(), of_rank[r].place.data(), of_rank[r].pixel.data(), 0};
+        return begun;
     }
-    void end_first(const Filling& filled) noexcept { of_rank[0].count = filled.count; }
+    template <std::size_t count>
+    void end_ranks(const std::array<Filling, count>& filled) noexcept {
+        for (std::size_t r = 0; r < count; ++r) of_rank[r].count = filled[r].count;
+    }
     [[nodiscard]] std::uint64_t visited() const noexcept {
         std::uint64_t fragments = 0;
         for (std::size_t r = 0; r < ranks; ++r) fragments += of_rank[r].count;

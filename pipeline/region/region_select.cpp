@@ -1,6 +1,7 @@
 // pipeline/region/region_select.cpp - which fragments a pass with a selection visits: found in the sorted columns of a tile, pixel by pixel
 // (execution.md 7.1).
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -87,7 +88,7 @@ void Region::select_nearest(const PassState& state) {
 void Region::select_nearest_left(const KeyWindow& window, const StoredDepth& stored) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    SelectedFragments::Filling nearest = selected.begin_first();
+    auto [nearest] = selected.begin_ranks<1>();
     const auto occupied = sorted.occupied();
     window.put_low(occupied, selected.windows);
     const auto first = sorted.numbers_below(selected.windows.low, Cursor::low);
@@ -99,7 +100,7 @@ void Region::select_nearest_left(const KeyWindow& window, const StoredDepth& sto
         passed += updates;
         if (updates > 0) nearest.add(p, sorted.column_begin(k)[first[k]]);
     }
-    selected.end_first(nearest);
+    selected.end_ranks<1>({nearest});
     selected.inside += sorted.size() - nearer;
     selected.passed += passed;
 }
@@ -171,7 +172,7 @@ void Region::select_key(const KeyWindow& window) {
     const auto occupied = sorted.occupied();
     window.put_low(occupied, selected.windows);
     const auto first = sorted.numbers_below(selected.windows.low, Cursor::low);
-    SelectedFragments::Filling alone = selected.begin_first();
+    auto [alone] = selected.begin_ranks<1>();
     std::vector<std::uint32_t> shared;  // columns with several
     const auto words = [&](std::size_t k) { return sorted.column_begin(k) + first[k]; };
     const auto is_kept = [&](std::size_t k, std::uint64_t word) {
@@ -184,7 +185,7 @@ void Region::select_key(const KeyWindow& window) {
         if (is_kept(k, word[1])) [[unlikely]]
             shared.push_back(static_cast<std::uint32_t>(k));
     }
-    selected.end_first(alone);
+    selected.end_ranks<1>({alone});
     selected.inside = alone.count;
     for (const std::uint32_t k : shared) {
         std::size_t rank = 1;
@@ -279,6 +280,8 @@ void Region::select_ends(const PassState& state) {
     if (selection.range.exists()) put_range(at(selection.range).texels(0), sorted.occupied(), selected.windows);
     const auto near = selection.range.exists() ? sorted.numbers_below(selected.windows.low, Cursor::low) : no_numbers;
     const auto far = selection.range.exists() ? sorted.numbers_below(selected.windows.high, Cursor::high) : no_numbers;
+    // Most windows have two fragments at either end.
+    std::array<SelectedFragments::Filling, 4> first_ranks = selected.begin_ranks<4>();
     for (std::size_t column = 0; column < sorted.occupied().size(); ++column) {
         const std::uint32_t p = sorted.occupied()[column];
         const auto words = sorted.column(column);
@@ -288,7 +291,10 @@ void Region::select_ends(const PassState& state) {
         const std::uint32_t last = std::max(first, far.empty() ? surface : std::min(surface, far[column]));
         selected.inside += last - first;
         std::size_t rank = 0;
-        const auto add = [&](std::uint32_t k) { selected.add(p, words[k], rank++); };
+        const auto add = [&](std::uint32_t k) {
+            rank < first_ranks.size() ? first_ranks[rank].add(p, words[k]) : selected.add(p, words[k], rank);
+            ++rank;
+        };
         const auto key = [&](std::uint32_t k) { return words[k] >> 32; };
         std::uint32_t near_end = first, far_begin = last;
         while (near_end < last && key(near_end) == key(first)) add(near_end++);
@@ -300,6 +306,7 @@ void Region::select_ends(const PassState& state) {
         if (selection.outside == Outside::one_value && near_end == last && last - first < size)
             add(first > 0 ? 0 : last);
     }
+    selected.end_ranks(first_ranks);
 }
 
 // The samples that the present batch is drawn to.
@@ -333,12 +340,13 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     std::copy_n(all.pixel.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.pixel.begin());
     std::copy_n(all.key.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.code.begin());
     find_positions(batch, count);
-    if (state.selection.by_reference && !scratch_->sorted.present().is_by_reference())
-        std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
+    const bool is_reference_key = state.selection.by_reference && !scratch_->sorted.present().is_by_reference();
+    if (is_reference_key) std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
     selected.next += count;
     batch.count = static_cast<int>(count);
     batch.material = 0;
     FragmentNeeds fetched = state.needs;
+    fetched.reference &= !is_reference_key;  // a program that asks by_reference looks at no other depth
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it
     store().fetch(places, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
