@@ -332,16 +332,23 @@ def unreached_lines():
     return lines
 
 
+def survivor_lines(rows):
+    known = reasons()
+    return sorted(f"{r['file']} | {r['source']} | {r['change']} | {known.get((r['file'], r['source'], r['change']), '?')}" for _, r in rows if not r["killer"])
+
+
 def report(arguments):
     if arguments.unreached:
         sample = set(load("sample.json", []))
         return print("\n".join(f"{p['file']}:{p['line']} | {p['source']} | {p['kind']} {p['change']}" for p in load("places.json", []) if p["number"] not in sample))
     rows = [(tries[0], tries[-1]) for _, tries in results()]
-    survivors = sorted(f"{r['file']} | {r['source']} | {r['change']} | {reasons().get((r['file'], r['source'], r['change']), '?')}" for _, r in rows if not r["killer"])
+    if arguments.first:
+        rows = [r for r in rows if r[1]["index"] >= arguments.first]
+        return print("\n".join(scores(rows) + ["", *("    " + line for line in survivor_lines(rows))]))
     parts = [["## The sample", "", *scores([r for r in rows if r[1]["index"] < LOOKED_AT])],
              ["## Changes that nobody looked at: those that the draw has next", "", *scores([r for r in rows if r[1]["index"] >= LOOKED_AT])],
              ["## What no test reaches", "", *unreached_lines()],
-             ["## Survivors", "", "File, line of the source, change, and why no test can see it; `?` where one could.", "", *("    " + line for line in survivors)]]
+             ["## Survivors", "", "File, line of the source, change, and why no test can see it; `?` where one could.", "", *("    " + line for line in survivor_lines(rows))]]
     page = "\n\n".join("\n".join(part) for part in parts) + "\n"
     if arguments.page:
         head = (ROOT / "tests" / "mutants" / "RESULTS.md").read_text().split("## The sample")[0]
@@ -369,6 +376,7 @@ def main():
     verb.set_defaults(do=run)
     verb = verbs.add_parser("report")
     verb.add_argument("--md", dest="page", action="store_true", help="into tests/mutants/RESULTS.md, below what stands at its head")
+    verb.add_argument("--first", type=int, default=0, help="of the sample, and those behind it alone: the table and the survivors of a part that was drawn later")
     verb.add_argument("--unreached", action="store_true", help="the changes of the draw that no test reaches")
     verb.set_defaults(do=report)
     arguments = parser.parse_args()

@@ -86,9 +86,8 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
                 !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || (depth.path == DepthPath::float32 && has_vector_codes(to_code_)));
     is_chip_path_ = chip_kernels_ != nullptr && depth.path == DepthPath::window_z && is_chip(depth.path);
-    is_chip_plain_ =
-        is_chip_path_ && rules_.plane_rule == PlaneRule::exact && !needs.exact_code &&
-        (!needs.reference || (z_units_ == code_units_ && is_quotient(depth.reference.value_or(depth.path))));
+    is_chip_plain_ = is_chip_path_ && rules_.plane_rule == PlaneRule::exact && !needs.exact_code &&
+                     (!needs.reference || is_quotient(depth.reference.value_or(depth.path)));
     const InterpolationHypothesis& interpolation = rules_.interpolation;
     const bool cuts_all = interpolation.texture_coordinates == CoordinateRule::cut_weights &&
                           interpolation.perspective_coordinates == PerspectiveCoordinates::cut_products;

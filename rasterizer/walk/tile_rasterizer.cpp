@@ -58,7 +58,6 @@ class TileRasterizer::Pass {
     void draw_float_spans(std::uint32_t index) {
         const DrawnTriangle triangle{geometry_, index};
         use_material(triangle.record.material);
-        first_ = batch_.count;
         FloatSpans{geometry_.positions(triangle.record)}.visit(rules_.clip, [&](int y, int x0, int x1) {
             spans_[0] = {x0, x1};
             RowRun run = row_run(triangle, {x0, y, x1, y + 1});
@@ -73,7 +72,6 @@ class TileRasterizer::Pass {
         const RegionOrigin origin{group_.x0[k] - static_cast<std::uint32_t>(region.x0),
                                   group_.y0[k] - static_cast<std::uint32_t>(region.y0),
                                   static_cast<std::uint32_t>(region.width()), record.primitive};
-        first_ = batch_.count;
         // A pixel is held already, or the room is short: the batch goes
         // on its way, and an empty one takes every small triangle.
         if (!small_.emit(group_, k, origin, owner_.claims_, batch_)) {
@@ -88,7 +86,6 @@ class TileRasterizer::Pass {
         const Rect corners = centre_box(geometry_.points(triangle.record), rules_.subpixel_bits);
         // A negative w takes the triangle beyond its corners.
         const Rect box = triangle.record.negative_w == 0 ? intersection(corners, rules_.clip) : rules_.clip;
-        first_ = batch_.count;
         for (Rect rows = box; rows.y0 < box.y1; rows.y0 = rows.y1) {
             rows.y1 = std::min(box.y1, rows.y0 + max_span_rows);
             emit(triangle, rows);
@@ -130,7 +127,7 @@ class TileRasterizer::Pass {
     FragmentValues values_;
     GroupRules rules_;
     TriangleGroup group_;
-    // The present triangle's first fragment in the batch that has no values yet.
+    // The present triangle's first fragment in the batch that has no values yet: between triangles all have theirs.
     int first_ = 0;
     std::array<RowSpan, max_span_rows + 1> spans_;
 };

@@ -43,6 +43,20 @@ TEST_CASE("pictures take a word a channel and one for the depth") {
     CHECK(need_of("dual", without).pictures == std::uint64_t{300} * 200 * 4 * 4);
 }
 
+// A closed form keeps the picture and no targets of passes. Whether denormals are flushed matters to denormal depths alone.
+TEST_CASE("a closed form takes fewer words a pixel than the passes that it stands for, on devices that flush, too") {
+    for (const char* algorithm : {"dual", "front_to_back"}) {
+        RenderOptions options = options_of(1024, 512);
+        options.tile_size = 32;
+        options.threads = 1;
+        const std::uint64_t closed = need_of(algorithm, options).targets / (32 * 32);
+        options.execution = Execution::literal;
+        const std::uint64_t passes = need_of(algorithm, options).targets / (std::uint64_t{1024} * 512);
+        INFO(algorithm << ": " << closed << " bytes a pixel, and " << passes << " by passes");
+        CHECK(closed + 4 <= passes);
+    }
+}
+
 TEST_CASE("targets of a whole frame have every pixel, those of tiles the pixels of as many tiles as run at once") {
     RenderOptions literal = options_of(1000, 500);
     literal.execution = Execution::literal;

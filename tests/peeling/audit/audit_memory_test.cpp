@@ -141,6 +141,22 @@ TEST_CASE("what a blank tile is found to have done is counted in every tile that
     CHECK(found.misordered == PixelCount{8, 2, 0});
 }
 
+TEST_CASE("a blank tile whose trace does not fit is looked at again in its own place") {
+    FragmentScene scene{32, 16};
+    scene.pixels[0].fragments.push_back({0.5f, {1, 1, 1, 0.5f}});
+    Algorithm busy = *find_algorithm("front_to_back");
+    busy.run = [](Region& region) {
+        front_to_back(region);
+        for (std::uint32_t p = 0; p < region.rect().area(); ++p) region.trace({p, 7, 0, Side::front, false});
+    };
+    for (const std::uint64_t bytes : {std::uint64_t{1} << 30, std::uint64_t{1300}}) {
+        const AuditResult found =
+            audit(scene, busy, {.bytes = bytes, .execution = Execution::replay, .tile_size = 8}).result;
+        CHECK(found.order_errors == 32u * 16);  // one a pixel
+        CHECK(found.misordered == PixelCount{32 * 16, 0, 0});
+    }
+}
+
 TEST_CASE("where one pixel's fragments alone exceed the memory, the sentence names it and what is enough", "[slow]") {
     constexpr int fragments = 300;
     const FragmentScene scene = deep_pixel(fragments);

@@ -1,4 +1,4 @@
-// What the passes of one tile have computed, read from their log; and what a region's pixels are read back as.
+// What the passes of one tile have computed, read from their log; which primitives they draw; and what a region's pixels are read back as.
 #include <bit>
 #include <catch2/catch.hpp>
 
@@ -82,6 +82,31 @@ TEST_CASE(
         INFO("pass " << i % 4);
         CHECK(passes[i].needs.code == (i % 4 >= 2));
     }
+}
+
+// Of two fragments on pixel 3 the nearer one is of the other primitive. Depths are exact, and so are their codes.
+TEST_CASE("a pass of depth alone draws the primitives that it names, by rows as by batches") {
+    FragmentScene scene{tile_side, tile_side};
+    scene.pixels[3].fragments = {{0.5f, {1, 1, 1, 0.5f}}, {0.25f, {1, 1, 1, 0.5f}}};
+    const std::vector<PrimitiveRange> named{{0, 1}};
+    for (const bool is_part : {false, true})
+        for (const Execution execution : {Execution::literal, Execution::replay}) {
+            const TestFrame test{scene, "geforce8", tile_side};
+            std::uint32_t found = 0;
+            const Body body = [&](Region& region) {
+                PassState state;
+                state.needs = {.shader_z = false, .code = false, .color = false};
+                state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+                state.depth_target = region.make_depth();
+                region.clear(state.depth_target, {});
+                if (is_part) state.primitives = named;
+                static_cast<void>(region.draw_depth(state));
+                found = region.storage(state.depth_target).depth(0)[3];
+                region.publish(region.opaque_color());
+            };
+            static_cast<void>(run(test.frame, body, execution, 1));
+            CHECK(std::bit_cast<float>(found) == (is_part ? 0.5f : 0.25f));
+        }
 }
 
 // Pixel p of a row of two and a half batches gets red p; sample 0 alone is drawn to, the others keep green 1.

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "rasterizer/base/simd.h"
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/scene.h"
 
@@ -112,6 +113,28 @@ TEST_CASE("three equal vertex values are that constant, whatever w does") {
     }
     CHECK(fragments > 500);
     CHECK(wrong == 0);
+}
+
+// Red grows by one unit in the last place a pixel, so that every pixel's centre is half way between two numbers; green grows by two.
+TEST_CASE("a value half way between two numbers is decided exactly once a fragment, one that is a number is not") {
+    SetupTriangle t = window_triangle({{{0, 0}, {16 << 8, 0}, {0, 16 << 8}}}, 8);
+    for (std::size_t i = 0; i < 3; ++i) t.attribute[i] = {1, 1, 1, 1, 0, 0};
+    t.attribute[1][0] = 1.0f + 0x1p-19f;
+    t.attribute[1][1] = 1.0f + 0x1p-18f;
+    constexpr FragmentNeeds colors{false, false, false, true, false, false};
+    for (const strata::Simd simd : strata::available_simd()) {
+        const strata::SimdScope kernels{simd};
+        const DrawResult result = draw(window_geometry({t}, 12, 12, {}), {}, colors);
+        CHECK(result.fragments.size() > 100);
+        CHECK(result.exact_fallbacks == result.fragments.size());
+        int wrong = 0;
+        for (const Fragment& f : result.fragments) {
+            const int even = f.x + f.x % 2;
+            wrong += f.color[0] != 1.0f + static_cast<float>(even) * 0x1p-23f ? 1 : 0;
+            wrong += f.color[1] != 1.0f + static_cast<float>(2 * f.x + 1) * 0x1p-23f ? 1 : 0;
+        }
+        CHECK(wrong == 0);
+    }
 }
 
 TEST_CASE("attribute planes can start at the unsnapped positions, and then extrapolate") {
