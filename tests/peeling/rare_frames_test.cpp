@@ -9,6 +9,7 @@
 #include "peeling/programs/fragment_lists.h"
 #include "peeling/programs/tie_order.h"
 #include "tests/peeling/rendering.h"
+#include "tests/pipeline/frames.h"
 #include "tests/support/random_triangles.h"
 
 namespace {
@@ -77,9 +78,9 @@ TEST_CASE("a count of 2048 and a sum that is infinite are reported at their pixe
 }
 
 TEST_CASE("a binary32 count is a whole number up to 2^30") {
-    CHECK(scalar::OneAverage::whole(0x1p31f) == 1u << 30);
-    CHECK(scalar::OneAverage::whole(7.0f) == 7);
-    CHECK(scalar::OneAverage::whole(-1.0f) == 0);
+    CHECK(strata::peeling::scalar::OneAverage::whole(0x1p31f) == 1u << 30);
+    CHECK(strata::peeling::scalar::OneAverage::whole(7.0f) == 7);
+    CHECK(strata::peeling::scalar::OneAverage::whole(-1.0f) == 0);
 }
 
 TEST_CASE("tiles leave what the frame does where colours are signed zeros or depths are flushed") {
@@ -147,19 +148,20 @@ TEST_CASE("masks that --alpha makes transparent are dropped by every peel, and t
     }
 }
 
-TEST_CASE("an A-buffer with room for a few pixels' lists at a time composites what one with room for all does") {
-    const TriangleScene scene = random_triangles(26, 30);
-    RenderOptions options;
-    options.width = options.height = 32;
-    options.threads = 1;
-    options.audit = false;
-    options.execution = Execution::literal;
-    const RenderResult whole = on(*find_profile("geforce8"), scene.list, "a_buffer", options, scene.view);
-    options.fragment_memory = 4000;
-    const RenderResult parts = on(*find_profile("geforce8"), scene.list, "a_buffer", options, scene.view);
-    CHECK(parts.frame.color == whole.frame.color);
-    CHECK(parts.frame.passes == whole.frame.passes);
-    CHECK(parts.frame.counters.fragments_rasterized == whole.frame.counters.fragments_rasterized);
+TEST_CASE("an A-buffer with room for a few pixels' lists at a time leaves and counts what one with room for all does") {
+    const FragmentScene scene = one_deep_pixel(40);
+    const auto composited = [&](std::uint64_t bytes) {
+        TestFrame test{scene, "geforce8"};
+        test.frame.list_bytes = bytes;
+        return run(test.frame, find_algorithm("a_buffer")->run, Execution::literal, 1);
+    };
+    const FrameResult whole = composited(~std::uint64_t{0});
+    for (const std::uint64_t bytes : {40 * sizeof(KeyedFragment), 42 * sizeof(KeyedFragment)}) {
+        const FrameResult parts = composited(bytes);
+        CHECK(parts.color == whole.color);
+        CHECK(parts.passes == whole.passes);
+        CHECK(parts.counters == whole.counters);
+    }
 }
 
 TEST_CASE("batches know no bounds of a w buffer's depths, and peel it as they peel any other") {

@@ -214,18 +214,25 @@ TEST_CASE("memory is foretold of an algorithm that carries values as of the func
     }
 }
 
-TEST_CASE("a frame whose window starts elsewhere on its surface shows the same picture") {
+TEST_CASE(
+    "a frame whose window starts elsewhere on its surface shows the same picture, and names pixels of the surface") {
     const TriangleScene scene = random_triangles(7, 12);
     RenderOptions options;
     options.width = options.height = 32;
     options.threads = 1;
-    const auto picture = [&](std::array<int, 2> origin) {
+    const auto rendered = [&](std::array<int, 2> origin) {
         options.window_origin = origin;
-        return render(scene.list, scene.view, {"geforce8", "front_to_back"}, options).frame.color;
+        return render(scene.list, scene.view, {"geforce8", "front_to_back"}, options);
     };
-    const Image first = picture({0, 0});
-    CHECK(picture({0, 64}) == first);
-    CHECK(picture({64, 0}) == first);
+    const RenderResult first = rendered({0, 0});
+    REQUIRE(first.audit.ties.pixels > 0);
+    for (const std::array<int, 2> origin : {std::array{0, 64}, std::array{64, 0}, std::array{32, 96}}) {
+        const RenderResult moved = rendered(origin);
+        CHECK(moved.frame.color == first.frame.color);
+        CHECK(moved.audit.ties.pixels == first.audit.ties.pixels);
+        CHECK(moved.audit.ties.first_x == first.audit.ties.first_x + origin[0]);
+        CHECK(moved.audit.ties.first_y == first.audit.ties.first_y + origin[1]);
+    }
 }
 
 TEST_CASE("an ordered set is named by its mesh or by its material, and spares hybrid its passes") {

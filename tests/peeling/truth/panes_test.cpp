@@ -117,6 +117,32 @@ TEST_CASE("every chain of links composites panes as a plain loop does, to what i
             }
 }
 
+TEST_CASE("a mask whose alpha rises from left to right hides what is behind it on the right alone, in every chain") {
+    // Alpha is 1/2 in the middle of the frame, where the cutoff lies, and 0.0125 less or more at either side.
+    DrawList list = list_of_panes({all_panes[0], all_panes[1], all_panes[5]});
+    Mesh& mask = list.meshes[1];
+    for (const std::size_t corner : {0u, 3u}) mask.colors[corner].a = 0.25f;
+    for (const std::size_t corner : {1u, 2u}) mask.colors[corner].a = 0.75f;
+    list.materials[1].alpha_cutoff = 0.5f;
+    Pane seen = all_panes[1];
+    seen.cutoff = 0;
+    const RenderOptions options = pane_options();
+    const RealColor left = composite({all_panes[0], all_panes[5]}, options.background, {});
+    const RealColor right = composite({all_panes[0], seen, all_panes[5]}, options.background, {});
+    for (unsigned bits = 0; bits < 1u << links.size(); ++bits) {
+        const RealImage image = render_chain({list, chain_view, *find_profile("geforce8"), options}, chain_of(bits));
+        double largest = 0;
+        for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+            const std::size_t column = i / 3 % 8;
+            if (column == 3 || column == 4) continue;  // 8-bit alphas cannot tell these from the cutoff
+            const RealColor& expected = column < 4 ? left : right;
+            largest = std::max(largest, std::fabs(image.rgb[i] - static_cast<double>(expected[i % 3])));
+        }
+        INFO("links " << bits);
+        CHECK(largest < 4.0 / 255);
+    }
+}
+
 TEST_CASE("planes at unsnapped corners are those of snapped ones where the depth is constant") {
     DeviceProfile unsnapped = *find_profile("geforce8");
     unsnapped.raster.plane_origin = strata::rasterizer::PlaneOrigin::unsnapped;

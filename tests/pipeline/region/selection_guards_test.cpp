@@ -41,6 +41,14 @@ const FragmentScene& layered_scene() {
     return scene;
 }
 
+// Every third triangle turned round, so that both faces of a stencil test see some.
+DrawList layered_list() {
+    DrawList list = draw_list(layered_scene());
+    std::vector<std::uint32_t>& indices = list.meshes[0].indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 9) std::swap(indices[i + 1], indices[i + 2]);
+    return list;
+}
+
 // A pass of one kind: the targets that it finds, and its state.
 struct Stage {
     Keeps keeps;
@@ -155,7 +163,8 @@ struct Ways {
 
 Ways both_ways(const Stage& stage, const Changed& change, const std::function<void(Frame&)>& reframe = {},
                const Instruments& instruments = {}) {
-    TestFrame test{layered_scene(), "ideal"};
+    const FragmentScene& scene = layered_scene();
+    TestFrame test{layered_list(), {}, scene.width, scene.height, "ideal"};
     test.frame.replay = {std::uint64_t{1} << 20, {}};
     if (reframe) reframe(test.frame);
     const Body body = [&](Region& region) { draw_stage(region, stage, change); };

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "rasterizer/base/nv20_arithmetic.h"
+#include "rasterizer/base/simd.h"
 #include "rasterizer/chip/cut_weight.h"
 #include "rasterizer/chip/perspective_weights.h"
 #include "rasterizer/chip/w_buffer.h"
@@ -11,8 +12,8 @@
 #include "rasterizer/set_up/depth_bound.h"
 #include "rasterizer/values/depth_paths.h"
 #include "rasterizer/values/depth_quotient.h"
+#include "tests/rasterizer/chip_scene.h"
 #include "tests/rasterizer/rational.h"
-#include "tests/rasterizer/scene.h"
 
 namespace {
 
@@ -206,4 +207,77 @@ TEST_CASE("a triangle of floats without an area covers nothing, and a reversed o
     CHECK(std::isfinite(bound));
     geometry.state.depth_order = DepthOrder::greater;
     CHECK(depth_bound(geometry, geometry.all_triangles) == std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("corners whose unsnapped places lie on a line take the plane of the snapped ones, large and small") {
+    for (const int reach : {2, 40}) {
+        std::vector<SetupTriangle> triangles;
+        for (int i = 0; i < 5; ++i) {
+            const int x = (4 + 7 * i) << 8, y = 3 << 8, far = reach << 8;
+            SetupTriangle t =
+                window_triangle({{{x, y}, {x + far, y}, {x, y + far}}}, 8, {0.25, 0.5, 0.75}, {1, 0.5f, 2});
+            for (std::size_t k = 0; k < 3; ++k)
+                for (std::size_t a = 0; a < attribute_count; ++a) t.attribute[k][a] = static_cast<float>(k + a) / 16.0f;
+            triangles.push_back(t);
+        }
+        const RasterRules snapped{.subpixel_bits = 8};
+        RasterRules unsnapped = snapped;
+        unsnapped.plane_origin = PlaneOrigin::unsnapped;
+        Geometry expected = window_geometry(triangles, 70, 50, snapped),
+                 on_a_line = window_geometry(triangles, 70, 50, unsnapped);
+        for (Geometry* const g : {&expected, &on_a_line})
+            for (std::size_t i = 0; i < g->corners.size(); ++i)
+                g->corners[i].unsnapped = {static_cast<float>(i % 3), static_cast<float>(2 * (i % 3))};
+        for (const strata::Simd simd : strata::available_simd()) {
+            const strata::SimdScope kernels{simd};
+            const DrawResult found = draw(on_a_line), model = draw(expected);
+            INFO("reach " << reach << ", set " << static_cast<int>(simd));
+            CHECK(model.fragments.size() >= 5);
+            CHECK(found.fragments == model.fragments);
+        }
+        CHECK(depth_bound(on_a_line, on_a_line.all_triangles) >= 0.75);  // no slope is known, the corners are
+    }
+}
+
+TEST_CASE("every value of a fragment is the same whatever else is asked for, by every path into every format") {
+    std::size_t wrong = 0, compared = 0;
+    const auto compare = [&](const Geometry& g, const DepthRequest& depth) {
+        FragmentNeeds all = everything;
+        all.facing = false;
+        const std::vector<Fragment> whole = draw(g, depth, all).fragments;
+        for (unsigned bits = 0; bits < 32; ++bits) {
+            const FragmentNeeds needs{(bits & 1) != 0, (bits & 2) != 0,  (bits & 4) != 0,
+                                      (bits & 8) != 0, (bits & 16) != 0, false};
+            std::vector<Fragment> expected = whole;
+            for (Fragment& f : expected) {
+                if (!needs.shader_z) f.shader_z = 0;
+                if (!needs.code) f.code = 0;
+                if (!needs.exact_code) f.exact_code = 0;
+                if (!needs.color) f.color = {};
+                if (!needs.texcoord) f.texcoord = {};
+            }
+            wrong += draw(g, depth, needs).fragments == expected ? 0 : 1;
+            ++compared;
+        }
+    };
+    for (const DepthFormat format :
+         {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f, DepthFormat::d24f}) {
+        for (const DepthPath path : {DepthPath::float32, DepthPath::float32_plane, DepthPath::exact}) {
+            const Device device{{.subpixel_bits = 8}, {path, format}};
+            compare(random_triangles(91, 24, 12, device), device.depth);
+        }
+        if (format == DepthFormat::d32f) continue;
+        for (const DepthPath path : {DepthPath::window_z, DepthPath::w_buffer})
+            for (const bool has_offset : {false, true}) {
+                const Device device{chip_rules(), {path, format}};
+                Geometry g = chip_triangles(92, 24, 12, device);
+                g.state.depth_clamp = true;
+                g.state.w_scale =
+                    path == DepthPath::w_buffer && has_offset ? 1e9f : 3.0f;  // beyond the range, or within
+                if (has_offset) g.state.polygon_offset = {true, 0.0f, 2.0f};
+                compare(g, device.depth);
+            }
+    }
+    CHECK(wrong == 0);
+    CHECK(compared == (5 * 3 + 4 * 2 * 2) * 32);
 }
