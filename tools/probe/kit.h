@@ -20,12 +20,13 @@ namespace strata::probe {
 [[nodiscard]] std::vector<Item> unseen_scenes(int first, int count);
 
 // {"format": "strata-kit", "version": 1, "digest": "...", "items": [...]}: floats as the 8 hexadecimal digits of their bits.
-[[nodiscard]] std::string to_json(const std::vector<Item>& items);
+// With operations: their list as "operations", its digest as "operations_digest".
+[[nodiscard]] std::string to_json(const std::vector<Item>& items, bool with_operations = false);
 // Of the array of items as JSON without a space: a pack names the kit that it answers by it.
 [[nodiscard]] std::string digest(const std::vector<Item>& items);
 
 // One HTML page that draws these items by WebGL 2 and offers the answers as an archive; it loads nothing.
-[[nodiscard]] std::string page_of(const std::vector<Item>& items);
+[[nodiscard]] std::string page_of(const std::vector<Item>& items, bool with_operations = false);
 
 // How far the triangles reach that tell a guard band, in pixels: each a twenty-fourth further than the one before.
 [[nodiscard]] std::vector<int> guard_reaches();

@@ -11,6 +11,7 @@
 
 #include "pipeline/device/profile.h"
 #include "tools/probe/item.h"
+#include "tools/probe/operations.h"
 
 namespace strata::probe {
 
@@ -27,6 +28,8 @@ struct ProbePack {
     nlohmann::ordered_json device = nlohmann::ordered_json::object();
     // By the item's name, for each orientation that was drawn.
     std::map<YDirection, Answers> answers{};
+    // None in a pack from before there were operations, and in answers to other scenes than the kit.
+    OperationReplies operations{};
 };
 
 // All items answered by a device that is the profile.

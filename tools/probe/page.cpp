@@ -12,11 +12,12 @@ void put(std::string& page, std::string_view mark, std::string_view text) {
 
 }  // namespace
 
-// A kit has no '<' that could end the element that holds it.
-std::string page_of(const std::vector<Item>& items) {
+// A kit has no '</' that could end the element that holds it.
+std::string page_of(const std::vector<Item>& items, bool with_operations) {
     std::string page{probe_html()};
     put(page, "/*SCRIPT*/", probe_js());
-    put(page, "/*KIT*/", to_json(items));
+    put(page, "/*OPERATIONS*/", operations_js());
+    put(page, "/*KIT*/", to_json(items, with_operations));
     return page;
 }
 

@@ -66,6 +66,34 @@ def details(name, orientation, found):
     return lines + [""]
 
 
+def operation_cell(found):
+    """The best hypothesis and its count; what has no result says why."""
+    if not found["hypotheses"]:
+        return found["reason"]
+    best = found["hypotheses"][0]
+    if found["state"] == "inferred":
+        return f"{best['hypothesis']} ({found['places']:,})"
+    whole = [h["hypothesis"] for h in found["hypotheses"] if h["agree"] == found["places"]]
+    if whole:
+        return f"open: {' or '.join(whole)} ({found['places']:,})"
+    return f"**{best['agree']:,} of {found['places']:,}**: {best['hypothesis']}; {best['furthest']:,} apart at most"
+
+
+def operations(devices):
+    """A row an operation, a column a device, and the first counterexamples."""
+    names = [name for name, _ in devices]
+    lines = ["| operation | " + " | ".join(names) + " |", "|---" * (len(names) + 1) + "|"]
+    for rows in zip(*(found for _, found in devices)):
+        lines.append(f"| {rows[0]['operation']} | " + " | ".join(operation_cell(f).replace("|", "\\|") for f in rows) + " |")
+    lines += ["", "What no hypothesis explains, with its first counterexample by the best of them:", ""]
+    for name, found in devices:
+        for f in found:
+            if f["state"] == "broken":
+                first = f["hypotheses"][0]["first"]
+                lines.append(f"- {name}, {f['operation']}: result {first['texel']} of {', '.join(first['inputs'][:3])} should be {first['expected']}, is {first['found']}.")
+    return lines
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build")
@@ -73,7 +101,7 @@ def main():
     parser.add_argument("--browser")
     options = parser.parse_args()
     strata, client = (os.path.join(options.build, name) for name in ("strata", "strata_port_probe"))
-    rows, pages = [], []
+    rows, pages, operated = [], [], []
     with tempfile.TemporaryDirectory() as folder:
         kit, unseen = os.path.join(folder, "kit"), os.path.join(folder, "unseen")
         checked(strata, "probe", "-o", kit)
@@ -90,12 +118,15 @@ def main():
         for name, orientation, *answers in devices:
             found, scenes = measured(strata, *answers, orientation, folder)
             rows.append(row(name, orientation, found, scenes))
+            if orientation == "down":
+                operated.append((name, found["operations"]))
             pages += details(name, orientation, found)
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "introduction.md"), encoding="utf-8") as file:
         head = file.read()
     with open(options.output, "w", encoding="utf-8") as file:
         file.write(head + "\n## Devices\n\n| device | +y | fields inferred | pixels of the kit that agree | pixels of 20 unseen scenes | coverage differs | depth differs | colour differs |\n"
-                   "|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n\n## Field by field\n\n" + "\n".join(pages))
+                   "|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n\n## Operations\n\nA hypothesis with the number of words that it explains, all of them; in bold the count of the best where none does "
+                   "([README.md](README.md)).\n\n" + "\n".join(operations(operated)) + "\n\n## Field by field\n\n" + "\n".join(pages))
 
 
 if __name__ == "__main__":

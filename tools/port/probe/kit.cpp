@@ -25,13 +25,6 @@ const std::map<std::string, GLenum> factors{
     {"src_alpha", GL_SRC_ALPHA}, {"one_minus_src_alpha", GL_ONE_MINUS_SRC_ALPHA},
     {"dst_alpha", GL_DST_ALPHA}, {"one_minus_dst_alpha", GL_ONE_MINUS_DST_ALPHA}};
 
-std::vector<std::uint32_t> words_of(const std::string& digits) {
-    std::vector<std::uint32_t> words;
-    for (std::size_t at = 0; at + 8 <= digits.size(); at += 8)
-        words.push_back(static_cast<std::uint32_t>(std::stoul(digits.substr(at, 8), nullptr, 16)));
-    return words;
-}
-
 std::array<float, 2> pair_of(const json& digits) {
     const std::vector<std::uint32_t> words = words_of(digits.get<std::string>());
     return {std::bit_cast<float>(words.at(0)), std::bit_cast<float>(words.at(1))};
@@ -67,6 +60,13 @@ KitItem item_of(const json& described) {
 
 }  // namespace
 
+std::vector<std::uint32_t> words_of(const std::string& digits) {
+    std::vector<std::uint32_t> words;
+    for (std::size_t at = 0; at + 8 <= digits.size(); at += 8)
+        words.push_back(static_cast<std::uint32_t>(std::stoul(digits.substr(at, 8), nullptr, 16)));
+    return words;
+}
+
 Kit read_kit(const std::string& folder) {
     const std::string file = folder + "/kit.json";
     std::ifstream stream(file, std::ios::binary);
@@ -75,7 +75,10 @@ Kit read_kit(const std::string& folder) {
         const json document = json::parse(stream);
         if (document.at("format") != "strata-kit" || document.at("version") != 1)
             throw std::runtime_error("expected a kit of version 1");
-        Kit kit{.digest = document.at("digest").get<std::string>(), .items = {}};
+        Kit kit{
+            .digest = document.at("digest").get<std::string>(), .items = {}, .operations = {}, .operations_digest = {}};
+        kit.operations = document.value("operations", json::array());
+        kit.operations_digest = document.value("operations_digest", "");
         for (const json& item : document.at("items")) kit.items.push_back(item_of(item));
         return kit;
     } catch (const std::exception& error) {

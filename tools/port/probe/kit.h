@@ -3,6 +3,7 @@
 // Rule     KIT/kit.json (../../probe/README.md): floats are the 8 hexadecimal digits of their bits, so that no decimal is read.
 #pragma once
 #include <array>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,13 @@ struct KitItem {
 struct Kit {
     std::string digest;
     std::vector<KitItem> items;
+    // As the file has them, and their digest; an empty array and no digest where it has none.
+    nlohmann::json operations = nlohmann::json::array();
+    std::string operations_digest;
 };
 
+// Words of a text of hexadecimal digits, 8 a word.
+[[nodiscard]] std::vector<std::uint32_t> words_of(const std::string& digits);
 // Throws std::runtime_error with file and place.
 [[nodiscard]] Kit read_kit(const std::string& folder);
 

@@ -11,6 +11,7 @@
 #include "tools/port/context.h"
 #include "tools/port/npy.h"
 #include "tools/port/probe/kit.h"
+#include "tools/port/probe/operations.h"
 
 namespace strata::port {
 
@@ -134,6 +135,20 @@ bool has_alpha_test(const KitItem& item) {
     return std::ranges::any_of(item.draws, [](const KitDraw& draw) { return draw.has_alpha_test; });
 }
 
+// Operations are drawn with +y down, as in the page.
+void answer_operations(const Kit& kit, const fs::path& folder, ordered_json& missing) {
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    if (!kit.operations.empty()) fs::create_directories(folder);
+    for (const nlohmann::json& described : kit.operations) {
+        const std::string name = described.at("name").get<std::string>();
+        try {
+            write_npy(folder / (name + ".npy"), draw_operation(described));
+        } catch (const std::exception& error) {
+            missing["operations/" + name] = error.what();
+        }
+    }
+}
+
 int run(const Options& options) {
     if (fs::exists(options.output)) throw std::runtime_error(options.output + ": expected no such folder, found one");
     const Kit kit = read_kit(options.kit);
@@ -151,10 +166,13 @@ int run(const Options& options) {
             else
                 answer(item, painter, made / "probe" / orientation / item.name);
     }
+    answer_operations(kit, made / "probe" / "operations", missing);
+    ordered_json probe{{"kit", kit.digest}, {"device", device()}, {"missing", missing}};
+    if (!kit.operations_digest.empty()) probe["operations"] = kit.operations_digest;
     const ordered_json document{{"format", "strata-candidate"},
                                 {"version", 1},
                                 {"made_by", "strata_port_probe, " + context.renderer()},
-                                {"probe", {{"kit", kit.digest}, {"device", device()}, {"missing", missing}}}};
+                                {"probe", probe}};
     std::ofstream(made / "candidate.json") << document.dump(1) << "\n";
     fs::rename(made, options.output);
     return 0;

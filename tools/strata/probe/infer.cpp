@@ -11,6 +11,7 @@
 #include "tools/strata/command.h"
 #include "tools/strata/messages.h"
 #include "tools/strata/probe/items.h"
+#include "tools/strata/probe/operations_table.h"
 #include "tools/strata/table.h"
 
 namespace strata::tools {
@@ -124,7 +125,10 @@ int run(const InferOptions& options) {
                          "answers of that orientation (--y names another)", "none");
     const Inference result = probe::infer(pack, items, options.orientation);
     if (!options.output.empty()) scenes::write_file(options.output, scenes::to_json(result.profile));
-    const std::string told = options.json ? to_json(result).dump(1) + "\n" : to_text(result);
+    const std::vector<probe::OperationFinding> findings = probe::judge(pack.operations);
+    ordered_json document = options.json ? to_json(result) : ordered_json{};
+    if (options.json) document["operations"] = operations_json(findings);
+    const std::string told = options.json ? document.dump(1) + "\n" : to_text(result) + operations_text(findings);
     scenes::is_standard_output(options.output) ? say_note(told) : print(told);
     return 0;
 }

@@ -66,10 +66,10 @@ int compare(const ProbeOptions& options, const std::vector<probe::Item>& items) 
     return sum.is_none() ? 0 : 1;
 }
 
-void write_kit(const std::vector<probe::Item>& items, const std::string& folder) {
+void write_kit(const std::vector<probe::Item>& items, bool with_operations, const std::string& folder) {
     scenes::NewFolder place{folder};
-    place.write("kit.json", probe::to_json(items));
-    place.write("probe.html", probe::page_of(items));
+    place.write("kit.json", probe::to_json(items, with_operations));
+    place.write("probe.html", probe::page_of(items, with_operations));
     place.keep();
 }
 
@@ -81,11 +81,13 @@ int run(const ProbeOptions& options) {
     }
     if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder, found none");
     if (options.profile.empty()) {
-        write_kit(items, options.output);
+        write_kit(items, options.unseen == 0, options.output);
     } else {
         const pipeline::DeviceProfile profile = scenes::load_profile(options.profile);
         const auto& both = enum_values<probe::YDirection>;
-        write_pack(answer(profile, items, {both.begin(), both.end()}), items, options.output);
+        probe::ProbePack pack = answer(profile, items, {both.begin(), both.end()});
+        if (options.unseen == 0) pack.operations = probe::answer_operations();
+        write_pack(pack, items, options.output);
     }
     return 0;
 }

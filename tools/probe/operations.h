@@ -1,0 +1,119 @@
+// tools/probe/operations.h - what shaders, textures and fixed tests compute: one operation a picture, exact bits in and out.
+//
+// Rule     A fragment reads four words of its texel of the inputs and writes four; `words` of them count. A hypothesis says what
+//          it writes for those inputs, and nothing else decides: NaNs are equal to each other where results are floats. The first
+//          hypothesis of an operation is what a device that is a profile answers.
+// Tests    tests/tools/probe/operations_test.cpp
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace strata::probe {
+
+using Texel = std::array<std::uint32_t, 4>;
+
+struct Hypothesis {
+    std::string name{};
+    std::function<Texel(const Texel&)> answer{};
+};
+
+// The texture that the fragment's `image` reads: one row of texels, a word each (r32f and d32f: bits of the float, rgba8 and
+// srgb8: red lowest, d16 and d24: the code).
+struct SourceImage {
+    std::string format{};
+    std::vector<std::uint32_t> texels{};
+    bool linear = false;   // nearest
+    bool compare = false;  // by LEQUAL
+};
+
+struct ShaderPair {
+    std::string vertex{}, fragment{};
+};
+
+enum class ResultKind : std::uint8_t { floats, words, srgb8 };
+
+struct Operation {
+    std::string name{};
+    std::string question{};  // for people
+    int width = 64;          // of the inputs and of the picture
+    std::vector<Texel> inputs{};
+    int words = 1;
+    ResultKind result = ResultKind::floats;
+    std::optional<SourceImage> image{};
+    // x y z w a corner.
+    std::vector<std::array<float, 4>> corners{};
+    // GLSL without version and precision. Two: the first draws depths alone (D32F, ALWAYS), the second with EQUAL.
+    std::vector<ShaderPair> programs{};
+    // Column x: stencil test number x of the first row's inputs; row b: bit b of what it left.
+    bool stencil = false;
+    std::vector<Hypothesis> hypotheses{};
+
+    [[nodiscard]] int height() const noexcept { return static_cast<int>(inputs.size()) / width; }
+};
+
+// All of them. Names are unique.
+[[nodiscard]] const std::vector<Operation>& operations();
+// As clients read them.
+[[nodiscard]] nlohmann::ordered_json operations_json();
+[[nodiscard]] std::string operations_digest();
+
+// A device's results in the order of the inputs, or why there are none.
+struct OperationReply {
+    std::optional<std::vector<Texel>> texels{};
+    std::string refusal{};
+};
+using OperationReplies = std::map<std::string, OperationReply>;
+
+// By one hypothesis; and of every operation by its first.
+[[nodiscard]] std::vector<Texel> answer(const Operation& operation, const Hypothesis& hypothesis);
+[[nodiscard]] OperationReplies answer_operations();
+
+// The first result that a hypothesis does not say.
+struct CounterExample {
+    std::size_t texel = 0, word = 0;
+    Texel inputs{};
+    std::uint32_t expected = 0, found = 0;
+};
+
+struct HypothesisCount {
+    std::string name{};
+    std::uint64_t agree = 0;  // k
+    // The greatest distance from what was found: codes, or representable numbers in between.
+    std::uint64_t furthest = 0;
+    std::optional<CounterExample> first{};
+};
+
+// inferred: one hypothesis has all n. open: several have. broken: none has. undrawn: no results.
+enum class OperationState : std::uint8_t { inferred, open, broken, undrawn };
+[[nodiscard]] std::string_view name(OperationState state) noexcept;
+
+struct OperationFinding {
+    std::string name{}, reason{};
+    OperationState state = OperationState::undrawn;
+    std::uint64_t places = 0;               // n
+    std::vector<HypothesisCount> counts{};  // best first
+};
+
+[[nodiscard]] OperationFinding judge(const Operation& operation, const OperationReply& reply);
+// Of every operation; none if the pack is from before there were any.
+[[nodiscard]] std::vector<OperationFinding> judge(const OperationReplies& replies);
+
+// Parts of the list (operations_*.cpp).
+void add_arithmetic(std::vector<Operation>& list);
+void add_conversions(std::vector<Operation>& list);
+void add_textures(std::vector<Operation>& list);
+void add_tests(std::vector<Operation>& list);
+
+// `body` reads `given` and sets `result`; `declared` stands before main.
+[[nodiscard]] std::vector<ShaderPair> one_pass(const std::string& body, const std::string& declared = "",
+                                               bool float_result = false);
+// One triangle over the whole picture.
+[[nodiscard]] std::vector<std::array<float, 4>> whole_picture();
+
+}  // namespace strata::probe
