@@ -1,6 +1,7 @@
 // Which cause an audit's order errors are given: a table, cause by cause, of keys-and-counts.md 7.3.
 #include <catch2/catch.hpp>
 #include <string>
+#include <vector>
 
 #include "peeling/registry.h"
 #include "peeling/render_diagnostics.h"
