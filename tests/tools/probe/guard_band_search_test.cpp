@@ -11,17 +11,16 @@ using namespace strata::probe;
 
 namespace {
 
-std::vector<Item> guard_band_scenes() {
-    std::vector<Item> items;
-    for (const Item& item : kit())
-        if (item.name.starts_with("clip.guard-band")) items.push_back(item);
-    return items;
-}
-
 DeviceProfile with_band(int pixels) {
     DeviceProfile profile = *pipeline::find_profile("geforce8_dx101");
     profile.raster.guard_band_px = pixels;
     return profile;
+}
+
+std::vector<Item> guard_band_scenes() {
+    std::vector<Item> items = kit();
+    std::erase_if(items, [](const Item& item) { return !item.name.starts_with("clip.guard-band"); });
+    return items;
 }
 
 // Depths that no profile draws: in all rows of triangles that reach farther out than so many pixels.
