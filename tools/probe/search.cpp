@@ -4,7 +4,7 @@
 #include <map>
 
 #include "rasterizer/base/input_error.h"
-#include "tools/probe/kit.h"
+#include "tools/probe/guard_band_search.h"
 #include "tools/probe/scores.h"
 
 namespace strata::probe {
@@ -144,55 +144,30 @@ DeviceProfile search_group(const FieldGroup& group, Scores& scores, const Device
     return best.profile;
 }
 
-// The nearest reach (kit.h) whose triangle the device did not draw as if no guard band cut it: the band is nearer. Triangles that are
-// whole agree in every pixel; of those that are cut one may, by chance.
-int first_cut_reach(const Scores& scores, DeviceProfile profile) {
-    const Comparison& device = scores.device();
-    const std::vector<int> reaches = guard_reaches();
-    std::size_t first = reaches.size();
-    profile.raster.guard_band_px = field("raster.guard_band_px").highest;
-    for (const std::size_t n : device.items_of({"clip.guard-band"})) {
-        const std::vector<bool> equal = device.equal(device.drawn(profile, n), n);
-        const auto width = static_cast<std::size_t>(device.item(n).width);
-        for (std::size_t place = 0; place < equal.size(); ++place) {
-            const std::size_t row = place / width % reaches.size();
-            const std::size_t reach = device.orientation() == YDirection::down ? row : reaches.size() - 1 - row;
-            if (!equal[place]) first = std::min(first, reach);
-        }
-    }
-    return first < reaches.size() ? reaches[first] : field("raster.guard_band_px").highest;
-}
-
-// Only the true guard band explains all triangles that it cuts, and a near miss no more than a far one: so all values are tried,
-// downwards from the first triangle that is seen to be cut; beyond 131,072 pixels every second or so.
-void search_guard_band(const View& view, Candidate& best) {
+void search_guard_band(const View& view, BandSearch& bands, Candidate& best) {
     if (!matters("raster.guard_band_px", best.profile) || view.is_perfect(best)) return;
-    const int last = first_cut_reach(view.scores, best.profile), first = std::max(256, last - last / 4);
-    for (int value = last; value >= first; value -= 1 + value / 131'072) {
-        DeviceProfile tried = best.profile;
-        tried.raster.guard_band_px = value;
-        const std::uint64_t points = view.points(tried, best.points);
-        if (points > best.points) best = {std::move(tried), points};
-        if (view.is_perfect(best)) return;
-    }
+    best.profile.raster.guard_band_px = bands.best(best.profile, view.numbers, view.part);
+    best.points = view.points(best.profile);
 }
 
 // A guard band is cut like the view volume where it is as near: whether there is one is known when it has been searched.
-DeviceProfile search_clip(const FieldGroup& group, Scores& scores, const DeviceProfile& start) {
+DeviceProfile search_clip(const FieldGroup& group, BandSearch& bands, const DeviceProfile& start) {
+    Scores& scores = bands.scores;
     const View view{scores, scores.device().items_of(group.items), group.part};
     DeviceProfile found = search_group(group, scores, start);
     Candidate best{found, view.points(found)};
     found.raster.clip = rasterizer::ClipVolume::guard_band;
     found.raster.guard_band_px = field("raster.guard_band_px").highest;
     Candidate other{found, view.points(found)};
-    search_guard_band(view, other);
+    search_guard_band(view, bands, other);
     refine(view, group.joint, other);
-    search_guard_band(view, other);
+    search_guard_band(view, bands, other);
     return other.points > best.points ? other.profile : best.profile;
 }
 
 // What the groups left: fields that can change a scene that is not explained, until the whole kit gains no more.
-DeviceProfile repaired(Scores& scores, const DeviceProfile& start) {
+DeviceProfile repaired(BandSearch& bands, const DeviceProfile& start) {
+    Scores& scores = bands.scores;
     View all{scores, scores.device().items_of({""}), Part::both};
     Candidate best{start, all.points(start)};
     const auto is_explained = [&](std::size_t n) {
@@ -209,16 +184,17 @@ DeviceProfile repaired(Scores& scores, const DeviceProfile& start) {
         for (const ProfileField* f : probed_fields())
             if (is_of_use(wrong, f->key)) keys.push_back(f->key);
         refine(all, keys, best);
-        search_guard_band(all, best);
+        search_guard_band(all, bands, best);
     }
     return best.profile;
 }
 
 // The groups one after the other, from one device on.
-Candidate searched_from(Scores& scores, DeviceProfile profile) {
+Candidate searched_from(BandSearch& bands, DeviceProfile profile) {
+    Scores& scores = bands.scores;
     for (const FieldGroup& group : field_groups())
-        profile = (group.name == "clip" ? search_clip : search_group)(group, scores, profile);
-    profile = repaired(scores, profile);
+        profile = group.name == "clip" ? search_clip(group, bands, profile) : search_group(group, scores, profile);
+    profile = repaired(bands, profile);
     const View all{scores, scores.device().items_of({""}), Part::both};
     return {profile, all.points(profile)};
 }
@@ -263,8 +239,9 @@ DeviceProfile searched(const Comparison& device, const ProbePack& pack) {
     std::vector<Candidate> ranked = scored(all, std::move(starts));
     std::ranges::stable_sort(ranked, std::ranges::greater{}, &Candidate::points);
     Candidate best = ranked.front();
+    BandSearch bands{scores};
     for (std::size_t i = 0; i < std::min(most_starts, ranked.size()) && !all.is_perfect(best); ++i) {
-        Candidate found = searched_from(scores, ranked[i].profile);
+        Candidate found = searched_from(bands, ranked[i].profile);
         if (found.points > best.points) best = std::move(found);
     }
     return all.is_perfect(best) ? best.profile : covered_first(device, best.profile);
