@@ -5,11 +5,16 @@
 // Numbers  Colours are four channels of 8, 16 or 32 bits, as targets of a frame's colour format have them.
 // Tests    tests/peeling/programs/sample_columns_test.cpp
 #pragma once
+#include <bit>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "pipeline/formats/half.h"
 #include "pipeline/formats/unorm8.h"
+#include "pipeline/formats/unorm8_product.h"
+#include "pipeline/fragments/sort_arrivals.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/stages/lane_words.h"
 
@@ -41,5 +46,68 @@ class SampleColumns {
     std::uint32_t empty_;
     pipeline::UnormRounding rounding_;
 };
+
+namespace sample_formats {
+
+// How a channel's code is read; `bits` is its width.
+struct Bytes {
+    static constexpr std::size_t bits = 8;
+    static float value(std::uint32_t code) noexcept { return pipeline::unorm8_value(code); }
+};
+struct BytesByProduct {
+    static constexpr std::size_t bits = 8;
+    static float value(std::uint32_t code) noexcept { return pipeline::unorm8_product(code); }
+};
+struct Halves {
+    static constexpr std::size_t bits = 16;
+    static float value(std::uint32_t code) noexcept {
+        return pipeline::half_to_float(static_cast<std::uint16_t>(code));
+    }
+};
+struct Singles {
+    static constexpr std::size_t bits = 32;
+    static float value(std::uint32_t code) noexcept { return std::bit_cast<float>(code); }
+};
+
+template <class Decode>
+[[nodiscard]] pipeline::Rgba decoded(const pipeline::Texels& from, std::uint32_t pixel) noexcept {
+    constexpr std::size_t channels_of_word = 32 / Decode::bits;
+    pipeline::Rgba color;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const std::uint32_t word = from.plane(c / channels_of_word).words[pixel];
+        color[c] = Decode::value(word >> (c % channels_of_word * Decode::bits) & (~0u >> (32 - Decode::bits)));
+    }
+    return color;
+}
+
+}  // namespace sample_formats
+
+template <class Decode>
+pipeline::Rgba SampleColumns::composite_as(std::uint32_t pixel, const pipeline::Texels& background) const noexcept {
+    pipeline::Rgba front{0, 0, 0, 1};
+    for (const std::uint64_t word : words_) {
+        const pipeline::Rgba color =
+            sample_formats::decoded<Decode>(samples_[static_cast<std::uint32_t>(word)].color, pixel);
+        for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * (color[3] * color[c]);
+        front[3] *= 1.0f - color[3];
+    }
+    const pipeline::Rgba behind = sample_formats::decoded<Decode>(background, pixel);
+    for (std::size_t c = 0; c < 3; ++c) front[c] += front[3] * behind[c];
+    front[3] = 1.0f;
+    return front;
+}
+
+inline pipeline::Rgba SampleColumns::composite(std::uint32_t pixel, const pipeline::Texels& background) {
+    using namespace sample_formats;
+    words_.clear();
+    for (std::size_t s = 0; s < samples_.size(); ++s)
+        if (const std::uint32_t code = samples_[s].codes[pixel]; code != empty_)
+            words_.push_back(std::uint64_t{code} << 32 | s);
+    pipeline::sort_arrivals(words_);
+    if (background.bits_per_channel == 32) return composite_as<Singles>(pixel, background);
+    if (background.bits_per_channel == 16) return composite_as<Halves>(pixel, background);
+    if (rounding_ == pipeline::UnormRounding::product_even) return composite_as<BytesByProduct>(pixel, background);
+    return composite_as<Bytes>(pixel, background);
+}
 
 }  // namespace strata::peeling
