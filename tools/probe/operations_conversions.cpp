@@ -57,19 +57,12 @@ std::uint32_t rest_never_nan(std::uint32_t a, std::uint32_t b) {
 // The definitions of GLSL, and the two other ways that a comparison can fail.
 std::uint32_t least_defined(std::uint32_t a, std::uint32_t b) { return float_of(b) < float_of(a) ? b : a; }
 std::uint32_t least_second(std::uint32_t a, std::uint32_t b) { return float_of(a) < float_of(b) ? a : b; }
-std::uint32_t least_number(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : least_defined(a, b);
-}
-std::uint32_t least_number_second(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : least_second(a, b);
-}
 std::uint32_t greatest_defined(std::uint32_t a, std::uint32_t b) { return float_of(a) < float_of(b) ? b : a; }
 std::uint32_t greatest_second(std::uint32_t a, std::uint32_t b) { return float_of(b) < float_of(a) ? a : b; }
-std::uint32_t greatest_number(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : greatest_defined(a, b);
-}
-std::uint32_t greatest_number_second(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : greatest_second(a, b);
+// By `plain`, but of a number and NaN the number.
+template <One plain>
+std::uint32_t number_first(std::uint32_t a, std::uint32_t b) {
+    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : plain(a, b);
 }
 
 std::uint32_t int_saturated(std::uint32_t a, std::uint32_t) {
@@ -138,12 +131,12 @@ void add_conversions(std::vector<Operation>& list) {
                               of("a - floor(a), below 1 even of NaN", rest_never_nan)}));
     list.push_back(operation("shader.min", "what is min(a, b) of NaN and zeros?", "U(min(a, b))", floats, odd_pairs(),
                              {of("b < a ? b : a", least_defined), of("a < b ? a : b", least_second),
-                              of("a number before NaN, then b < a ? b : a", least_number),
-                              of("a number before NaN, then a < b ? a : b", least_number_second)}));
+                              of("a number before NaN, then b < a ? b : a", number_first<least_defined>),
+                              of("a number before NaN, then a < b ? a : b", number_first<least_second>)}));
     list.push_back(operation("shader.max", "what is max(a, b) of NaN and zeros?", "U(max(a, b))", floats, odd_pairs(),
                              {of("a < b ? b : a", greatest_defined), of("b < a ? a : b", greatest_second),
-                              of("a number before NaN, then a < b ? b : a", greatest_number),
-                              of("a number before NaN, then b < a ? a : b", greatest_number_second)}));
+                              of("a number before NaN, then a < b ? b : a", number_first<greatest_defined>),
+                              of("a number before NaN, then b < a ? a : b", number_first<greatest_second>)}));
     list.push_back(operation("shader.to-int", "what is int(a) out of range?", "uint(int(a))", integers, odd_pairs(),
                              {of("the nearest end, 0 of NaN", int_saturated), of("-2^31", int_indefinite)}));
     list.push_back(operation("shader.to-uint", "what is uint(a) out of range?", "uint(a)", integers, odd_pairs(),
