@@ -49,22 +49,20 @@ std::uint32_t rest_below_one(std::uint32_t a, std::uint32_t b) {
     return plain == 0x3f800000u ? 0x3f7fffffu : plain;
 }
 
+// A minimum that answers by its number where the other is NaN.
+std::uint32_t rest_never_nan(std::uint32_t a, std::uint32_t b) {
+    return std::isnan(float_of(rest(a, b))) ? 0x3f7fffffu : rest_below_one(a, b);
+}
+
 // The definitions of GLSL, and the two other ways that a comparison can fail.
 std::uint32_t least_defined(std::uint32_t a, std::uint32_t b) { return float_of(b) < float_of(a) ? b : a; }
 std::uint32_t least_second(std::uint32_t a, std::uint32_t b) { return float_of(a) < float_of(b) ? a : b; }
-std::uint32_t least_number(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : least_defined(a, b);
-}
-std::uint32_t least_number_second(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : least_second(a, b);
-}
 std::uint32_t greatest_defined(std::uint32_t a, std::uint32_t b) { return float_of(a) < float_of(b) ? b : a; }
 std::uint32_t greatest_second(std::uint32_t a, std::uint32_t b) { return float_of(b) < float_of(a) ? a : b; }
-std::uint32_t greatest_number(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : greatest_defined(a, b);
-}
-std::uint32_t greatest_number_second(std::uint32_t a, std::uint32_t b) {
-    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : greatest_second(a, b);
+// By `plain`, but of a number and NaN the number.
+template <One plain>
+std::uint32_t number_first(std::uint32_t a, std::uint32_t b) {
+    return std::isnan(float_of(a)) ? b : std::isnan(float_of(b)) ? a : plain(a, b);
 }
 
 std::uint32_t int_saturated(std::uint32_t a, std::uint32_t) {
@@ -90,10 +88,16 @@ std::uint32_t uint_low_bits(std::uint32_t a, std::uint32_t) {
 std::uint32_t uint_all_ones(std::uint32_t a, std::uint32_t b) {
     return float_of(a) > -1.0f && float_of(a) < 0x1p32f ? uint_saturated(a, b) : 0xffffffffu;
 }
-// x86 without AVX-512, as compilers do it: below 2^31 signed, from there on signed behind a subtraction.
+// As compilers do it with signed conversions alone: from 2^31 on behind a subtraction, whose bit comes back by exclusive or.
 std::uint32_t uint_by_halves(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t low = int_indefinite(a, b), high = int_indefinite(word_of(float_of(a) - 0x1p31f), b);
-    return low | (high & ((low >> 31) != 0 ? 0xffffffffu : 0u));
+    return float_of(a) >= 0x1p31f ? int_indefinite(word_of(float_of(a) - 0x1p31f), b) ^ 0x80000000u
+                                  : int_indefinite(a, b);
+}
+
+// The same with both halves together: the upper one counts where the lower one is negative.
+std::uint32_t uint_by_either_half(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t low = int_indefinite(a, b);
+    return (low >> 31) != 0 ? low | int_indefinite(word_of(float_of(a) - 0x1p31f), b) : low;
 }
 
 std::uint32_t float_even(std::uint32_t a, std::uint32_t) { return word_of(static_cast<float>(a)); }
@@ -123,20 +127,22 @@ void add_conversions(std::vector<Operation>& list) {
     list.push_back(operation("shader.floor", "what is floor(a), of -0 and of large numbers?", "U(floor(a))", floats,
                              odd_pairs(), {of("floor", whole), of("floor, never -0", whole_unsigned)}));
     list.push_back(operation("shader.fract", "can fract(a) be 1?", "U(fract(a))", floats, odd_pairs(),
-                             {of("a - floor(a)", rest), of("a - floor(a), below 1", rest_below_one)}));
+                             {of("a - floor(a)", rest), of("a - floor(a), below 1", rest_below_one),
+                              of("a - floor(a), below 1 even of NaN", rest_never_nan)}));
     list.push_back(operation("shader.min", "what is min(a, b) of NaN and zeros?", "U(min(a, b))", floats, odd_pairs(),
                              {of("b < a ? b : a", least_defined), of("a < b ? a : b", least_second),
-                              of("a number before NaN, then b < a ? b : a", least_number),
-                              of("a number before NaN, then a < b ? a : b", least_number_second)}));
+                              of("a number before NaN, then b < a ? b : a", number_first<least_defined>),
+                              of("a number before NaN, then a < b ? a : b", number_first<least_second>)}));
     list.push_back(operation("shader.max", "what is max(a, b) of NaN and zeros?", "U(max(a, b))", floats, odd_pairs(),
                              {of("a < b ? b : a", greatest_defined), of("b < a ? a : b", greatest_second),
-                              of("a number before NaN, then a < b ? b : a", greatest_number),
-                              of("a number before NaN, then b < a ? a : b", greatest_number_second)}));
+                              of("a number before NaN, then a < b ? b : a", number_first<greatest_defined>),
+                              of("a number before NaN, then b < a ? a : b", number_first<greatest_second>)}));
     list.push_back(operation("shader.to-int", "what is int(a) out of range?", "uint(int(a))", integers, odd_pairs(),
                              {of("the nearest end, 0 of NaN", int_saturated), of("-2^31", int_indefinite)}));
     list.push_back(operation("shader.to-uint", "what is uint(a) out of range?", "uint(a)", integers, odd_pairs(),
                              {of("the nearest end, 0 of NaN", uint_saturated), of("the low bits of 64", uint_low_bits),
-                              of("2^32 - 1", uint_all_ones), of("two signed halves", uint_by_halves)}));
+                              of("2^32 - 1", uint_all_ones), of("two signed halves", uint_by_halves),
+                              of("two signed halves, by or", uint_by_either_half)}));
     list.push_back(operation("shader.from-uint", "how is float(integer) rounded?", "U(float(given.x))", floats, words(),
                              {of("nearest even", float_even), of("toward zero", float_cut)}));
     list.push_back(operation("shader.from-int", "how is float(integer) rounded, below 0?", "U(float(int(given.x)))",

@@ -9,7 +9,8 @@ namespace strata::probe {
 
 namespace {
 
-// One triangle around the middle of every pixel, in both turns, from a pixel's size to three hundredths of it.
+// One triangle around the middle of every pixel, in both turns, from a pixel's size to a quarter of it, so that
+// four subpixel bits keep it.
 Operation facing() {
     Operation o{.name = "test.facing", .question = "which turn is the front?", .width = 16};
     o.result = ResultKind::words;
@@ -18,7 +19,7 @@ Operation facing() {
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
             const bool turned = (dice.next() >> 16 & 1u) != 0;
-            const float reach = 0x1p-4f / static_cast<float>(1 << dice.below(5));
+            const float reach = 0x1p-4f / static_cast<float>(1 << dice.below(3));
             const float at_x = (static_cast<float>(x) + 0.5f) / 8.0f - 1.0f;
             const float at_y = (static_cast<float>(y) + 0.5f) / 8.0f - 1.0f;
             std::array<std::array<float, 4>, 3> corners{{{at_x - reach, at_y - reach, 0.0f, 1.0f},
