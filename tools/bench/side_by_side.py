@@ -24,6 +24,10 @@ SCENES = {
     "planes": {"scene": "volume-beam:slices=256", "quick_scene": "volume-beam:slices=64", "alpha": None,
                "camera": {"eye": [0.8, 0.6, 3.9], "center": [0, 0, 0], "up": [0, 1, 0],
                           "fovy_degrees": 45, "near": 2.5, "far": 5.5}},
+    # 1,047,554 triangles, most of them smaller than a pixel: asked for by name.
+    "dense": {"scene": "teapot:tessellation=128", "alpha": "0.5",
+              "camera": {"eye": [0.2, 4.5, 6], "center": [0.2, 1.2, 0], "up": [0, 1, 0],
+                         "fovy_degrees": 45, "near": 2, "far": 14}},
 }
 # What Strata is timed under: llvmpipe's coverage with planes, codes and blends that round once, for which its fast paths are made.
 TIMED_PROFILE = {"base": "llvmpipe", "name": "llvmpipe_once",
