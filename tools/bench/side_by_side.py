@@ -46,7 +46,7 @@ def parse():
     parser.add_argument("models", help="the folder with bunny.glb and dragon.glb")
     parser.add_argument("--build", default="build/release", help="where strata and strata_port_beside are (default build/release)")
     parser.add_argument("--strata", help="another program than BUILD/strata")
-    parser.add_argument("--scenes", default=",".join(SCENES), help="of %(default)s")
+    parser.add_argument("--scenes", default=",".join(name for name in SCENES if name != "dense"), help="of %(default)s, dense")
     parser.add_argument("--algorithms", default=",".join(ALGORITHMS), help="of %(default)s")
     parser.add_argument("--pairs", type=int, default=5, help="runs of each program, in turn (default 5)")
     parser.add_argument("--repeat", type=int, default=7, help="times of each run, whose median counts (default 7)")
