@@ -7,15 +7,19 @@ Standard library alone. Every ratio is of two processor times of one run of this
 `--before` is a built command to compare whole commands with; without it their rows are left out. Exit status 1 if a bound is not kept.
 """
 import argparse
+import json
 import pathlib
 import statistics
+import subprocess
 import sys
+import tempfile
 
 from peels import ROOT, bench_command, frame_ms, processor_ms
 
 MODEL_SIZE, SLICES = "1024x1024", "volume-beam:slices=64,order=near"
 FRAMES = 3  # of a job that are timed together
-LAYERED = ["front_to_back", "dual", "layer_peel", "depth_units", "coherent_blend", "stencil_routed_k_buffer"]
+LAYER_SIZE = {"planes": "96x96", "teapot": "256x256", "bunny": "256x256"}
+LAYER_PROFILES = ("geforce3", "geforce8", "ideal")
 
 
 def parse_arguments():
@@ -85,13 +89,33 @@ def device_rows(options, table):
                   frame(options, scene, options.size, "geforce3", "rgba8", "depth_units", limited), 1.5)
 
 
+def layers_command(strata, scene, size, profile, algorithm, extra, folder):
+    return [strata, "layers", scene, "--size", size, "--profile", profile, "--algorithm", algorithm, "--threads", "1", *extra,
+            "-o", f"{folder}/layers.exr", "--stats", f"{folder}/stats.json"]
+
+
+def layered(options, profile, folder):
+    """The algorithms whose layers both commands write on a profile."""
+    listed = subprocess.run([options.strata, "algorithms", "--json"], stdout=subprocess.PIPE, check=True)
+    names = [each["name"] for each in json.loads(listed.stdout)]
+    writes = lambda strata, name: subprocess.run(layers_command(strata, "teapot", "8x8", profile, name, (), folder),
+                                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+    return [name for name in names if writes(options.before, name) and writes(options.strata, name)]
+
+
 def layer_rows(options, table):
-    def layers(strata, algorithm):
-        return lambda: processor_ms([strata, "layers", SLICES, "--size", "96x96", "--profile", "geforce8", "--algorithm", algorithm,
-                                     "--threads", "1", "--stats", "-"])
-    for algorithm in LAYERED:
-        table.row(f"strata layers, {algorithm}, before to now", layers(options.before, algorithm), layers(options.strata, algorithm), 2,
-                  at_least=True)
+    """Whole commands, the audit on, an algorithm after the other: their sums."""
+    alpha = ("--alpha", "0.5")
+    scenes = [("planes", SLICES, ()), ("teapot", "teapot", ()), *((n, p, alpha) for n, p in models(options) if n == "bunny")]
+    with tempfile.TemporaryDirectory() as folder:
+        for profile in LAYER_PROFILES:
+            names = layered(options, profile, folder)
+            print(f"bounds.py: layers on {profile}: {', '.join(names)}", file=sys.stderr)
+            for name, scene, extra in scenes:
+                times = lambda strata: lambda: sum(
+                    processor_ms(layers_command(strata, scene, LAYER_SIZE[name], profile, a, extra, folder)) for a in names)
+                table.row(f"strata layers, {name}, {profile}, {len(names)} algorithms, before to now", times(options.before),
+                          times(options.strata), 2, at_least=True)
 
 
 def check_rows(options, table):
