@@ -70,7 +70,7 @@ Algorithm algorithm(void (*run)(Region&), TiePolicy ties = TiePolicy::unique) {
     return a;
 }
 
-RenderResult render(const FragmentScene& scene, const Algorithm& broken, Execution execution) {
+RenderResult broken_frame(const FragmentScene& scene, const Algorithm& broken, Execution execution) {
     const DrawList list = draw_list(scene);
     RenderOptions options = options_for(scene);
     options.execution = execution;
@@ -97,7 +97,7 @@ struct Expected {
 
 void check(void (*run)(Region&), const Expected& expected) {
     for (const Execution execution : {Execution::literal, Execution::replay}) {
-        const RenderResult result = render(three_pixels(), algorithm(run), execution);
+        const RenderResult result = broken_frame(three_pixels(), algorithm(run), execution);
         CHECK(result.audit.order_errors == expected.errors);
         CHECK(result.audit.misordered == expected.misordered);
         CHECK(result.audit.layers_max == 5);
@@ -152,10 +152,10 @@ TEST_CASE("fragments of equal depth in the wrong arrival order are errors althou
     FragmentScene scene{8, 8};
     for (const float depth : {0.75f, 0.75f, 0.5f, 0.25f, 0.25f, 0.25f})  // back to front: OVER in this order is LAST
         scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});
-    CHECK(render(scene, algorithm(unsorted, TiePolicy::last), Execution::replay).audit.order_errors == 0u);
-    CHECK(render(scene, algorithm(unsorted, TiePolicy::first), Execution::replay).audit.order_errors ==
+    CHECK(broken_frame(scene, algorithm(unsorted, TiePolicy::last), Execution::replay).audit.order_errors == 0u);
+    CHECK(broken_frame(scene, algorithm(unsorted, TiePolicy::first), Execution::replay).audit.order_errors ==
           4u);  // 2 of 2, 2 of 3
-    const RenderResult unique = render(scene, algorithm(unsorted, TiePolicy::unique), Execution::replay);
+    const RenderResult unique = broken_frame(scene, algorithm(unsorted, TiePolicy::unique), Execution::replay);
     CHECK(unique.audit.order_errors == 6u);  // three places differ, three are too many
     CHECK(unique.audit.lost_by_ties == 3);
     CHECK(unique.audit.ties == PixelCount{1, 2, 1});
@@ -164,7 +164,7 @@ TEST_CASE("fragments of equal depth in the wrong arrival order are errors althou
 TEST_CASE("unsorted fragments are misordered unless they arrive back to front") {
     FragmentScene scene{8, 8};
     for (const float depth : {0.25f, 0.5f, 0.75f}) scene.pixels[10].fragments.push_back({depth, {1, 0, 0, 0.5f}});
-    const RenderResult result = render(scene, algorithm(unsorted, TiePolicy::last), Execution::literal);
+    const RenderResult result = broken_frame(scene, algorithm(unsorted, TiePolicy::last), Execution::literal);
     CHECK(result.audit.order_errors == 2u);
     CHECK(result.audit.misordered == PixelCount{1, 2, 1});
 }
