@@ -21,10 +21,10 @@ struct SelectedFragments {
     struct Rank {
         UninitializedVector<std::uint32_t> key, place, pixel;
         std::size_t count = 0;
-        void reserve(std::size_t columns) {
+        void reserve(std::size_t most) {
             count = 0;
-            if (key.size() >= columns) return;
-            for (auto* const array : {&key, &place, &pixel}) array->resize(columns);
+            if (key.size() >= most) return;
+            for (auto* const array : {&key, &place, &pixel}) array->resize(most);
         }
     };
     // The arrays of a rank that is being filled, for a loop that keeps them in registers.

@@ -112,9 +112,9 @@ TEST_CASE("a pass of depth alone draws the primitives that it names, by rows as 
 
 // Pixel p of a row of two and a half batches gets red p; sample 0 alone is drawn to, the others keep green 1.
 TEST_CASE("an image of rows that are longer than a batch has every pixel, sample and channel in its place") {
-    constexpr int width = 1024;
-    FragmentScene scene{width, 1};
-    for (std::size_t p = 0; p < width; ++p)
+    constexpr int row_px = 1024;
+    FragmentScene scene{row_px, 1};
+    for (std::size_t p = 0; p < row_px; ++p)
         scene.pixels[p].fragments = {{0.5f, {static_cast<float>(p), 0.25f, 0.5f, 0.75f}}};
     const TestFrame test{scene, "geforce8", 64};
     RegionBooks books;
@@ -129,9 +129,9 @@ TEST_CASE("an image of rows that are longer than a batch has every pixel, sample
             const Image image = region.image(state.color[0]);
             const std::size_t channels = format == Format::r32f ? 1 : 4,
                               of_pixel = channels * static_cast<std::size_t>(samples);
-            REQUIRE(image.codes.size() == width * of_pixel);
+            REQUIRE(image.codes.size() == row_px * of_pixel);
             int wrong = 0;
-            for (std::size_t p = 0; p < width; ++p)
+            for (std::size_t p = 0; p < row_px; ++p)
                 for (std::size_t k = 0; k < of_pixel; ++k) {
                     const Rgba own{static_cast<float>(p), 0.25f, 0.5f, 0.75f}, cleared{-1, 1, 1, 1};
                     const float expected = k < channels ? own[k] : cleared[k % channels];

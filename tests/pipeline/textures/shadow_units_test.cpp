@@ -89,8 +89,8 @@ TEST_CASE("unquantised, a depth between two codes passes neither's EQUAL, and be
     CHECK(shadow_passes(exact, CompareFunc::greater, 1000, 1000.25f));
     CHECK(shadow_passes(exact, CompareFunc::equal, 65535, 1e9f));
     CHECK(shadow_passes(exact, CompareFunc::equal, 0, -5.0f));
-    const ShadowDevice floors{DepthFormat::d16, WindowZ::buffer_units, DepthRounding::floor, true};
-    CHECK(shadow_passes(floors, CompareFunc::equal, 1000, 1000.75f));
+    const ShadowDevice cuts{DepthFormat::d16, WindowZ::buffer_units, DepthRounding::floor, true};
+    CHECK(shadow_passes(cuts, CompareFunc::equal, 1000, 1000.75f));
     const ShadowDevice rounds{DepthFormat::d16, WindowZ::buffer_units, DepthRounding::nearest, true};
     CHECK(shadow_passes(rounds, CompareFunc::equal, 1001, 1000.5f));
 }
