@@ -92,10 +92,11 @@ Drawn Region::draw_sum_rows(const PassState& state) {
     SumPlanes planes{sums.words() == 4 ? SumWords::binary32 : SumWords::halves,
                      {},
                      has_count_target ? at(state.color[1]).texels(0).plane(0).words : nullptr,
-                     is_open ? at(state.depth_target).depth_plane(0).words : nullptr};
+                     is_open ? at(state.depth_target).depth_plane(0).words : nullptr,
+                     profile().denormals == DenormalRule::flush};
     for (std::size_t word = 0; word < sums.words(); ++word) planes.sums[word] = sums.plane(word).words;
-    const rasterizer::DepthDrawn rows = add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(),
-                                                     rect_, planes, profile().denormals == DenormalRule::flush);
+    const rasterizer::DepthDrawn rows =
+        add_sum_rows(list.geometry, list.geometry.bin(tile_), frame_.key_request(), rect_, planes);
     count_rows(state, rows);
     for (std::size_t k = 0; k < (has_count_target ? 2u : 1u); ++k)
         count_color_bytes(state.blend[k], at(state.color[k]), rows.passed);

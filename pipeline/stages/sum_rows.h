@@ -26,12 +26,14 @@ struct SumPlanes {
     std::uint32_t* count;
     // Depth codes of the opaque surfaces; null: every fragment passes.
     const std::uint32_t* opaque = nullptr;
+    // DenormalRule::flush.
+    bool flushes = false;
 };
 
 // Only where rasterizer::row_walk_suits, which leaves out the sets that convert no halves, and where colours are exact
-// planes. `flushes` is DenormalRule::flush.
+// planes.
 rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
                                     const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
-                                    const SumPlanes& planes, bool flushes) noexcept;
+                                    const SumPlanes& planes) noexcept;
 
 }  // namespace strata::pipeline

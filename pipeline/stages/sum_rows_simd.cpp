@@ -45,14 +45,13 @@ HWY_INLINE void store(VPair sum, raster::RowMask covered, std::uint32_t* words) 
 }
 
 // How sums lie in halves.
-template <bool flushes>
 struct HalfSums {
     // Adds `source` to what is stored, channel by channel, as sum_of_halves of stages_simd.cpp adds; stores the covered
     // lanes. Two steps of that show only where a source is negative (a positive denormal and its zero become the same half,
     // whatever they are added to) or a sum is NaN: they are done for rows that have one.
     static HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
         const F32 d;
-        if constexpr (flushes) {
+        if (planes.flushes) {
             const hn::RebindToSigned<U32> integers;
             const auto signs = hn::Or(hn::Or(hn::BitCast(integers, source[0]), hn::BitCast(integers, source[1])),
                                       hn::Or(hn::BitCast(integers, source[2]), hn::BitCast(integers, source[3])));
@@ -72,8 +71,9 @@ struct HalfSums {
     }
 
     // Counts one more in the low halves of words. NaN comes out as it does above.
-    static HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
+    static HWY_INLINE void count(raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
         const F32 d;
+        std::uint32_t* const words = planes.count + pixel;
         V32 sum = hn::Add(half_values(U32{}, hn::LoadU(U32{}, words)), hn::Set(d, 1.0f));
         if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Eq(sum, sum)))) sum = canonical(U32{}, sum);
         hn::BlendedStore(half_codes(U32{}, sum), hn::RebindMask(U32{}, covered), U32{}, words);
@@ -81,23 +81,20 @@ struct HalfSums {
 };
 
 // How they lie in words of their own: combine<add> of blend_float.h on each.
-template <bool flushes>
 struct FloatSums {
-    static HWY_INLINE V32 kept(V32 v) {
-        if constexpr (flushes) return flushed(U32{}, v);
-        return v;
-    }
-    static HWY_INLINE void add_to(V32 source, raster::RowMask covered, std::uint32_t* words) {
+    static HWY_INLINE void add_to(V32 source, raster::RowMask covered, bool flushes, std::uint32_t* words) {
         const U32 d;
-        const V32 stored = hn::BitCast(F32{}, hn::LoadU(d, words));
-        const V32 sum = canonical(d, kept(hn::Add(kept(source), kept(stored))));
-        hn::BlendedStore(hn::BitCast(d, sum), hn::RebindMask(d, covered), d, words);
+        V32 stored = hn::BitCast(F32{}, hn::LoadU(d, words));
+        if (flushes) source = flushed(d, source), stored = flushed(d, stored);
+        V32 sum = hn::Add(source, stored);
+        if (flushes) sum = flushed(d, sum);
+        hn::BlendedStore(hn::BitCast(d, canonical(d, sum)), hn::RebindMask(d, covered), d, words);
     }
     static HWY_INLINE void add(V32 (&source)[4], raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
-        for (std::size_t c = 0; c < 4; ++c) add_to(source[c], covered, planes.sums[c] + pixel);
+        for (std::size_t c = 0; c < 4; ++c) add_to(source[c], covered, planes.flushes, planes.sums[c] + pixel);
     }
-    static HWY_INLINE void count(raster::RowMask covered, std::uint32_t* words) {
-        add_to(hn::Set(F32{}, 1.0f), covered, words);
+    static HWY_INLINE void count(raster::RowMask covered, const SumPlanes& planes, std::size_t pixel) {
+        add_to(hn::Set(F32{}, 1.0f), covered, planes.flushes, planes.count + pixel);
     }
 };
 
@@ -127,7 +124,7 @@ struct SumOf {
             color_.template at<unsnapped>(row, b, color);
             for (std::size_t c = 0; c < 3; ++c) color[c] = hn::Mul(color[c], color[3]);
             Sums::add(color, covered, planes_, row.pixel);
-            if (planes_.count != nullptr) Sums::count(covered, planes_.count + row.pixel);
+            if (planes_.count != nullptr) Sums::count(covered, planes_, row.pixel);
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
             state_.drawn.fragments += pixels;
@@ -153,7 +150,6 @@ struct SumOf {
     };
 };
 
-template <bool flushes>
 void add_all(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
              const rasterizer::Rect& region, SumState& state) {
     const auto add_to = [&]<class Sums>(Sums) {
@@ -162,21 +158,20 @@ void add_all(const rasterizer::Geometry& geometry, std::span<const std::uint32_t
         };
         state.planes.opaque == nullptr ? draw(std::false_type{}) : draw(std::true_type{});
     };
-    state.planes.words == SumWords::halves ? add_to(HalfSums<flushes>{}) : add_to(FloatSums<flushes>{});
+    state.planes.words == SumWords::halves ? add_to(HalfSums{}) : add_to(FloatSums{});
 }
 
 #else
 
-template <bool flushes>
 void add_all(const rasterizer::Geometry&, std::span<const std::uint32_t>, const rasterizer::Rect&, SumState&) {}
 
 #endif
 
 rasterizer::DepthDrawn add_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
                                 const rasterizer::Rect& region, const rasterizer::DepthConversion<float>& to_code,
-                                double units, const SumPlanes& planes, bool flushes) {
+                                double units, const SumPlanes& planes) {
     SumState state{planes, to_code, units};
-    flushes ? add_all<true>(geometry, triangles, region, state) : add_all<false>(geometry, triangles, region, state);
+    add_all(geometry, triangles, region, state);
     return state.drawn;
 }
 
@@ -193,10 +188,10 @@ HWY_EXPORT(add_rows);
 
 rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
                                     const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,
-                                    const SumPlanes& planes, bool flushes) noexcept {
+                                    const SumPlanes& planes) noexcept {
     const rasterizer::FragmentValues values{geometry, depth, {.shader_z = false, .code = true, .color = false}};
     return kernel_of(HWY_DISPATCH_TABLE(add_rows))(geometry, triangles, region, values.to_code(),
-                                                   z_units(geometry.state, geometry.rules), planes, flushes);
+                                                   z_units(geometry.state, geometry.rules), planes);
 }
 
 }  // namespace strata::pipeline

@@ -84,7 +84,7 @@ TEST_CASE("targets are those that the algorithm makes when it runs, and lists ar
 
 TEST_CASE("a refused frame needs nothing") { CHECK(need_of("dual", options_of(64, 64), "geforce3").total() == 0); }
 
-TEST_CASE("neither a larger frame nor more threads, memory for fragments, layers or an audit need less") {
+TEST_CASE("neither a larger frame nor more threads, memory for fragments, layers or an audit need less", "[slow]") {
     for (const char* algorithm : {"dual", "front_to_back", "depth_units", "a_buffer", "weighted_average"})
         for (const Execution execution : {Execution::literal, Execution::replay}) {
             INFO(algorithm << (execution == Execution::literal ? ", literal" : ", replay"));

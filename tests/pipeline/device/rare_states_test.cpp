@@ -27,7 +27,8 @@ std::string profile_error(const DeviceProfile& profile) {
 
 }  // namespace
 
-TEST_CASE("every equation of every pair of 8-bit codes is that of integers, on every set and by every rounding") {
+TEST_CASE("every equation of every pair of 8-bit codes is that of integers, on every set and by every rounding",
+          "[slow]") {
     using enum BlendEquation;
     static Colors src;
     static Codes codes;

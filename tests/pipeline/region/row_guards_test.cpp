@@ -77,7 +77,7 @@ constexpr std::array row_profiles{"geforce3", "geforce8", "geforce8_dx101", "ide
 
 }  // namespace
 
-TEST_CASE("rows leave and count what batches do, whatever state of their pass is changed") {
+TEST_CASE("rows leave and count what batches do, whatever state of their pass is changed", "[slow]") {
     for (const char* profile : row_profiles)
         for (const RowPass kind : row_passes)
             for (const Change& change : changes()) {
@@ -90,7 +90,7 @@ TEST_CASE("rows leave and count what batches do, with memory, effects and instru
     const std::vector<std::function<void(Frame&)>> frames{
         [](Frame& f) { f.replay.bytes = 1 << 20; }, [](Frame& f) { f.effects = Effects::all; },
         [](Frame& f) { f.key = DepthKey::shader_z; },
-        [](Frame& f) { f.depth.reference = strata::rasterizer::DepthPath::perspective_rq; }};
+        [](Frame& f) { f.depth.reference = strata::rasterizer::DepthPath::exact; }};
     for (const char* profile : {"geforce8", "ideal"})
         for (const RowPass kind : row_passes) {
             const Changed nothing = changes().front().make;

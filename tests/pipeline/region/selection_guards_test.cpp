@@ -174,7 +174,8 @@ Ways both_ways(const Stage& stage, const Changed& change, const std::function<vo
 
 }  // namespace
 
-TEST_CASE("a pass that selects leaves and counts what one does that visits every fragment, whatever state is changed") {
+TEST_CASE("a pass that selects leaves and counts what one does that visits every fragment, whatever state is changed",
+          "[slow]") {
     for (std::size_t number = 0; number < stages.size(); ++number)
         for (const Change& change : changes()) {
             const Ways ways = both_ways(stages[number], change.make);

@@ -160,7 +160,7 @@ std::string window_difference(DepthFormat format, unsigned bounds, Keeps keeps) 
 
 }  // namespace
 
-TEST_CASE("a window is the fragments between its bounds, whichever bounds it has, in every depth format") {
+TEST_CASE("a window is the fragments between its bounds, whichever bounds it has, in every depth format", "[slow]") {
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         for (unsigned a = 1; a <= at_code; a *= 2)
             for (unsigned b = a; b < at_code; b *= 2)

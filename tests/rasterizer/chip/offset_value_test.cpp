@@ -31,7 +31,8 @@ TEST_CASE("a sum of 24 bits and a hair goes to the number before only where the 
     }
 }
 
-TEST_CASE("the chip's offset and the value with it are exact sums cut to 24 bits, for random values of all sizes") {
+TEST_CASE("the chip's offset and the value with it are exact sums cut to 24 bits, for random values of all sizes",
+          "[slow]") {
     Random random{2041};
     int wrong = 0, with_hair = 0;
     for (int i = 0; i < 20000; ++i) {
