@@ -83,7 +83,7 @@ TEST_CASE("a binary32 count is a whole number up to 2^30") {
     CHECK(strata::peeling::scalar::OneAverage::whole(-1.0f) == 0);
 }
 
-TEST_CASE("tiles leave what the frame does where colours are signed zeros or depths are flushed") {
+TEST_CASE("tiles leave what the frame does where colours are signed zeros or depths are flushed", "[slow]") {
     FragmentScene signed_zeros{16, 8};
     Random random{19};
     for (GivenPixel& pixel : signed_zeros.pixels)
@@ -119,7 +119,7 @@ TEST_CASE("a closed form cuts blended colours where its profile does") {
           on(*find_profile("geforce8"), scene.list, "dual", options, scene.view).frame.color);
 }
 
-TEST_CASE("a limit of any number of passes ends every algorithm at that number, in tiles as in the frame") {
+TEST_CASE("a limit of any number of passes ends every algorithm at that number, in tiles as in the frame", "[slow]") {
     const TriangleScene scene = random_triangles(24, 14);
     RenderOptions options;
     options.width = options.height = 24;

@@ -23,7 +23,8 @@ FragmentScene deep_pixels() {
 
 }  // namespace
 
-TEST_CASE("a count of fragments that half precision cannot hold is told, with its pixels, in every way of running") {
+TEST_CASE("a count of fragments that half precision cannot hold is told, with its pixels, in every way of running",
+          "[slow]") {
     const FragmentScene scene = deep_pixels();
     for (const Running& running : all_ways_of_running)
         for (const char* profile : {"geforce8", "geforce8_dx101"}) {

@@ -149,7 +149,8 @@ bool is_covered(std::array<RealCorner, 3> corner, double x, double y) {
 }  // namespace
 
 TEST_CASE(
-    "a centre on or beside a side is where rationals see it, and belongs to one triangle of two that share the side") {
+    "a centre on or beside a side is where rationals see it, and belongs to one triangle of two that share the side",
+    "[slow]") {
     // Every third side passes through the centre exactly; the others miss it by what binary64 drops of the products.
     Random random{5};
     std::size_t wrong = 0, shared = 0;

@@ -86,7 +86,7 @@ TEST_CASE("rows leave and count what batches do, whatever state of their pass is
             }
 }
 
-TEST_CASE("rows leave and count what batches do, with memory, effects and instruments") {
+TEST_CASE("rows leave and count what batches do, with memory, effects and instruments", "[slow]") {
     const std::vector<std::function<void(Frame&)>> frames{
         [](Frame& f) { f.replay.bytes = 1 << 20; }, [](Frame& f) { f.effects = Effects::all; },
         [](Frame& f) { f.key = DepthKey::shader_z; },

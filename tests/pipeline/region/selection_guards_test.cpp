@@ -194,7 +194,7 @@ TEST_CASE("a selection is taken where nothing is changed, and not where its test
     }
 }
 
-TEST_CASE("frames without memory, with every effect or with another key select nothing wrong") {
+TEST_CASE("frames without memory, with every effect or with another key select nothing wrong", "[slow]") {
     const std::vector<std::function<void(Frame&)>> frames{
         [](Frame& f) { f.replay.bytes = 0; },          [](Frame& f) { f.replay.bytes = 512; },
         [](Frame& f) { f.replay.bytes = 12'000; },     [](Frame& f) { f.effects = Effects::all; },
@@ -209,7 +209,7 @@ TEST_CASE("frames without memory, with every effect or with another key select n
         }
 }
 
-TEST_CASE("what measures and checks a pass changes nothing that it leaves or counts") {
+TEST_CASE("what measures and checks a pass changes nothing that it leaves or counts", "[slow]") {
     std::vector<Instruments> all{{.log_passes = true}, {.check_selections = true}};
     for (const Effect effect :
          {Effect::color, Effect::texcoord, Effect::shader_z, Effect::code, Effect::facing, Effect::loads,

@@ -68,7 +68,8 @@ using SignedPixels = std::set<std::array<int, 2>>;
 
 }  // namespace
 
-TEST_CASE("a triangle covers where edge values have the signs of w: beyond a side, or the wedge behind a corner") {
+TEST_CASE("a triangle covers where edge values have the signs of w: beyond a side, or the wedge behind a corner",
+          "[slow]") {
     Random random{891};
     std::uint64_t wrong = 0, pixels = 0, unbounded = 0;
     constexpr float infinity = std::numeric_limits<float>::infinity();

@@ -46,7 +46,8 @@ TEST_CASE("a D16F code has the value of its four exponent and twelve mantissa bi
 }
 
 TEST_CASE(
-    "a float is cut to the D16F code below it: up to the next code's value, and to 0 below the smallest normal one") {
+    "a float is cut to the D16F code below it: up to the next code's value, and to 0 below the smallest normal one",
+    "[slow]") {
     std::uint32_t wrong = 0, first = 0;
     for (std::uint32_t code = 0x1000; code <= 0xffff; code += 3) {
         const auto bits = std::bit_cast<std::uint32_t>(nearest_float(d16f_meaning(code)));

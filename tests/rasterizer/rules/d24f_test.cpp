@@ -31,7 +31,8 @@ TEST_CASE("a D24F code has the value of its eight exponent and sixteen mantissa 
 }
 
 TEST_CASE(
-    "a value is cut to the D24F code below it, to 0 below the smallest normal one, and to the last finite one above") {
+    "a value is cut to the D24F code below it, to 0 below the smallest normal one, and to the last finite one above",
+    "[slow]") {
     Random random{91};
     std::uint32_t wrong = 0;
     for (int n = 0; n < 20000; ++n) {

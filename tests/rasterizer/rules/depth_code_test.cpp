@@ -57,7 +57,7 @@ namespace {
 
 }  // namespace
 
-TEST_CASE("product_even rounds the product in binary32 first, and its halves to the even code") {
+TEST_CASE("product_even rounds the product in binary32 first, and its halves to the even code", "[slow]") {
     std::uint64_t wrong = 0, unlike_nearest = 0;
     const auto check = [&](float z) {
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24}) {

@@ -122,7 +122,7 @@ TEST_CASE("the fan of a triangle cut by the view volume names its common corner 
     CHECK(set_up(soup, scene_state(64, 48), {}, 1).triangles.size() == 1);
 }
 
-TEST_CASE("vertices are projected with one rounding or two, and those that clipping made by their own rule") {
+TEST_CASE("vertices are projected with one rounding or two, and those that clipping made by their own rule", "[slow]") {
     Random random{512};
     const RasterState state = scene_state(333, 77);
     std::uint64_t wrong = 0, fused_once = 0;

@@ -85,7 +85,7 @@ TEST_CASE("window positions are the rounded operations of the rule, for every di
     CHECK(differences > 1000);  // the knobs matter
 }
 
-TEST_CASE("fused viewport arithmetic rounds once, where two roundings would meet a tie") {
+TEST_CASE("fused viewport arithmetic rounds once, where two roundings would meet a tie", "[slow]") {
     Random random{33};
     std::uint64_t wrong = 0, twice = 0;
     for (int n = 0; n < 20000; ++n) {

@@ -173,7 +173,7 @@ TEST_CASE("with depth clamp a replaced depth outside the range is clamped, not d
     }
 }
 
-TEST_CASE("a reference is to the bit the depth that a pass storing by that path would store") {
+TEST_CASE("a reference is to the bit the depth that a pass storing by that path would store", "[slow]") {
     constexpr std::array paths{DepthPath::window_z, DepthPath::perspective_rq, DepthPath::float32,
                                DepthPath::float32_plane, DepthPath::exact};
     for (const WindowZRule rule : {WindowZRule::chip, WindowZRule::exact, WindowZRule::float32}) {

@@ -239,7 +239,8 @@ TEST_CASE("corners whose unsnapped places lie on a line take the plane of the sn
     }
 }
 
-TEST_CASE("every value of a fragment is the same whatever else is asked for, by every path into every format") {
+TEST_CASE("every value of a fragment is the same whatever else is asked for, by every path into every format",
+          "[slow]") {
     std::size_t wrong = 0, compared = 0;
     const auto compare = [&](const Geometry& g, const DepthRequest& depth) {
         FragmentNeeds all = everything;

@@ -69,7 +69,8 @@ TEST_CASE("two lanes of binary64 draw no rows: scalar and SSE4 take batches") {
 }
 
 TEST_CASE(
-    "the widest region's rows leave what its fragments leave, for every depth format, rounding, range and tie rule") {
+    "the widest region's rows leave what its fragments leave, for every depth format, rounding, range and tie rule",
+    "[slow]") {
     std::uint64_t wrong = 0, passed = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
         for (const TieRule tie : {TieRule::top_left, TieRule::bottom_left, TieRule::top_right, TieRule::bottom_right})

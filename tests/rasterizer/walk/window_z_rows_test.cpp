@@ -69,7 +69,8 @@ constexpr std::array<std::array<int, 2>, 6> sizes{{{2, 180}, {4, 180}, {8, 90}, 
 }  // namespace
 
 TEST_CASE(
-    "rows of the chip's window z leave the codes and counts of fragments, in every format, size, range and offset") {
+    "rows of the chip's window z leave the codes and counts of fragments, in every format, size, range and offset",
+    "[slow]") {
     std::uint64_t passed = 0;
     int wrong = 0;
     for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d24f})
@@ -93,7 +94,7 @@ TEST_CASE(
     CHECK((passed > 100'000 || !has_rows_here()));
 }
 
-TEST_CASE("rows of the chip's window z follow every width of its reciprocal and its sum") {
+TEST_CASE("rows of the chip's window z follow every width of its reciprocal and its sum", "[slow]") {
     std::uint64_t passed = 0;
     int wrong = 0;
     for (int reciprocal_bits = 24; reciprocal_bits <= 30; reciprocal_bits += 2)
