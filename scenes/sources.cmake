@@ -3,6 +3,9 @@ set(strata_scenes_sources
   bounds.cpp
   camera.cpp
   nearest_name.cpp
+  exr/openexr.cpp
+  exr/read_parts.cpp
+  exr/write_parts.cpp
   files/atomic_file.cpp
   files/camera_file.cpp
   files/deep_exr.cpp
@@ -60,6 +63,9 @@ set(strata_scenes_sources
   procedural/volume_beam.cpp)
 # Those of them that need a disk, the image module or packs: the page in a browser (tools/web) has the others.
 set(strata_scenes_with_files
+  exr/openexr.cpp
+  exr/read_parts.cpp
+  exr/write_parts.cpp
   files/atomic_file.cpp
   files/camera_file.cpp
   files/deep_exr.cpp

@@ -141,7 +141,7 @@ DeepFragments as_fragments(const StoredPart& part, const std::string& path) {
 DeepFragments read_deep(const std::string& path) {
     const FloatEnvironment environment;
     std::vector<StoredPart> parts;
-    image_module().read_exr(path, [&](StoredPart&& part) { parts.push_back(std::move(part)); });
+    exr::read_parts(path, [&](StoredPart&& part) { parts.push_back(std::move(part)); });
     // read_exr() answers at least one part or throws.
     return as_fragments(parts.front(), path);
 }

@@ -2,8 +2,8 @@
 //
 // Rule     R G B A hold premultiplied values. Where the target is premultiplied half or binary32 they are its codes bit
 //          for bit, in its own type; else they are FLOAT, and the codes stand beside them as UINT32 `Rbits Gbits Bbits
-//          Abits`. `Z` is the depth as a FLOAT, `Zbits` its code. All bits survive: OpenImageIO copies native types
-//          without looking.
+//          Abits`. `Z` is the depth as a FLOAT, `Zbits` its code. All bits survive: OpenEXR copies each channel in
+//          its own type.
 // Cost     Colours of a straight target are stored twice; zip shrinks the smaller codes to little.
 #include <fmt/format.h>
 
@@ -193,7 +193,7 @@ class PartReader {
 
 void write_exr(const std::string& path, const OutputColor& image) {
     const PartSource part = source_of(image);
-    write_with(path, [&](const ByteSink& sink) { return image_module().write_exr(sink, part); });
+    write_exr_parts(path, {&part, 1});
 }
 
 void write_layers(const std::string& path, std::span<const OutputColor> layers) {
@@ -218,7 +218,7 @@ std::vector<FileImage> as_images(const StoredPart& part, int number, const std::
 
 std::vector<FileImage> read_exr(const std::string& path) {
     std::vector<FileImage> images;
-    image_module().read_exr(path, [&, number = 0](StoredPart&& part) mutable {
+    exr::read_parts(path, [&, number = 0](StoredPart&& part) mutable {
         PartReader{part, number++, path}.append_to(images);
     });
     return images;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/exr/parts.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/load_image_module.h"
 

@@ -41,9 +41,6 @@ float channel_value(pipeline::ChannelType type, std::uint32_t code) noexcept {
 }
 
 void write_with(const std::string& path, const std::function<std::string(const ByteSink& sink)>& write) {
-    // A missing module must fail here, with no temporary file made.
-    const ImageModule& loaded = image_module();  // before there is a file
-    static_cast<void>(loaded);
     AtomicFile file{path};
     // The sink's functions never throw: exceptions must not pass through the library that calls them.
     const std::string failure =
@@ -57,7 +54,7 @@ void write_with(const std::string& path, const std::function<std::string(const B
 }
 
 void write_exr_parts(const std::string& path, std::span<const PartSource> parts) {
-    write_with(path, [&](const ByteSink& sink) { return image_module().write_exr_parts(sink.path, parts); });
+    write_with(path, [&](const ByteSink& sink) { return exr::write_parts(sink, parts); });
 }
 
 // The prefix keeps the project's keys apart from those that a format or a library gives a meaning.
@@ -146,7 +143,7 @@ std::vector<FileDigest> digests_of(const std::string& path) {
         for (const FileImage& image : read_png(path)) add(image);
         return digests;
     }
-    image_module().read_exr(path, [&, number = 0](StoredPart&& part) mutable {
+    exr::read_parts(path, [&, number = 0](StoredPart&& part) mutable {
         if (part.header.is_deep) {
             const DeepFragments fragments = as_fragments(part, path);
             digests.push_back(

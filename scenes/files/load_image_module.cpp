@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "rasterizer/base/parallel.h"
 #include "rasterizer/base/thread_loop.h"
 #include "scenes/files/system_error.h"
 
@@ -66,7 +65,7 @@ ImageModuleEntry find_entry() {
         return entry;
     }
     throw SystemError(file_name, "load the image module",
-                      "expected in " + looked_in + ", found in neither; image files need it");
+                      "expected in " + looked_in + ", found in neither; PNG and JPEG need it");
 }
 
 // Asked for and given back: nothing of it is ever touched.
@@ -76,12 +75,11 @@ bool has_address_space(std::size_t bytes) {
 }
 
 // OpenImageIO's libraries start threads as they are loaded, and the process aborts or hangs where one is refused: four of
-// its log library, one a processor of OpenEXR (found by counting them, OpenImageIO 2.4 of Debian 12). It ends by a signal,
-// too, where the address space runs out behind the libraries' own 400 MiB (found by limiting it, megabyte by megabyte).
+// its log library (found by counting them, OpenImageIO 2.4 of Debian 12). It ends by a signal, too, where the address
+// space runs out behind the libraries' own 400 MiB (found by limiting it, megabyte by megabyte).
 void require_room() {
-    constexpr int log_threads = 4;
+    constexpr int wanted = 4;
     constexpr std::size_t usual_stack = std::size_t{8} << 20, libraries = std::size_t{400} << 20;
-    const int wanted = log_threads + thread_count(0);
     if (const int found = threads_to_be_had(wanted, usual_stack); found < wanted)
         throw SystemError(file_name, "load the image module",
                           "expected " + std::to_string(wanted) + " threads for the image library, the system gives " +

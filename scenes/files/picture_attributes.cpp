@@ -2,8 +2,8 @@
 
 #include <span>
 
+#include "scenes/exr/parts.h"
 #include "scenes/files/image_decode.h"
-#include "scenes/files/load_image_module.h"
 #include "scenes/files/text_file.h"
 
 namespace strata::scenes {
@@ -41,7 +41,7 @@ Attributes png_attributes(const std::string& path) {
 Attributes exr_attributes(const std::string& path) {
     Attributes attributes;
     bool is_first = true;
-    image_module().read_exr(path, [&](StoredPart&& part) {
+    exr::read_parts(path, [&](StoredPart&& part) {
         if (!is_first) return;
         for (const auto& [key, value] : part.header.attributes) add(attributes, key, value);
         is_first = false;

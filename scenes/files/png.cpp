@@ -75,11 +75,12 @@ Image as_straight_rgba8(const OutputColor& image) {
 void write_png(const std::string& path, const OutputColor& image) {
     const Image straight = as_straight_rgba8(image);
     const std::vector<std::uint8_t> bytes(straight.codes.begin(), straight.codes.end());
+    const ImageModule& module = image_module();  // a missing one fails here, before there is a file
     write_with(path, [&](const ByteSink& sink) {
-        return image_module().write_png(sink, {.width = straight.width,
-                                               .height = straight.height,
-                                               .rgba = bytes,
-                                               .attributes = prefixed(image.attributes)});
+        return module.write_png(sink, {.width = straight.width,
+                                       .height = straight.height,
+                                       .rgba = bytes,
+                                       .attributes = prefixed(image.attributes)});
     });
 }
 

@@ -6,13 +6,10 @@
 extern "C" __attribute__((visibility("default"))) const strata::scenes::ImageModule* strata_image_module() {
     using namespace strata::scenes;
     // The library is built with hidden symbols: this function is its whole face.
-    // A writer of EXR starts OpenEXR's threads: now, before loops of ours take what the system has.
-    static const auto started = OIIO::ImageOutput::create("openexr");
+    // Its first use makes a list of its formats and starts threads: now, before loops of ours take what the system has.
+    static const auto started = OIIO::ImageOutput::create("png");
     static const ImageModule module{.version = STRATA_VERSION,
                                     .write_png = images::write_png,
-                                    .write_exr = images::write_exr,
-                                    .write_exr_parts = images::write_exr_parts,
-                                    .read_exr = images::read_exr,
                                     .decode = images::decode,
                                     .decode_codes = images::decode_codes};
     return &module;

@@ -22,20 +22,7 @@ class SinkProxy : public OIIO::Filesystem::IOProxy {
     const ByteSink& sink_;
 };
 
-// Size and attributes, and what keeps OpenImageIO from adding any of its own. Channels are the caller's.
-[[nodiscard]] OIIO::ImageSpec base_spec(int width, int height, const std::map<std::string, std::string>& attributes);
-
-// The name that OpenImageIO reads a colour space from is one that its version 2.4 does not write. So a name of the same
-// length is written, and finish_headers() puts the right one in its place in every header of the file. It answers whether
-// the file could be written and holds the places of all its chunks.
-inline constexpr std::string_view color_space_name = "oiio:ColorSpace", color_space_stand_in = "oiio.ColorSpace";
-static_assert(color_space_name.size() == color_space_stand_in.size());
-[[nodiscard]] bool finish_headers(const std::string& path);
-
 [[nodiscard]] std::string write_png(const ByteSink& sink, const StraightPicture& picture);
-[[nodiscard]] std::string write_exr(const ByteSink& sink, const PartSource& part);
-[[nodiscard]] std::string write_exr_parts(const std::string& path, std::span<const PartSource> parts);
-void read_exr(const std::string& path, const std::function<void(StoredPart&&)>& take);
 [[nodiscard]] std::vector<std::uint8_t> decode(const EncodedPicture& picture, const Place& place);
 [[nodiscard]] StoredCodes decode_codes(const EncodedPicture& picture, const Place& place);
 

@@ -3,18 +3,10 @@
 
 namespace strata::scenes::images {
 
-OIIO::ImageSpec base_spec(int width, int height, const std::map<std::string, std::string>& attributes) {
-    OIIO::ImageSpec spec{width, height, 0, OIIO::TypeDesc::FLOAT};
-    spec.attribute("Software", "strata");
-    for (const auto& [name, value] : attributes) spec.attribute(name, value);
-    return spec;
-}
-
 std::string write_png(const ByteSink& sink, const StraightPicture& picture) {
-    OIIO::ImageSpec spec = base_spec(picture.width, picture.height, picture.attributes);
-    spec.nchannels = 4;
-    spec.default_channel_names();
-    spec.set_format(OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec{picture.width, picture.height, 4, OIIO::TypeDesc::UINT8};
+    spec.attribute("Software", "strata");  // else the library names itself
+    for (const auto& [name, value] : picture.attributes) spec.attribute(name, value);
     spec.attribute("oiio:UnassociatedAlpha", 1);  // else colours are divided by alpha on the way out
     const auto output = OIIO::ImageOutput::create("png");
     if (output == nullptr) return "OpenImageIO has no writer of PNG";

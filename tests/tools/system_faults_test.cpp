@@ -266,5 +266,5 @@ TEST_CASE("however few threads the system gives, a picture is written whole, or 
         ++(is_written ? written : refused);
     }
     CHECK(written > 0);
-    CHECK(refused > 0);
+    CHECK((refused > 0) == (output == "out.png"));  // an EXR is packed by the one thread that there is
 }

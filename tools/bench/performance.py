@@ -279,7 +279,7 @@ def memory_section(options, scenes):
 
 
 STARTS = [["algorithms"], ["render", "teapot", "--size", "64x64"], ["render", "teapot", "--size", "64x64", "-o", "FILE"]]
-MOST_SECONDS, MOST_MB = 0.05, 30  # of a run that touches no image file
+MOST_SECONDS, MOST_MB = 0.05, 30  # of a run that touches no PNG
 
 
 def start_section(options, folder):
@@ -296,8 +296,8 @@ def start_section(options, folder):
         median, megabytes = statistics.median(seconds), peak_mib(command) * 2**20 / 1e6
         kept = "-" if has_file else "yes" if median <= MOST_SECONDS and megabytes <= MOST_MB else "**no**"
         rows.append(["strata " + " ".join(words), f"{median:.3f}", f"{megabytes:.0f}", kept])
-    return (f"## Start\n\nThe median of a process from its start to its end, and its largest resident set. Without an image file it "
-            f"keeps to {MOST_SECONDS} s and {MOST_MB} MB; image files bring OpenImageIO.\n\n" +
+    return (f"## Start\n\nThe median of a process from its start to its end, and its largest resident set. Without a PNG it "
+            f"keeps to {MOST_SECONDS} s and {MOST_MB} MB; PNG brings OpenImageIO.\n\n" +
             table(["command", "seconds", "MB", "kept"], rows))
 
 

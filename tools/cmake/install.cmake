@@ -43,7 +43,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/strata-config.cmake ${CMAKE_CURRENT_BI
 # Static libraries name the libraries below them to every program, shared ones keep them to themselves.
 if(oracle_targets)
   set(libraries "-lstrata_library -lstrata_mistakes -lstrata_oracle -lstrata_scenes -lstrata_peeling -lstrata_pipeline -lstrata_rasterizer")
-  set(below "fmt libhwy libxxhash tbb")
+  set(below "fmt libhwy libxxhash OpenEXR tbb")
   if(BUILD_SHARED_LIBS)
     set(pkgconfig_requires "Requires.private: ${below}")
   else()

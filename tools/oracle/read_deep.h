@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/images/image_module.h"
+#include "scenes/exr/parts.h"
 #include "tools/oracle/picture.h"
 
 namespace strata::oracle {

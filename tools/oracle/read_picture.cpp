@@ -8,9 +8,9 @@
 
 #include "pipeline/formats/format.h"
 #include "rasterizer/base/input_error.h"
+#include "scenes/exr/parts.h"
 #include "scenes/files/image_decode.h"
 #include "scenes/files/image_formats.h"
-#include "scenes/files/load_image_module.h"
 #include "tools/oracle/numbers_file.h"
 #include "tools/oracle/picture.h"
 #include "tools/oracle/read_deep.h"
@@ -87,7 +87,7 @@ void add_foreign(const StoredPart& part, const std::string& path, int number, st
 
 Picture read_exr(const std::string& path) {
     Picture picture{path, {}};
-    scenes::image_module().read_exr(path, [&, number = 0](StoredPart&& part) mutable {
+    scenes::exr::read_parts(path, [&, number = 0](StoredPart&& part) mutable {
         const auto fail = [&](const char* expected, const char* found) {
             throw InputError(path, fmt::format("part {}", number), expected, found);
         };

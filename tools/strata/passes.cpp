@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/device/check.h"
+#include "scenes/exr/parts.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/image_io.h"
 #include "scenes/files/load_image_module.h"
@@ -112,6 +113,7 @@ int passes(PassesOptions& command) {
     complete(options);
     check_outputs({{"--report", command.report, {".html"}}});
     if (options.output.empty()) throw CLI::ValidationError("-o", "expected a folder for the files, found none");
+    static_cast<void>(scenes::exr::start_threads());
     static_cast<void>(scenes::image_module());  // else it would be missed after the first pass
     const Session session = open_session(options);
     std::filesystem::create_directories(options.output);

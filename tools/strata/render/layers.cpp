@@ -47,16 +47,16 @@ scenes::DeepFragments as_deep(const std::vector<pipeline::CapturedFragment>& fra
 }
 
 // The layers from near to far. A peel from both ends gives them as it takes them, the last ones perhaps without a fragment; they are
-// called by their end and their pass, and what is behind everything comes last.
-std::vector<scenes::OutputColor> ordered_layers(const Finished& finished) {
+// called by their end and their pass, and what is behind everything comes last. They are taken out of the result.
+std::vector<scenes::OutputColor> take_layers(const Finished& finished) {
     std::vector<scenes::OutputColor> front, back;
-    for (const auto& layer : finished.result.frame.layers) {
+    for (auto& layer : finished.result.frame.layers) {
         const bool is_back = layer.side == pipeline::Side::back;
         std::vector<scenes::OutputColor>& end = is_back ? back : front;
-        end.push_back({.color = layer.color, .depth = layer.depth});
+        end.push_back({.color = std::move(layer.color), .depth = std::move(layer.depth)});
         if (!finished.algorithm.takes_both_ends) continue;
         end.back().part = fmt::format("{}.{:03}", is_back ? "back" : "front", end.size() - 1);
-        if (std::ranges::all_of(layer.color.codes, [](std::uint32_t code) { return code == 0; })) end.pop_back();
+        if (std::ranges::all_of(end.back().color.codes, [](std::uint32_t code) { return code == 0; })) end.pop_back();
     }
     front.insert(front.end(), back.rbegin(), back.rend());
     return front;
@@ -77,7 +77,7 @@ pipeline::Image contact_sheet(const std::vector<scenes::OutputColor>& layers) {
 void write_layers(const LayersOptions& options, const Finished& finished) {
     const scenes::Attributes attributes = attributes_of("layers", options.run, finished);
     if (!options.run.output.empty()) {
-        std::vector<scenes::OutputColor> layers = ordered_layers(finished);
+        std::vector<scenes::OutputColor> layers = take_layers(finished);
         for (scenes::OutputColor& layer : layers) {
             layer.premultiplied = finished.algorithm.premultiplied_layers;
             layer.space = options.run.scene_options.color_space;

@@ -8,6 +8,7 @@
 
 #include "peeling/render.h"
 #include "scenes/camera.h"
+#include "scenes/exr/parts.h"
 #include "scenes/files/atomic_file.h"
 #include "scenes/files/load_image_module.h"
 #include "scenes/files/profile_json.h"
@@ -264,11 +265,14 @@ void check_outputs(const std::vector<Output>& outputs) {
                                                           ", found '" + output.path + "'");
         }
     }
-    const auto is_image = [](const std::string& name) { return name.ends_with(".exr") || name.ends_with(".png"); };
-    const bool has_image = std::any_of(outputs.begin(), outputs.end(), [&](const Output& output) {
-        return is_image(output.path) || (output.is_piped() && is_image(output.endings.front()));
+    const auto is_png = [](const std::string& name) { return name.ends_with(".png"); };
+    const bool has_png = std::any_of(outputs.begin(), outputs.end(), [&](const Output& output) {
+        return is_png(output.path) || (output.is_piped() && is_png(output.endings.front()));
     });
-    if (has_image) static_cast<void>(scenes::image_module());  // else it would be missed after the last pixel
+    const bool has_exr =
+        std::ranges::any_of(outputs, [](const Output& output) { return output.path.ends_with(".exr"); });
+    if (has_exr) static_cast<void>(scenes::exr::start_threads());
+    if (has_png) static_cast<void>(scenes::image_module());  // else it would be missed after the last pixel
 }
 
 }  // namespace strata::tools

@@ -30,7 +30,7 @@ struct Finished {
     const Session& session;
     const peeling::Algorithm& algorithm;
     peeling::Renderer& renderer;
-    const peeling::RenderResult& result;
+    peeling::RenderResult& result;  // the writer may take its layers
 };
 
 using Writer = std::function<void(const Finished&)>;  // writes one algorithm's files

@@ -1,0 +1,133 @@
+// scenes/exr/read_parts.cpp - the parts of an EXR file, in scan lines or tiles, flat or deep, as bytes in their own types.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDeepScanLineInputPart.h>
+#include <OpenEXR/ImfDeepTiledInputPart.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <filesystem>
+#include <memory>
+#include <numeric>
+
+#include "rasterizer/base/input_error.h"
+#include "scenes/exr/openexr.h"
+
+namespace strata::scenes::exr {
+namespace {
+
+// The side that the project's own targets may have; a header that says more is damage or another kind of file.
+constexpr int max_size = 16384;
+
+void check(const std::string& path, const Imf::Header& header) {
+    const Imath::Box2i& window = header.dataWindow();
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+    if (width < 1 || height < 1 || width > max_size || height > max_size)
+        throw InputError(path, "size", "at most 16384x16384", std::to_string(width) + "x" + std::to_string(height));
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+            throw InputError(path, std::string{"channel "} + channel.name(), "a sample for every pixel", "fewer");
+}
+
+StoredType as_stored(Imf::PixelType type) noexcept {
+    if (type == Imf::HALF) return StoredType::half;
+    return type == Imf::FLOAT ? StoredType::single : StoredType::word;
+}
+
+PartHeader header_of(const Imf::Header& header) {
+    const Imath::Box2i& window = header.dataWindow();
+    PartHeader part{.width = window.max.x - window.min.x + 1, .height = window.max.y - window.min.y + 1};
+    part.is_deep = header.hasType() && Imf::isDeepData(header.type());
+    if (header.hasName()) part.name = header.name();
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        part.channels.push_back({channel.name(), as_stored(channel.channel().type)});
+    // Attributes of other types are passed over: the project reads back text alone.
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
+            part.attributes.emplace(attribute.name(), text->value());
+    return part;
+}
+
+void read_flat(Imf::MultiPartInputFile& file, int number, StoredPart& part) {
+    const Imath::Box2i window = file.header(number).dataWindow();
+    part.bytes.resize(pixel_bytes(part.header) * static_cast<std::size_t>(part.header.width) *
+                      static_cast<std::size_t>(part.header.height));
+    Imf::InputPart input{file, number};  // of tiles, too
+    input.setFrameBuffer(flat_frame(part.header, window, part.bytes.data()));
+    input.readPixels(window.min.y, window.max.y);
+}
+
+void read_counts(Imf::DeepScanLineInputPart& input, const Imath::Box2i& window) {
+    input.readPixelSampleCounts(window.min.y, window.max.y);
+}
+void read_samples(Imf::DeepScanLineInputPart& input, const Imath::Box2i& window) {
+    input.readPixels(window.min.y, window.max.y);
+}
+// The tiles of the first level: the picture itself.
+void read_counts(Imf::DeepTiledInputPart& input, const Imath::Box2i&) {
+    input.readPixelSampleCounts(0, input.numXTiles(0) - 1, 0, input.numYTiles(0) - 1, 0, 0);
+}
+void read_samples(Imf::DeepTiledInputPart& input, const Imath::Box2i&) {
+    input.readTiles(0, input.numXTiles(0) - 1, 0, input.numYTiles(0) - 1, 0, 0);
+}
+
+// Sample by sample, the channels side by side, as PartSource::rows has them; a pixel may have no sample.
+template <class Part>
+void read_deep(Imf::MultiPartInputFile& file, int number, StoredPart& part) {
+    const Imath::Box2i window = file.header(number).dataWindow();
+    Part input{file, number};
+    DeepRows rows{part.header,
+                  static_cast<std::size_t>(part.header.width) * static_cast<std::size_t>(part.header.height)};
+    input.setFrameBuffer(rows.frame(window));
+    read_counts(input, window);
+    part.samples.assign(rows.counts.begin(), rows.counts.end());
+    const auto samples = std::accumulate(part.samples.begin(), part.samples.end(), std::size_t{0});
+    part.bytes.resize(samples * pixel_bytes(part.header));
+    rows.point_at(part.bytes.data());
+    read_samples(input, window);
+}
+
+StoredPart read_part(Imf::MultiPartInputFile& file, int number) {
+    StoredPart part{.header = header_of(file.header(number))};
+    try {
+        if (!part.header.is_deep)
+            read_flat(file, number, part);
+        else if (file.header(number).type() == Imf::DEEPTILE)
+            read_deep<Imf::DeepTiledInputPart>(file, number, part);
+        else
+            read_deep<Imf::DeepScanLineInputPart>(file, number, part);
+        part.is_whole = true;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // OpenEXR's own are of this kind
+        part.bytes.clear();
+        part.samples.clear();
+    }
+    return part;
+}
+
+std::unique_ptr<Imf::MultiPartInputFile> open(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+        throw InputError(path, "file", "an image", "no file of that name");
+    try {
+        return std::make_unique<Imf::MultiPartInputFile>(path.c_str(), start_threads());
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {
+        throw InputError(path, "file", "an EXR image", "something else");
+    }
+}
+
+}  // namespace
+
+void read_parts(const std::string& path, const std::function<void(StoredPart&&)>& take) {
+    const auto file = open(path);
+    for (int number = 0; number < file->parts(); ++number) check(path, file->header(number));
+    for (int number = 0; number < file->parts(); ++number) take(read_part(*file, number));
+}
+
+}  // namespace strata::scenes::exr
