@@ -86,14 +86,12 @@ struct Renderer::State {
     }
 
     [[nodiscard]] Execution execution(const Algorithm& algorithm, const Instruments& instruments) const {
-        // A tile that stops early does not know how many layers the others take from its two ends.
-        const bool keeps_both_ends = options.keep_layers && algorithm.takes_both_ends;
-        // Nor how many passes they made in the loops that it left early, unless every answer is its own count's; and a log
-        // of passes names them all.
+        // A tile that stops early does not know how many passes the others made in the loops that it left early, unless every
+        // answer is its own count's; and a log of passes names them all.
         const bool is_open =
             options.termination.rule == TerminationRule::ratio || options.termination.rule == TerminationRule::fixed;
         const bool counts_across = algorithm.runs_loops && ((limits_passes() && is_open) || instruments.log_passes);
-        return algorithm.whole_frame || keeps_both_ends || counts_across ? Execution::literal : options.execution;
+        return algorithm.whole_frame || counts_across ? Execution::literal : options.execution;
     }
 
     [[nodiscard]] std::uint64_t audit_memory() const { return std::max(options.fragment_memory, least_audit_memory); }

@@ -108,6 +108,7 @@ void dual(Region& region) {
         // The paper asks whether any back layer was blended (E14); the exact exit asks whether any depth is left.
         if (!(paper ? region.any(blended.passed, Idle::no) : region.any(blended.tallied, Idle::steady))) break;
     }
+    layers.end();
     publish_over(region, t.front, FrontAlpha::covers, t.back);
 }
 

@@ -69,6 +69,7 @@ void dual_independent(Region& region) {
         std::swap(min_max, next_min_max);
         if (!region.any(drawn.passed, Idle::steady)) break;
     }
+    layers.end();
     publish_over_background(region, front, back);
 }
 

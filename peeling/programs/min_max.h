@@ -119,7 +119,8 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
 class DualLayers {
   public:
     explicit DualLayers(pipeline::Region& region) : region_{region} {
-        if (region.frame().keep_layers) layer_ = {region.make_color(), region.make_depth()};
+        if (region.frame().keep_layers)
+            layer_ = {region.make_color(), region.make_depth(), region.make(pipeline::Format::rg32f)};
     }
 
     // Keeps both layers of the pass that reads this min-max depth.
@@ -131,11 +132,23 @@ class DualLayers {
         });
     }
 
+    // After the last pass. Other regions may go on: this one has nothing more to show.
+    void end() {
+        if (!region_.frame().keep_layers) return;
+        region_.uncounted([&] { clear(); });
+        region_.keep_no_layer(layer_.color, layer_.depth);
+    }
+
   private:
-    void keep(pipeline::Target min_max, pipeline::Side side) {
-        using namespace pipeline;
+    void clear() {
         region_.clear(layer_.color, {.color = {0, 0, 0, 0}});
         region_.copy(region_.opaque_depth(), layer_.depth);
+    }
+
+    void keep(pipeline::Target min_max, pipeline::Side side) {
+        using namespace pipeline;
+        clear();
+        find_end(min_max, side);
         PassState state;
         state.color[0] = layer_.color;
         state.blend[0] = blend_mode::max;
@@ -144,6 +157,7 @@ class DualLayers {
         state.reads = {min_max, region_.opaque_depth()};
         const DepthCompare compare = region_.frame().depth_compare();
         state.needs.reference = !compare.is_plain();
+        if (compare.is_plain()) state.selection = {.keeps = Keeps::window, .range = layer_.end};
         static_cast<void>(
             region_.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
                 PeelLanes lane;
@@ -155,8 +169,23 @@ class DualLayers {
         region_.keep_layer(layer_.color, layer_.depth, side);
     }
 
+    // The depths from one end of what is left to the same end.
+    void find_end(pipeline::Target min_max, pipeline::Side side) {
+        using namespace pipeline;
+        PassState state;
+        state.color[0] = layer_.end;
+        state.reads[0] = min_max;
+        static_cast<void>(region_.full_screen(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t i = 0; i < lanes(in); ++i) {
+                const float z = side == Side::front ? -own.color(0)[0][i] : own.color(0)[1][i];
+                out.color[0][0][i] = -z;
+                out.color[0][1][i] = z;
+            }
+        }));
+    }
+
     struct Targets {
-        pipeline::Target color, depth;
+        pipeline::Target color, depth, end;
     };
     pipeline::Region& region_;
     Targets layer_{};

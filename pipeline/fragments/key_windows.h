@@ -88,6 +88,28 @@ class ValueBound {
     DepthFormat format_ = DepthFormat::d32f;
 };
 
+// Pixels of (-near, far) in a float target: keys from near to far, both included; of an empty range none.
+class RangeBound {
+  public:
+    RangeBound() = default;
+    explicit RangeBound(const Texels& range) : near_{range.plane(0).words}, far_{range.plane(1).words} {}
+    [[nodiscard]] bool exists() const noexcept { return near_ != nullptr; }
+    // Where there is a range, low[k] and high[k] are raised and lowered to the one of pixels[k].
+    void narrow(std::span<const std::uint32_t> pixels, WindowEnds& ends) const noexcept {
+        for (std::size_t k = 0; exists() && k < pixels.size(); ++k) {
+            const float near = -std::bit_cast<float>(near_[pixels[k]]), far = std::bit_cast<float>(far_[pixels[k]]);
+            const bool is_empty = !(near <= far);
+            ends.low[k] = is_empty ? std::uint64_t{1} << 32 : std::max<std::uint64_t>(ends.low[k], ordered(near));
+            ends.high[k] = is_empty ? 0 : std::min(ends.high[k], std::uint64_t{ordered(far)} + 1);
+        }
+    }
+
+  private:
+    [[nodiscard]] static std::uint32_t ordered(float z) noexcept { return rasterizer::ordered_code(z); }
+
+    const std::uint32_t *near_ = nullptr, *far_ = nullptr;
+};
+
 // The bounds of a selection's windows.
 struct KeyWindow {
     using Key = std::uint64_t;
@@ -95,17 +117,20 @@ struct KeyWindow {
     KeyBound behind, from, at, before, also_before, up_to;
     ValueBound behind_value, before_value;
     std::uint64_t behind_codes, greatest;
+    RangeBound range;
 
     [[nodiscard]] bool is_one_key() const noexcept { return at.exists() && !has_other_end(); }
     [[nodiscard]] bool has_high() const noexcept { return at.exists() || has_other_end(); }
     // Whether something ends windows beside `at`.
     [[nodiscard]] bool has_other_end() const noexcept {
-        return end <= 0xffffffff || before.exists() || also_before.exists() || up_to.exists() || before_value.exists();
+        return end <= 0xffffffff || before.exists() || also_before.exists() || up_to.exists() ||
+               before_value.exists() || range.exists();
     }
     // The ends of the windows of `pixels`, bound after bound.
     void put(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
         put_low(pixels, ends);
         put_high(pixels, ends);
+        range.narrow(pixels, ends);
     }
     void put_low(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
         const auto greater = [](Key key, Key code) { return std::max(key, code); };
@@ -166,7 +191,8 @@ KeyWindow window_of(const FragmentSelection& s, const Frame& frame, const Storag
             value(s.behind_value),
             value(s.before_value),
             s.behind_codes,
-            greatest};
+            greatest,
+            s.range.exists() ? RangeBound{storage_of(s.range).texels(0)} : RangeBound{}};
 }
 
 // A column of sorted fragments, and its window: numbers [first, last), keys from `low` on.

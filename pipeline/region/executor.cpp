@@ -321,7 +321,8 @@ class FrameRun {
         result_.passes = passes;  // the same in every region
     }
 
-    // A region that stopped early shows its last layer, an empty one, in every further layer of the frame.
+    // A region that stopped early shows its last layer, an empty one, in every further layer of the frame. From which
+    // end a layer was taken is known to the regions that took it.
     void gather_layers() {
         std::size_t layer_count = 0;
         for (const auto& [r, fragments, runs] : regions_)
@@ -331,11 +332,11 @@ class FrameRun {
             KeptLayer kept;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
                 const std::vector<KeptLayer>& layers = regions_[r].books.layers;
+                if (layer + regions_[r].books.idle_layers < layers.size()) kept.side = layers[layer].side;
                 const KeptLayer& part = layers[std::min(layer, layers.size() - 1)];
                 if (kept.color.codes.empty()) {
                     kept.color = Image{part.color.format, whole.width(), whole.height()};
                     kept.depth = Image{part.depth.format, whole.width(), whole.height()};
-                    kept.side = part.side;
                 }
                 copy_into(part.color, rect(r), kept.color);
                 copy_into(part.depth, rect(r), kept.depth);

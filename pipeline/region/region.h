@@ -139,6 +139,8 @@ class Region {
     // True once --max-passes or fixed:N leave fewer than `passes` geometry passes; the same in every region.
     [[nodiscard]] bool limit_reached(int passes = 1);
     void keep_layer(Target color, Target depth, Side side = Side::front);
+    // After the last one: what this region shows in layers that other regions have more than it.
+    void keep_no_layer(Target color, Target depth);
     // `pixels` of this region, the first of them at region index `first_pixel`.
     void report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail);
     void report(Fault fault, std::string detail);  // no pixel is meant

@@ -76,6 +76,12 @@ void Region::keep_layer(Target color, Target depth, Side side) {
     if (probing_) ++books_.idle_layers;
 }
 
+void Region::keep_no_layer(Target color, Target depth) {
+    if (!frame_.keep_layers) return;
+    books_.layers.push_back({image(color), image(depth), Side::front});
+    ++books_.idle_layers;
+}
+
 // Diagnostics name pixels of the window, not of the region.
 void Region::report(Fault fault, std::uint64_t pixels, std::uint32_t first_pixel, std::string detail) {
     if (pixels == 0) return;

@@ -256,17 +256,10 @@ namespace {
 
 constexpr std::span<const std::uint32_t> no_numbers;
 
-// The windows that a range target of (-near, far) leaves, both ends within; of an empty range nothing.
 void put_range(const Texels& range, std::span<const std::uint32_t> pixels, WindowEnds& ends) {
-    ends.low.resize(pixels.size());
-    ends.high.resize(pixels.size());
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-        const float near = -std::bit_cast<float>(range.plane(0).words[pixels[k]]);
-        const float far = std::bit_cast<float>(range.plane(1).words[pixels[k]]);
-        const bool is_empty = !(near <= far);
-        ends.low[k] = is_empty ? std::uint64_t{1} << 32 : rasterizer::ordered_code(near);
-        ends.high[k] = is_empty ? ends.low[k] : std::uint64_t{rasterizer::ordered_code(far)} + 1;
-    }
+    ends.low.assign(pixels.size(), 0);
+    ends.high.assign(pixels.size(), std::uint64_t{1} << 32);
+    RangeBound{range}.narrow(pixels, ends);
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ bool has_foreign_stages(const PassState& state) {
 // Whether selections of this kind look at stored codes alone: where they know what a depth test leaves, or what registers hold.
 bool wants_stored_codes(const PassState& state) {
     const FragmentSelection& s = state.selection;
-    return state.depth.enabled || s.keeps == Keeps::last_run || s.behind_value.target.exists() ||
-           s.before_value.target.exists();
+    return (state.depth.enabled && s.keeps != Keeps::window) || s.keeps == Keeps::last_run ||
+           s.behind_value.target.exists() || s.before_value.target.exists();
 }
 
 std::uint64_t pixel_bytes_of(const TargetStorage& s) {

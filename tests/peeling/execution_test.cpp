@@ -197,8 +197,11 @@ TEST_CASE("rows of pixels whose fragments all lie behind the opaque surface exec
 
 TEST_CASE("kept layers are those of literal execution, wherever max_passes cuts", "[slow]") {
     const TriangleScene scene = random_triangles(75, 24, 0.4f);
-    for (const Machine& machine :
-         {Machine{"geforce8", "front_to_back"}, {"geforce3", "depth_units"}, {"geforce3", "shadow_map"}}) {
+    for (const Machine& machine : {Machine{"geforce8", "front_to_back"},
+                                   {"geforce3", "depth_units"},
+                                   {"geforce3", "shadow_map"},
+                                   {"geforce8", "dual"},
+                                   {"geforce8_dx101", "dual_independent"}}) {
         RenderOptions options = small_frame();
         options.keep_layers = true;
         const int layers = render(scene.list, scene.view, machine, options).audit.layers_max;
