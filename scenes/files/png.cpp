@@ -107,7 +107,7 @@ std::vector<FileImage> read_png(const std::string& path) {
         throw InputError(path, "format", "a PNG with 8-bit colours", "another image");
     const std::vector<std::uint8_t> codes = decode_image(bytes, header, place);
     Image image = Image::for_overwrite(Format::rgba8, static_cast<int>(header.width), static_cast<int>(header.height));
-    image.codes.assign(codes.begin(), codes.end());
+    std::copy_n(codes.data(), codes.size(), image.codes.data());
     return {{"", "color", std::move(image)}};
 }
 
