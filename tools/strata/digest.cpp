@@ -1,5 +1,7 @@
 // tools/strata/digest.cpp - strata digest: one string a target, equal exactly if the bits are.
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -56,9 +58,16 @@ Digests channels_of(const std::string& file) {
     return digests;
 }
 
+// Whether a PNG's header says 8 bits a channel and colours (PNG 11.2.2: of the colour type bit 1). Anything else says no.
+bool has_8_bit_colors(const std::string& file) {
+    std::array<char, 26> header{};
+    std::ifstream{file, std::ios::binary}.read(header.data(), header.size());
+    return header[24] == 8 && (header[25] & 2) != 0;
+}
+
 // A PNG of grey, or of 16 bits a channel, is no target of ours: its own codes are hashed.
 Digests digests_of(const std::string& file) {
-    if (scenes::image_file(file) == scenes::ImageFile::png) {
+    if (scenes::image_file(file) == scenes::ImageFile::png && !has_8_bit_colors(file)) {
         const oracle::Target target = oracle::read_picture(file).targets.at(0);
         if (target.channels < 3 || target.code != oracle::Code::unorm8)
             return {{"", "color", format_of(target), target.width, target.height,
