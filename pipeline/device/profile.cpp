@@ -128,7 +128,7 @@ DeviceProfile softpipe() {
     p.description = "no device: Mesa 22.3's softpipe in coverage and depth; its colours are not known";
     p.raster.coverage = CoverageRule::float_spans;
     p.raster.plane_rule = PlaneRule::least_corner;
-    p.raster.depth_rounding = DepthRounding::floor;
+    p.raster.depth_rounding = DepthRounding::product_floor;
     p.max_samples = 1;
     return p;
 }

@@ -30,7 +30,8 @@ namespace scalar {
         const std::uint64_t* const words = columns.words + columns.begin[k];
         std::uint32_t at = cursors[k];
         at += words[at] < bound ? 1 : 0;
-        const std::uint64_t before = words[static_cast<std::ptrdiff_t>(at) - 1] + 1;  // 0 before the first word of a column
+        const std::uint64_t before =
+            words[static_cast<std::ptrdiff_t>(at) - 1] + 1;  // 0 before the first word of a column
         if (words[at] < bound || before > bound) return k;
         cursors[k] = at;
     }

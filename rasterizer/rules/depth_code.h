@@ -21,12 +21,17 @@ namespace strata::rasterizer {
 // d16f: 4 bits of exponent, 12 of mantissa, no sign; values below its smallest normal one are 0.
 // d24f: 8 bits of exponent, 16 of mantissa, no sign.
 enum class DepthFormat : std::uint8_t { d16, d24, d32f, d16f, d24f };
-// How a value becomes a fixed-point code: cut; to nearest with a half going up; or scaled in binary32, and that product to
-// nearest with a half going to the even code. The float formats do not look at it.
-enum class DepthRounding : std::uint8_t { floor, nearest, product_even };
+// How a value becomes a fixed-point code: cut; to nearest with a half going up; scaled in binary32, and that product to
+// nearest with a half going to the even code; or 16 bits scaled in binary32 and cut, 24 bits as by floor. The float formats do
+// not look at it.
+enum class DepthRounding : std::uint8_t { floor, nearest, product_even, product_floor };
+
+[[nodiscard]] constexpr bool cuts(DepthRounding rounding) noexcept {
+    return rounding == DepthRounding::floor || rounding == DepthRounding::product_floor;
+}
 
 // The ways in which formats make a code of a value.
-enum class CodeKind : std::uint8_t { fixed, fixed_product, binary32, d16f, d24f };
+enum class CodeKind : std::uint8_t { fixed, fixed_product, fixed_cut_product, binary32, d16f, d24f };
 
 // How values of one unit become codes of one format. `Limit` is binary32 for values in [0,1], whose range it holds exactly.
 template <class Limit>
@@ -35,7 +40,7 @@ struct DepthConversion {
     Limit least, greatest;  // the depth range, in the values' unit
     double scale, half;     // the buffer's units in one of the values', and what rounding adds before the cut
     [[nodiscard]] constexpr bool is_fixed() const noexcept {
-        return kind == CodeKind::fixed || kind == CodeKind::fixed_product;
+        return kind == CodeKind::fixed || kind == CodeKind::fixed_product || kind == CodeKind::fixed_cut_product;
     }
 };
 
@@ -80,7 +85,8 @@ inline constexpr float max_d16f = 511.9375f;
 [[nodiscard]] constexpr double buffer_units(DepthFormat format) noexcept {
     switch (code_kind(format)) {
         case CodeKind::fixed:
-        case CodeKind::fixed_product: return max_code(format);
+        case CodeKind::fixed_product:
+        case CodeKind::fixed_cut_product: return max_code(format);
         case CodeKind::binary32: return 1.0;
         case CodeKind::d16f: return max_d16f;
         case CodeKind::d24f: return max_d24f;
@@ -137,6 +143,9 @@ struct OneLane {
         constexpr double round_at_one = 0x1.8p52;
         return static_cast<std::uint32_t>((double{static_cast<float>(v)} + round_at_one) - round_at_one);
     }
+    static constexpr std::uint32_t cut_of_product(double v) noexcept {
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(static_cast<float>(v)));
+    }
     static constexpr std::uint32_t cut_to_d16f(double v) noexcept { return to_d16f_code(v); }
     static constexpr std::uint32_t cut_to_d24f(double v) noexcept { return to_d24f_code(v); }
 };
@@ -149,6 +158,7 @@ template <class Value>
     switch (to.kind) {
         case CodeKind::fixed: return depth_code<CodeKind::fixed>(OneLane<Value>{}, z, to);
         case CodeKind::fixed_product: return depth_code<CodeKind::fixed_product>(OneLane<Value>{}, z, to);
+        case CodeKind::fixed_cut_product: return depth_code<CodeKind::fixed_cut_product>(OneLane<Value>{}, z, to);
         case CodeKind::binary32: return depth_code<CodeKind::binary32>(OneLane<Value>{}, z, to);
         case CodeKind::d16f: return depth_code<CodeKind::d16f>(OneLane<Value>{}, z, to);
         case CodeKind::d24f: return depth_code<CodeKind::d24f>(OneLane<Value>{}, z, to);
@@ -165,9 +175,12 @@ template <class Limit>
                                                                 float near = 0.0f, float far = 1.0f) noexcept {
     const bool is_fixed = code_kind(format) == CodeKind::fixed, rounds = rounding == DepthRounding::nearest && is_fixed;
     const bool is_product = rounding == DepthRounding::product_even && is_fixed;
+    const bool is_cut_product = rounding == DepthRounding::product_floor && format == DepthFormat::d16;
+    const CodeKind kind = is_product       ? CodeKind::fixed_product
+                          : is_cut_product ? CodeKind::fixed_cut_product
+                                           : code_kind(format);
     const float n = range_limit(near), f = range_limit(far);
-    return {is_product ? CodeKind::fixed_product : code_kind(format), std::min(n, f) * units, std::max(n, f) * units,
-            buffer_units(format) / units, rounds ? 0.5 : 0.0};
+    return {kind, std::min(n, f) * units, std::max(n, f) * units, buffer_units(format) / units, rounds ? 0.5 : 0.0};
 }
 
 // The code of one depth, clamped to [0,1] (depth.md 2.1 to 2.3).
@@ -179,7 +192,8 @@ template <class Limit>
 [[nodiscard]] constexpr double buffer_value(std::uint32_t code, DepthFormat format) noexcept {
     switch (code_kind(format)) {
         case CodeKind::fixed:
-        case CodeKind::fixed_product: return code;
+        case CodeKind::fixed_product:
+        case CodeKind::fixed_cut_product: return code;
         case CodeKind::binary32: return double{std::bit_cast<float>(code)};
         case CodeKind::d16f: return double{d16f_value(code)};
         case CodeKind::d24f: return d24f_value(code);

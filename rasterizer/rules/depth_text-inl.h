@@ -2,7 +2,8 @@
 // weights-inl.h for vectors, each inside a namespace of its own: the kernels must be compiled for their instruction set.
 //
 // Rule     The value is clamped to the depth range, and NaN and -0 become its lower end. Fixed point: times `scale`, plus
-//          `half`, cut; fixed_product: the product rounded to binary32, and that to the nearest even code. D32F: the bits of the
+//          `half`, cut; fixed_product: the product rounded to binary32, and that to the nearest even code; fixed_cut_product:
+//          that product cut. D32F: the bits of the
 //          binary32. D16F and D24F: times `scale`, cut to the format.
 //          `Lanes` holds the operations; `a or b` means a where the comparison holds, else b, as x86's MAX and MIN do.
 // Numbers  All but D32F are scaled in binary64, where 24 by 24 bits are exact; codes are below 2^31.
@@ -20,6 +21,8 @@ template <CodeKind kind, class Lanes, class Value, class Limit>
             return lanes.cut_to_d24f(scaled);
         else if constexpr (kind == CodeKind::fixed_product)
             return lanes.nearest_even_of_product(scaled);
+        else if constexpr (kind == CodeKind::fixed_cut_product)
+            return lanes.cut_of_product(scaled);
         else
             return lanes.cut_sum(scaled, to.half);
     }

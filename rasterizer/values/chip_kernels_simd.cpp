@@ -34,6 +34,7 @@ void window_z(const ChipTriangle& t, const NarrowWindowZ& z, const std::uint16_t
         case CodeKind::d24f: return window_z_of<CodeKind::d24f>(t, z, x, y, count, to, out);
         case CodeKind::fixed:
         case CodeKind::fixed_product:
+        case CodeKind::fixed_cut_product:
         case CodeKind::binary32: break;
     }
     window_z_of<CodeKind::fixed>(t, z, x, y, count, to, out);

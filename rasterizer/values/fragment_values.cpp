@@ -28,6 +28,7 @@ void to_codes(const Value* z, int count, const DepthConversion<Value>& to, std::
     switch (to.kind) {
         case CodeKind::fixed: return to_codes_of<CodeKind::fixed>(z, count, to, out);
         case CodeKind::fixed_product: return to_codes_of<CodeKind::fixed_product>(z, count, to, out);
+        case CodeKind::fixed_cut_product: return to_codes_of<CodeKind::fixed_cut_product>(z, count, to, out);
         case CodeKind::binary32: return to_codes_of<CodeKind::binary32>(z, count, to, out);
         case CodeKind::d16f: return to_codes_of<CodeKind::d16f>(z, count, to, out);
         case CodeKind::d24f: return to_codes_of<CodeKind::d24f>(z, count, to, out);
@@ -177,13 +178,14 @@ int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes
         case CodeKind::d16f:
         case CodeKind::d24f: return fill_rounded_codes(t, lanes, out);
         case CodeKind::fixed:
-        case CodeKind::fixed_product: break;
+        case CodeKind::fixed_product:
+        case CodeKind::fixed_cut_product: break;
     }
     const std::uint32_t max = max_code(depth_.format);
     const bool in_codes = z_units_ == max;
     const RationalPlane plane{t.z, in_codes ? 1.0 : max, in_codes ? 1.0 : z_units_};
-    // The exact plane knows no binary32 product: for product_even, too, it rounds once, a half up.
-    const double half = rules_.depth_rounding == DepthRounding::floor ? 0.0 : 0.5;
+    // The exact plane knows no binary32 product: it rounds once, for product_even, too, a half up.
+    const double half = cuts(rules_.depth_rounding) ? 0.0 : 0.5;
     const int fallbacks = round_plane(plane, lanes, CodeRounding{half, max}, out);
     const std::uint32_t least = depth_code(to_code_.least, to_code_),
                         greatest = depth_code(to_code_.greatest, to_code_);

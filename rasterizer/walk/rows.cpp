@@ -21,10 +21,10 @@ namespace {
 
 bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {
     const bool clips_fragments = geometry.rules.z_clip == ZClip::per_fragment && !geometry.state.depth_clamp;
-    // Of binary32, D16F and D24F have no vector conversion.
+    // Of binary32, D16F and D24F have no vector conversion, and codes of a binary32 product have none either.
     const bool has_conversion = depth.format != DepthFormat::d16f && depth.format != DepthFormat::d24f;
     return can_walk(geometry, region) && depth.path == DepthPath::float32 && has_conversion && !clips_fragments &&
-           (depth.format == DepthFormat::d32f || geometry.rules.depth_rounding != DepthRounding::product_even);
+           depth_conversion(depth.format, geometry.rules.depth_rounding, 1.0f).kind == code_kind(depth.format);
 }
 
 bool depth_rows_suit(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept {

@@ -139,6 +139,7 @@ DepthDrawn draw_window_z(const Geometry& geometry, std::span<const std::uint32_t
         case CodeKind::d24f: draw<CodeKind::d24f>(geometry, triangles, region, state); break;
         case CodeKind::fixed:
         case CodeKind::fixed_product:
+        case CodeKind::fixed_cut_product:
         case CodeKind::binary32: draw<CodeKind::fixed>(geometry, triangles, region, state); break;
     }
     return state.drawn;

@@ -46,9 +46,14 @@ __extension__ using Wide = __int128;
 
 namespace {
 
-// nearest_float of rational.h, and ties to the even integer by definition.
+// nearest_float of rational.h.
+[[nodiscard]] Rational float_product(float z, std::uint32_t max) {
+    return Rational{nearest_float(Rational{z} * Rational{max})};
+}
+
+// Ties to the even integer by definition.
 [[nodiscard]] std::uint32_t product_code(float z, std::uint32_t max) {
-    const Rational product{nearest_float(Rational{z} * Rational{max})};
+    const Rational product = float_product(z, max);
     const Integer below = floor(product);
     const Rational rest = product - Rational{below};
     const bool rises = rest > Rational{1, 2} || (rest == Rational{1, 2} && (below & 1) != 0);
@@ -73,6 +78,30 @@ TEST_CASE("product_even rounds the product in binary32 first, and its halves to 
     CHECK(unlike_nearest > 100);
     CHECK(to_depth_code(2.0f, DepthFormat::d24, DepthRounding::product_even) == 0xffffffu);
     CHECK(to_depth_code(std::bit_cast<float>(0x7fc00000u), DepthFormat::d24, DepthRounding::product_even) == 0);
+}
+
+TEST_CASE("product_floor cuts the binary32 product of 16 bits, and the exact one of 24") {
+    std::uint64_t wrong = 0, unlike_floor = 0;
+    const auto check = [&](float z) {
+        const std::uint32_t code = to_depth_code(z, DepthFormat::d16, DepthRounding::product_floor);
+        wrong += code == floor(float_product(z, 65535)).convert_to<std::uint32_t>() ? 0 : 1;
+        unlike_floor += code == to_depth_code(z, DepthFormat::d16, DepthRounding::floor) ? 0 : 1;
+        for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f, DepthFormat::d16f, DepthFormat::d24f})
+            wrong +=
+                to_depth_code(z, format, DepthRounding::product_floor) == to_depth_code(z, format, DepthRounding::floor)
+                    ? 0
+                    : 1;
+    };
+    for (std::uint32_t k = 1; k <= 65535; k += 13)  // just below a code the product rounds up to it
+        for (const float z : {static_cast<float>(k) / 65535.0f, std::nextafter(static_cast<float>(k) / 65535.0f, 0.0f)})
+            check(z);
+    for (std::uint32_t k = 0; k < 4000; ++k) check(std::bit_cast<float>(0x3e000000u + k * 4093u));
+    CHECK(wrong == 0);
+    CHECK(unlike_floor > 100);
+    CHECK(to_depth_code(2.0f, DepthFormat::d16, DepthRounding::product_floor) == 0xffffu);
+    CHECK(to_depth_code(std::bit_cast<float>(0x7fc00000u), DepthFormat::d16, DepthRounding::product_floor) == 0);
+    CHECK((cuts(DepthRounding::floor) && cuts(DepthRounding::product_floor)));
+    CHECK((!cuts(DepthRounding::nearest) && !cuts(DepthRounding::product_even)));
 }
 
 TEST_CASE("sampled floats of all kinds become the D16 and D24 codes of the rule, and a half goes up") {
