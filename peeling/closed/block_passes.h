@@ -150,11 +150,6 @@ inline void peel_front(const ColumnBlock& block, BlockCodes& codes, const BlockR
     });
 }
 
-inline void codes_of(const std::uint32_t* words, BlockCodes& codes) noexcept {
-    for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) codes[c][lane] = words[lane] >> (8 * c) & 0xffu;
-}
-
 template <class Rules>
 void composite(const Target<Rules>& target, const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning,
                std::uint32_t* words) noexcept {
@@ -172,12 +167,17 @@ void composite(const Target<Rules>& target, const BlockCodes& front, const Block
 }  // namespace strict
 
 // All passes of the block. `front` and `back` hold what was there before. False if MAX does not order the colours: the
-// codes are then of no use.
+// codes are then of no use. Front to back, nothing is blended onto what lies behind, and all colours will do.
 [[nodiscard]] bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back,
                                   const BlockRules& rules);
-void peel_front(const ColumnBlock& block, BlockCodes& front, const BlockRules& rules);
+bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules);
 // Sixteen words of an rgba8 target, red lowest.
-[[nodiscard]] BlockCodes codes_of(const std::uint32_t* words);
+[[nodiscard]] inline BlockCodes codes_of(const std::uint32_t* words) noexcept {
+    BlockCodes codes;
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) codes[c][lane] = words[lane] >> (8 * c) & 0xffu;
+    return codes;
+}
 // Stores in an rgba8 target what the last quad of a peel stores: the front over the colour behind it, alpha 1.
 void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
                      std::uint32_t* words);

@@ -182,38 +182,21 @@ class Columns {
     bool is_full_;
 };
 
-template <class Rules>
-bool both_ends_by(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
-    bool is_plain = true;
-    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-        is_plain &= Columns<Rules>{block, lane, rules}.both_ends(front, back);
-    return is_plain;
-}
-
 bool both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
     bool is_plain = true;
-    with_rules(rules, [&]<class Rules>(Rules) { is_plain = both_ends_by<Rules>(block, front, back, rules); });
+    with_rules(rules, [&]<class Rules>(Rules) HWY_ATTR {
+        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+            is_plain &= Columns<Rules>{block, lane, rules}.both_ends(front, back);
+    });
     return is_plain;
-}
-
-template <class Rules>
-void front_alone_by(const ColumnBlock& block, BlockCodes& front, const BlockRules& rules) {
-    const bool has_ties = block.has_any_tie();
-    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-        Columns<Rules>{block, lane, rules}.front_alone(front, has_ties);
 }
 
 void front_alone(const ColumnBlock& block, BlockCodes& front, const BlockRules& rules) {
-    with_rules(rules, [&]<class Rules>(Rules) { front_alone_by<Rules>(block, front, rules); });
-}
-
-void codes(const std::uint32_t* words, BlockCodes& out) {
-    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
-        const WordVec word = hn::LoadU(Words{}, words + lane);
-        for (int c = 0; c < 4; ++c)
-            hn::StoreU(hn::And(hn::ShiftRightSame(word, 8 * c), hn::Set(Words{}, 0xffu)), Words{},
-                       &out[static_cast<std::size_t>(c)][lane]);
-    }
+    const bool has_ties = block.has_any_tie();
+    with_rules(rules, [&]<class Rules>(Rules) HWY_ATTR {
+        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+            Columns<Rules>{block, lane, rules}.front_alone(front, has_ties);
+    });
 }
 
 // algorithms.md 0.4, with the codes packed to a word a pixel, red lowest.
@@ -251,7 +234,6 @@ HWY_AFTER_NAMESPACE();
 namespace strata::peeling {
 HWY_EXPORT(both_ends);
 HWY_EXPORT(front_alone);
-HWY_EXPORT(codes);
 HWY_EXPORT(last_quad);
 
 // Tied columns are rare, and left to the twin.
@@ -270,18 +252,12 @@ bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& bac
     return is_plain;
 }
 
-void peel_front(const ColumnBlock& block, BlockCodes& front, const BlockRules& rules) {
-    if (simd_is_scalar()) return scalar::peel_front(block, front, rules);
-    kernel_of(HWY_DISPATCH_TABLE(front_alone))(block, front, rules);
-}
-
-BlockCodes codes_of(const std::uint32_t* words) {
-    BlockCodes result;
+bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes&, const BlockRules& rules) {
     if (simd_is_scalar())
-        scalar::codes_of(words, result);
+        scalar::peel_front(block, front, rules);
     else
-        kernel_of(HWY_DISPATCH_TABLE(codes))(words, result);
-    return result;
+        kernel_of(HWY_DISPATCH_TABLE(front_alone))(block, front, rules);
+    return true;
 }
 
 void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,

@@ -10,11 +10,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "peeling/closed/block_pixels.h"
-#include "peeling/closed/closed_form.h"
+#include "peeling/closed/block_course.h"
 #include "peeling/programs/min_max.h"
-#include "pipeline/frame/pass_counters.h"
-#include "pipeline/region/region_shortcuts.h"
 
 namespace strata::peeling {
 
@@ -31,8 +28,8 @@ bool has_foreign_depths(const RegionFragments& fragments, const DeviceProfile& p
 // Depths of a sorted column.
 std::uint32_t distinct(const ColumnBlock& block, std::size_t lane) {
     std::uint32_t depths = 0;
-    for (std::uint32_t k = 0; k < block.visible[lane]; ++k)
-        depths += k == 0 || block.key(lane, k) != block.key(lane, k - 1) ? 1 : 0;
+    const std::uint32_t end = block.visible[lane];
+    for (std::uint32_t k = 0; k < end; k = block.end_of_depth(lane, k, end)) ++depths;
     return depths;
 }
 
@@ -82,72 +79,6 @@ class DepthCounts {
     std::vector<std::uint64_t> at_least_;   // pixels of so many depths or more
 };
 
-// The blocks of an rgba8 frame, from fragments to the last quad.
-class Rgba8Course {
-  public:
-    explicit Rgba8Course(Region& region)
-        : region_{region},
-          rules_{block_rules(region.frame())},
-          target_{region.make_color()},
-          opaque_{RegionShortcuts{region}.words(region.opaque_color())},
-          result_{RegionShortcuts{region}.words(target_)} {
-        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
-            result_[pixel] = opaque_[pixel] | 0xff000000u;
-    }
-
-    // False if MAX does not order the block's colours.
-    [[nodiscard]] bool run(const ColumnBlock& block) {
-        BlockCodes front{}, back = codes_of(opaque_ + block.first);
-        const bool is_plain = peel_both_ends(block, front, back, rules_);
-        composite_block(front, back, FrontAlpha::covers, rules_, result_ + block.first);
-        return is_plain;
-    }
-
-    void publish() {
-        const std::uint64_t area = region_.rect().area();
-        RegionShortcuts{region_}.book(of_loads(2 * 4, area) + of_color(4, area, false), {.full_screen = 1});
-        region_.publish(target_);
-    }
-
-  private:
-    Region& region_;
-    BlockRules rules_;
-    Target target_;
-    const std::uint32_t* opaque_;  // words of the region
-    std::uint32_t* result_;
-};
-
-// The blocks of an rgba16f or rgba32f frame, up to the front and the back that the last quad reads.
-class FloatCourse {
-  public:
-    explicit FloatCourse(Region& region)
-        : region_{region},
-          rules_{block_rules(region.frame())},
-          front_{region.make_color()},
-          back_{region.make_color()} {
-        region.uncounted([&] {
-            region.clear(front_, {.color = {0, 0, 0, 0}});
-            region.copy(region.opaque_color(), back_);
-        });
-    }
-
-    [[nodiscard]] bool run(const ColumnBlock& block) {
-        BlockPixels pixels{region_, block};
-        BlockCodes front{}, back = pixels.load(region_.opaque_color());
-        const bool is_plain = peel_both_ends(block, front, back, rules_);
-        pixels.store(front, front_);
-        pixels.store(back, back_);
-        return is_plain;
-    }
-
-    void publish() { publish_over(region_, front_, FrontAlpha::covers, back_); }
-
-  private:
-    Region& region_;
-    BlockRules rules_;
-    Target front_, back_;
-};
-
 // The counters of the draws and the quad of `dual`. Clears and copies are really done, or counted here where they
 // repeat.
 Counters of_fates(const RegionFragments& fragments) {
@@ -176,14 +107,14 @@ bool peel_region(Region& region) {
     const std::size_t area = region.rect().area();
     const auto bytes_a_color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
     RegionShortcuts shortcuts{region};
-    Course course{region};
+    Course course{region, FrontAlpha::covers};
     DepthCounts depths;
     const std::size_t traced = shortcuts.trace().size();
     bool is_plain = true;
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) {
         if (block.height == 0) return;
         depths.add(block);
-        is_plain &= course.run(block);
+        is_plain &= course.run(block, peel_both_ends);
         if (!region.frame().trace) return;
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
             trace_pixel(region, block, lane);

@@ -12,12 +12,7 @@
 #include <algorithm>
 
 #include "peeling/closed/arrivals.h"
-#include "peeling/closed/block_pixels.h"
-#include "peeling/closed/closed_form.h"
-#include "peeling/programs/region_programs.h"
-#include "pipeline/formats/convert.h"
-#include "pipeline/frame/pass_counters.h"
-#include "pipeline/region/region_shortcuts.h"
+#include "peeling/closed/block_course.h"
 
 namespace strata::peeling {
 
@@ -127,17 +122,6 @@ void trace_layers(Region& region, const ColumnBlock& block) {
     }
 }
 
-// The accumulated colour's clear value, (0, 0, 0, 1), as codes.
-BlockCodes cleared(const Region& region) {
-    BlockCodes block{};
-    Lanes<float> one;
-    Lanes<std::uint32_t> code;
-    std::fill_n(one.begin(), block_lanes, 1.0f);
-    encode(info(region.frame().color_format).type, region.profile().color_rounding(), one, code, int{block_lanes});
-    std::copy_n(code.begin(), block_lanes, block[3].begin());
-    return block;
-}
-
 // Everything that one iteration counts; called with 1, 2, 3 ...
 class PassCounters {
   public:
@@ -178,69 +162,6 @@ class PassCounters {
     std::uint64_t passed_ = 0, exhausted_ = 0;
 };
 
-// The blocks of an rgba8 frame, from fragments to the last quad.
-class Rgba8Blocks {
-  public:
-    explicit Rgba8Blocks(Region& region)
-        : region_{region},
-          rules_{block_rules(region.frame())},
-          target_{region.make_color()},
-          background_{RegionShortcuts{region}.words(region.opaque_color())},
-          result_{RegionShortcuts{region}.words(target_)},
-          before_{cleared(region)} {
-        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
-            result_[pixel] = background_[pixel] | 0xff000000u;
-    }
-
-    void add(const ColumnBlock& block) {
-        BlockCodes front = before_;
-        peel_front(block, front, rules_);
-        composite_block(front, codes_of(background_ + block.first), FrontAlpha::lets_through, rules_,
-                        result_ + block.first);
-    }
-
-    void publish() {
-        const std::uint64_t area = region_.rect().area();
-        RegionShortcuts{region_}.book(of_loads(4 + 4, area) + of_color(4, area, false),
-                                      {.full_screen = 1});  // the last quad
-        region_.publish(target_);
-    }
-
-  private:
-    Region& region_;
-    BlockRules rules_;
-    Target target_;
-    const std::uint32_t* background_;
-    std::uint32_t* result_;
-    BlockCodes before_;
-};
-
-// The blocks of an rgba16f or rgba32f frame, up to the accumulated colour that the last quad reads.
-class FloatBlocks {
-  public:
-    explicit FloatBlocks(Region& region)
-        : region_{region},
-          rules_{block_rules(region.frame())},
-          accumulated_{region.make_color()},
-          before_{cleared(region)} {
-        region.uncounted([&] { region.clear(accumulated_, {.color = {0, 0, 0, 1}}); });
-    }
-
-    void add(const ColumnBlock& block) {
-        BlockCodes codes = before_;
-        peel_front(block, codes, rules_);
-        BlockPixels{region_, block}.store(codes, accumulated_);
-    }
-
-    void publish() { publish_over_background(region_, accumulated_, region_.opaque_color()); }
-
-  private:
-    Region& region_;
-    BlockRules rules_;
-    Target accumulated_;
-    BlockCodes before_;
-};
-
 // Goes through the passes as the algorithm does, with the same questions in the same order; only the books are written.
 void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
     PassCounters counters{region, fragments, tallies};
@@ -252,14 +173,14 @@ void count_passes(Region& region, const RegionFragments& fragments, const PassTa
 }
 
 // One walk over the blocks gives colours and tallies; the counters follow once it is sure that all fragments fitted.
-template <class Blocks>
+template <class Course>
 bool composite_layers(Region& region) {
     PassTallies tallies;
     ColumnTallies columns{tallies};
-    Blocks blocks{region};
+    Course course{region, FrontAlpha::lets_through};
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) {
         columns.add(block);
-        blocks.add(block);
+        course.run(block, peel_front);
         trace_layers(region, block);
     });
     if (!fragments) return false;
@@ -267,7 +188,7 @@ bool composite_layers(Region& region) {
     const auto color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
     RegionShortcuts{region}.book(of_clear(color, region.rect().area()), {});  // the accumulated colour's clear
     count_passes(region, *fragments, tallies);
-    blocks.publish();
+    course.publish();
     return true;
 }
 
@@ -275,8 +196,8 @@ bool composite_layers(Region& region) {
 
 bool front_to_back_closed(Region& region) {
     if (!peels_to_the_end(region.frame())) return false;
-    return has_float_blocks(region.frame()) ? composite_layers<FloatBlocks>(region)
-                                            : composite_layers<Rgba8Blocks>(region);
+    return has_float_blocks(region.frame()) ? composite_layers<FloatCourse>(region)
+                                            : composite_layers<Rgba8Course>(region);
 }
 
 }  // namespace strata::peeling

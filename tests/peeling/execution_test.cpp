@@ -83,6 +83,13 @@ void check_all_ways(const TriangleScene& scene, const Machine& machine, RenderOp
     }
 }
 
+// A profile that has no name.
+RenderResult drawn_on(const strata::pipeline::DeviceProfile& profile, const TriangleScene& scene, const char* algorithm,
+                      const RenderOptions& options) {
+    strata::peeling::Renderer renderer{scene.list, scene.view, profile, options};
+    return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
+}
+
 RenderOptions small_frame() {
     RenderOptions options;
     options.width = 76;  // neither is a multiple of a tile
@@ -285,8 +292,7 @@ TEST_CASE("peels execute alike on devices that blend and convert by every rule, 
                     options.background = random_color(random);
                     options.execution = Execution::literal;
                     const auto drawn = [&](const RenderOptions& how) {
-                        strata::peeling::Renderer renderer{scene.list, scene.view, profile, how};
-                        return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
+                        return drawn_on(profile, scene, algorithm, how);
                     };
                     const RenderResult expected = drawn(options);
                     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
@@ -310,10 +316,7 @@ TEST_CASE("colours by the chip's weights execute alike on a device whose depth i
             RenderOptions options = small_frame();
             options.color_format = format;
             options.execution = Execution::literal;
-            const auto drawn = [&](const RenderOptions& how) {
-                strata::peeling::Renderer renderer{scene.list, scene.view, profile, how};
-                return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
-            };
+            const auto drawn = [&](const RenderOptions& how) { return drawn_on(profile, scene, algorithm, how); };
             const RenderResult expected = drawn(options);
             REQUIRE(expected.outcome == strata::peeling::Outcome::done);
             options.execution = Execution::replay;

@@ -94,7 +94,8 @@ def driver_rows(options, table):
     for name, scene in models(options):
         for algorithm in ("dual", "front_to_back"):
             times = lambda profile: frame(options, scene, options.size, profile, "rgba8", algorithm, ("--alpha", "0.5"))
-            table.row(f"{name}, {algorithm}, llvmpipe to geforce8", times("llvmpipe"), times("geforce8"), 2)
+            for driver in ("llvmpipe", "llvmpipe_sse", "softpipe"):
+                table.row(f"{name}, {algorithm}, {driver} to geforce8", times(driver), times("geforce8"), 2)
 
 
 def layers_command(strata, scene, size, profile, algorithm, extra, folder):
