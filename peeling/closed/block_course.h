@@ -18,9 +18,9 @@ namespace strata::peeling {
 
 class Rgba8Course {
   public:
-    Rgba8Course(pipeline::Region& region, FrontAlpha meaning)
+    Rgba8Course(pipeline::Region& region, FrontAlpha meaning, const BlockRules& rules)
         : region_{region},
-          rules_{block_rules(region.frame())},
+          rules_{rules},
           meaning_{meaning},
           target_{region.make_color()},
           opaque_{pipeline::RegionShortcuts{region}.words(region.opaque_color())},
@@ -57,8 +57,8 @@ class Rgba8Course {
 
 class FloatCourse {
   public:
-    FloatCourse(pipeline::Region& region, FrontAlpha meaning)
-        : region_{region}, rules_{block_rules(region.frame())}, meaning_{meaning}, front_{region.make_color()} {
+    FloatCourse(pipeline::Region& region, FrontAlpha meaning, const BlockRules& rules)
+        : region_{region}, rules_{rules}, meaning_{meaning}, front_{region.make_color()} {
         const pipeline::Rgba cleared{0, 0, 0, meaning == FrontAlpha::lets_through ? 1.0f : 0.0f};
         cleared_ = color_codes(region.frame().color_format, rules_.rounding, cleared);
         if (meaning == FrontAlpha::covers) back_ = region.make_color();

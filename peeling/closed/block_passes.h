@@ -4,7 +4,7 @@
 //          Columns do not meet: the twins go from column to column, the vectors through many side by side. Dual front:
 //          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
 //          the code of the far colour, OVER what is there, where its alpha is not 0. Front to back: the code of the
-//          colour times alpha, UNDER what is there; at the end one layer more, which is empty.
+//          colour times alpha, UNDER what is there; where no limit ends it, one layer more, which is empty.
 // Ties     Fragments of one depth are one group. Dual keeps MAX over what each of them would leave; front to back takes
 //          the first.
 // Tests    tests/peeling/closed/block_passes_test.cpp; tests/peeling/execution_test.cpp
@@ -53,11 +53,11 @@ template <class Rules>
 class ColumnPasses {
   public:
     ColumnPasses(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
-        : block_{block}, lane_{lane}, target_{rules} {}
+        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules} {}
 
     void both_ends(Codes& front, Codes& back) const {
         std::uint32_t near = 0, far = block_.visible[lane_];
-        while (near < far) {
+        for (std::uint32_t pass = 0; near < far && pass < most_; ++pass) {
             const std::uint32_t first = near, behind = far;
             near = block_.end_of_depth(lane_, near, far);
             blend_near(first, near, front);
@@ -70,9 +70,10 @@ class ColumnPasses {
     // blend_mode::under.
     void front_alone(Codes& front) const {
         const std::uint32_t end = block_.visible[lane_];
-        for (std::uint32_t k = 0; k < end; k = block_.end_of_depth(lane_, k, end))
+        std::uint32_t layers = 0;
+        for (std::uint32_t k = 0; k < end && layers < most_; k = block_.end_of_depth(lane_, k, end), ++layers)
             blend_under(color_at(block_, lane_, k), front);
-        blend_under({}, front);
+        if (layers < most_) blend_under({}, front);
     }
     [[nodiscard]] bool has_plain_colors() const {
         for (std::uint32_t k = 0; k < block_.visible[lane_]; ++k)
@@ -119,6 +120,7 @@ class ColumnPasses {
 
     const ColumnBlock& block_;
     std::size_t lane_;
+    std::uint32_t most_;
     Target<Rules> target_;
 };
 

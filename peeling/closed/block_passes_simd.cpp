@@ -27,7 +27,7 @@ class Columns {
     using Held = typename Target::Held;
 
     HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
-        : block_{block}, lane_{lane}, target_{rules} {
+        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules} {
         visible_ = hn::LoadU(Words{}, &block.visible[lane]);
         alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
         is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.height)));
@@ -56,7 +56,7 @@ class Columns {
                 most_color = hn::Max(most_color, hn::BitCast(Words{}, color.channel[c]));
             most_alpha = hn::Max(most_alpha, hn::BitCast(Words{}, color.channel[3]));
         };
-        for (std::uint32_t pass = 0; 2 * pass < block_.height; ++pass) {
+        for (std::uint32_t pass = 0; 2 * pass < block_.height && pass < most_; ++pass) {
             const WordMask has_near = hn::Lt(hn::Set(Words{}, 2 * pass), visible_);
             const Color near = take(level(pass), has_near);
             meet(near);
@@ -80,17 +80,24 @@ class Columns {
     HWY_INLINE void front_alone(BlockCodes& front_codes, bool has_ties) const {
         Held front[4];
         load(front_codes, front);
-        WordVec key_before = hn::Zero(Words{});
-        for (std::uint32_t pass = 0; pass < block_.height; ++pass) {
+        const WordVec most = hn::Set(Words{}, most_);
+        WordVec layers = visible_, key_before = hn::Zero(Words{});
+        if (has_ties) layers = key_before;
+        const std::uint32_t end = has_ties ? block_.height : std::min(block_.height, most_);
+        for (std::uint32_t pass = 0; pass < end; ++pass) {
             WordVec key;
             const WordVec place = level(pass, key);
             WordMask has = hn::Lt(hn::Set(Words{}, pass), visible_);
-            if (has_ties && pass > 0) has = hn::And(has, hn::Ne(key, key_before));
+            if (has_ties) {
+                if (pass > 0) has = hn::And(has, hn::Ne(key, key_before));
+                has = hn::And(has, hn::Lt(layers, most));
+                layers = hn::Add(layers, hn::IfThenElseZero(has, hn::Set(Words{}, 1)));
+            }
             key_before = key;
             blend_front(take(place, has), has, front);
         }
         const WordMask all = hn::Eq(visible_, visible_);
-        blend_front(take(visible_, hn::Not(all)), all, front);
+        blend_front(take(visible_, hn::Not(all)), hn::Lt(layers, most), front);
         store(all, front, 4, front_codes);
     }
 
@@ -177,6 +184,7 @@ class Columns {
 
     const ColumnBlock& block_;
     std::size_t lane_;
+    std::uint32_t most_;
     Target target_;
     WordVec visible_, alive_;
     bool is_full_;

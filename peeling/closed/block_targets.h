@@ -17,11 +17,13 @@
 
 namespace strata::peeling {
 
+// What the passes of a block go by.
 struct BlockRules {
     pipeline::ChannelType type = pipeline::ChannelType::unorm8;
     pipeline::ColorRounding rounding = pipeline::HalfRounding::nearest_even;
     pipeline::BlendRounding blend = pipeline::BlendRounding::nearest;
-    bool flushes = true;  // denormals, in blends of floats
+    bool flushes = true;              // denormals, in blends of floats
+    std::uint32_t most_passes = ~0u;  // that peel, where a frame ends sooner
 };
 
 // Colours from 0 to this one, with alphas from 0 to 1, have no sum beyond the halves, and MAX keeps one of them.

@@ -6,7 +6,7 @@
 // Source   algorithms.md 0.7.
 // Tests    tests/peeling/execution_test.cpp, sequences_test.cpp: against literal execution
 #pragma once
-#include <vector>
+#include <algorithm>
 
 #include "peeling/closed/block_passes.h"
 #include "peeling/programs/programs.h"
@@ -20,24 +20,28 @@ namespace strata::peeling {
 [[nodiscard]] inline bool has_float_blocks(const pipeline::Frame& frame) {
     return frame.color_format == pipeline::Format::rgba16f || frame.color_format == pipeline::Format::rgba32f;
 }
-[[nodiscard]] inline BlockRules block_rules(const pipeline::Frame& frame) {
+// `others`: how many geometry passes the algorithm makes beside those that peel.
+[[nodiscard]] inline BlockRules block_rules(const pipeline::Frame& frame, int others) {
     const pipeline::DeviceProfile& profile = *frame.profile;
-    return {.type = pipeline::info(frame.color_format).type,
-            .rounding = profile.color_rounding(),
-            .blend = profile.blend_rounding,
-            .flushes = profile.denormals == pipeline::DenormalRule::flush};
+    BlockRules rules{.type = pipeline::info(frame.color_format).type,
+                     .rounding = profile.color_rounding(),
+                     .blend = profile.blend_rounding,
+                     .flushes = profile.denormals == pipeline::DenormalRule::flush};
+    const int fixed = frame.termination.rule == pipeline::TerminationRule::fixed ? frame.termination.passes : 0;
+    for (const int limit : {frame.max_passes, fixed})
+        if (limit > 0) rules.most_passes = std::min(rules.most_passes, static_cast<std::uint32_t>(limit - others));
+    return rules;
 }
 
-// True if the frame is peeled to its end: every layer answers the query, all passes see the same depth of a fragment,
-// the caller keeps no single layers, and colours are of a format that block_targets.h knows. A closed form declines every other frame, and one
-// without memory for fragments.
-[[nodiscard]] inline bool peels_to_the_end(const pipeline::Frame& frame) {
-    using pipeline::TerminationRule;
-    const bool exact =
-        frame.termination.rule == TerminationRule::exact || frame.termination.rule == TerminationRule::any;
+// True if a pixel's fragments alone decide how far it is peeled: to its end or to a limit of passes, and not by ratios; all passes see
+// the same depth of a fragment, the caller keeps no single layers, and colours are of a format that block_targets.h knows. A closed form
+// declines every other frame, and one without memory for fragments.
+[[nodiscard]] inline bool peels_by_columns(const pipeline::Frame& frame) {
+    using enum pipeline::TerminationRule;
+    const auto rule = frame.termination.rule;
     const bool is_known = frame.color_format == pipeline::Format::rgba8 || has_float_blocks(frame);
-    return is_known && frame.is_invariant() && frame.replay.bytes > 0 && exact && frame.max_passes == 0 &&
-           !frame.keep_layers;
+    return is_known && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() &&
+           frame.replay.bytes > 0 && !frame.keep_layers;
 }
 
 }  // namespace strata::peeling

@@ -35,12 +35,12 @@ std::uint32_t distinct(const ColumnBlock& block, std::size_t lane) {
 
 // Pass by pass, the front before the back. A depth's fragments are one mixture, so its entry names the depth and no
 // fragment; near == far is one group, and the near one (algorithms.md 5.1).
-void trace_pixel(Region& region, const ColumnBlock& block, std::size_t lane) {
+void trace_pixel(Region& region, const ColumnBlock& block, std::size_t lane, std::uint32_t most_passes) {
     std::uint32_t near = 0, far = block.visible[lane];
     const auto add = [&](std::uint32_t k, Side side) {
         region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, side, false});
     };
-    while (near < far) {
+    for (std::uint32_t pass = 0; near < far && pass < most_passes; ++pass) {
         add(near, Side::front);
         near = block.end_of_depth(lane, near, far);
         if (near == far) break;
@@ -107,7 +107,8 @@ bool peel_region(Region& region) {
     const std::size_t area = region.rect().area();
     const auto bytes_a_color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
     RegionShortcuts shortcuts{region};
-    Course course{region, FrontAlpha::covers};
+    const BlockRules rules = block_rules(region.frame(), 1);  // the first pass peels nothing
+    Course course{region, FrontAlpha::covers, rules};
     DepthCounts depths;
     const std::size_t traced = shortcuts.trace().size();
     bool is_plain = true;
@@ -117,7 +118,7 @@ bool peel_region(Region& region) {
         is_plain &= course.run(block, peel_both_ends);
         if (!region.frame().trace) return;
         for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
-            trace_pixel(region, block, lane);
+            trace_pixel(region, block, lane, rules.most_passes);
     });
     if (!fragments || has_foreign_depths(*fragments, region.profile()) || !is_plain) {
         shortcuts.trace().shorten(traced);
@@ -127,7 +128,7 @@ bool peel_region(Region& region) {
     shortcuts.book(of_copy(bytes_a_color, area) + of_clear(bytes_a_color + rg32f_bytes, area),
                    {.copies = 1});  // front, back, min-max
     shortcuts.book(of_initialize(*fragments), {.geometry = 1});
-    for (std::size_t passes = 1;; ++passes) {  // no limit: peels_to_the_end()
+    for (std::size_t passes = 1; !region.limit_reached(); ++passes) {
         region.begin_iteration();
         shortcuts.book(of_peel(*fragments, area, bytes_a_color), {.geometry = 1, .full_screen = 1});
         if (!region.any(RegionShortcuts::query_of(depths.left(passes)), Idle::steady)) break;
@@ -139,7 +140,7 @@ bool peel_region(Region& region) {
 }  // namespace
 
 bool dual_closed(Region& region) {
-    if (!peels_to_the_end(region.frame())) return false;
+    if (!peels_by_columns(region.frame())) return false;
     return has_float_blocks(region.frame()) ? peel_region<FloatCourse>(region) : peel_region<Rgba8Course>(region);
 }
 

@@ -113,11 +113,12 @@ class ColumnTallies {
     std::vector<std::uint32_t> depth_number_;  // by place in a column: its depth, from 1
 };
 
-void trace_layers(Region& region, const ColumnBlock& block) {
+void trace_layers(Region& region, const ColumnBlock& block, std::uint32_t most) {
     if (!region.frame().trace) return;
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
         const std::uint32_t end = block.visible[lane];
-        for (std::uint32_t k = 0; k < end; k = block.end_of_depth(lane, k, end))
+        std::uint32_t layers = 0;
+        for (std::uint32_t k = 0; k < end && layers < most; k = block.end_of_depth(lane, k, end), ++layers)
             region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, Side::front, false});
     }
 }
@@ -165,7 +166,7 @@ class PassCounters {
 // Goes through the passes as the algorithm does, with the same questions in the same order; only the books are written.
 void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
     PassCounters counters{region, fragments, tallies};
-    for (std::size_t pass = 1;; ++pass) {  // no limit: peels_to_the_end()
+    for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
         region.begin_iteration();
         RegionShortcuts{region}.book(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
         if (!region.any(RegionShortcuts::query_of(counters.passed()), Idle::when_zero)) break;
@@ -177,11 +178,12 @@ template <class Course>
 bool composite_layers(Region& region) {
     PassTallies tallies;
     ColumnTallies columns{tallies};
-    Course course{region, FrontAlpha::lets_through};
+    const BlockRules rules = block_rules(region.frame(), 0);
+    Course course{region, FrontAlpha::lets_through, rules};
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) {
         columns.add(block);
         course.run(block, peel_front);
-        trace_layers(region, block);
+        trace_layers(region, block, rules.most_passes);
     });
     if (!fragments) return false;
     columns.finish();
@@ -195,7 +197,7 @@ bool composite_layers(Region& region) {
 }  // namespace
 
 bool front_to_back_closed(Region& region) {
-    if (!peels_to_the_end(region.frame())) return false;
+    if (!peels_by_columns(region.frame())) return false;
     return has_float_blocks(region.frame()) ? composite_layers<FloatCourse>(region)
                                             : composite_layers<Rgba8Course>(region);
 }

@@ -266,14 +266,16 @@ TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
 }
 
 // Mesa's drivers round each product of a blend and convert by binary32 products; other profiles may mix the rules. Random ones.
-TEST_CASE("peels execute alike on devices that blend and convert by every rule, in every format, with ties") {
+TEST_CASE(
+    "peels execute alike on devices that blend and convert by every rule, in every format, with ties and under "
+    "limits") {
     Random random{81};
     const std::array<Way, 2> chosen{ways[7], ways[10]};
     using namespace strata::pipeline;
     for (const char* base : {"llvmpipe", "llvmpipe_sse", "softpipe", "geforce8_dx101"})
         for (const auto format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
             for (const char* algorithm : {"front_to_back", "dual"})
-                for (int trial = 0; trial < 2; ++trial) {
+                for (int trial = 0; trial < 3; ++trial) {
                     TriangleScene scene = random_triangles(82, 12);
                     scene.list.instances.push_back(scene.list.instances[0]);  // every depth twice
                     DeviceProfile profile = *find_profile(base);
@@ -296,7 +298,6 @@ TEST_CASE("peels execute alike on devices that blend and convert by every rule, 
                     };
                     const RenderResult expected = drawn(options);
                     REQUIRE(expected.outcome == strata::peeling::Outcome::done);
-                    CHECK(expected.frame.passes.geometry > 2);
                     INFO(algorithm << " on " << base << ", format " << static_cast<int>(format) << ", trial " << trial);
                     for (const Way& way : chosen) {
                         const RenderResult found = drawn(with(options, way));

@@ -172,7 +172,7 @@ struct PassScene {
 
     void peel_dual(const Machine& machine, std::size_t lane, Codes& front, Codes& back) const {
         const auto all = depths(lane);
-        for (std::size_t near = 0, far = all.size(); near < far; ++near) {
+        for (std::size_t near = 0, far = all.size(); near < far && near < machine.rules.most_passes; ++near) {
             const std::size_t others = block.visible[lane] + block.hidden[lane] - all[near].size();
             const Codes before = front;
             if (others == 0) front = {};
@@ -195,6 +195,7 @@ struct PassScene {
     void peel_front_to_back(const Machine& machine, std::size_t lane, Codes& front) const {
         auto all = depths(lane);
         all.push_back({Color{}});
+        if (all.size() > machine.rules.most_passes) all.resize(machine.rules.most_passes);
         for (const auto& depth : all) {
             const Color& c = depth.front();
             for (std::size_t i = 0; i < 3; ++i)
@@ -211,14 +212,23 @@ std::uint32_t any_code(Random& random, const BlockRules& rules) {
     return random_int(random, 0, 1) == 0 ? bits : plain;
 }
 
+// None, or one about where the deepest column ends.
+std::uint32_t any_limit(Random& random, std::uint32_t depth) {
+    const int limit = random_int(random, -4, static_cast<int>(depth) + 2);
+    return limit < 0 ? ~0u : static_cast<std::uint32_t>(limit);
+}
+
 }  // namespace
 
-TEST_CASE("a block is peeled from both ends like its passes, by every rule of a target, on every instruction set") {
+TEST_CASE(
+    "a block is peeled from both ends like its passes, by every rule of a target and under limits, on every "
+    "instruction set") {
     Random random{92};
-    for (const BlockRules& rules : all_rules()) {
+    for (BlockRules rules : all_rules()) {
         std::uint64_t wrong = 0, refused = 0, pixels = 0;
         for (std::uint32_t depth = 0; depth <= 24; ++depth)
             for (const bool ties : {false, true}) {
+                rules.most_passes = any_limit(random, depth);
                 const PassScene scene{random, depth, depth % 3 == 0, ties, rules, Colors::plain};
                 BlockCodes opaque{}, front{}, back{};
                 for (auto& channel : opaque)
@@ -249,11 +259,12 @@ TEST_CASE("a block is peeled from both ends like its passes, by every rule of a 
 TEST_CASE(
     "a block is peeled from the front like its passes, by every rule and of any colours, on every instruction set") {
     Random random{93};
-    for (const BlockRules& rules : all_rules()) {
+    for (BlockRules rules : all_rules()) {
         std::uint64_t wrong = 0;
         for (std::uint32_t depth = 0; depth <= 24; ++depth)
             for (const bool ties : {false, true})
                 for (const Colors colors : {Colors::plain, Colors::any}) {
+                    rules.most_passes = any_limit(random, depth);
                     const PassScene scene{random, depth, depth % 3 == 0, ties, rules, colors};
                     BlockCodes cleared{}, front{};
                     cleared[3].fill(Machine{rules}.write(1.0f));
