@@ -82,11 +82,6 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
     return found;
 }
 
-// Fragments are visited once, and what is kept of them lasts for a tile.
-bool is_closed(const RenderOptions& options, const Algorithm& algorithm) {
-    return algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers;
-}
-
 // What fragments take where `pixels` are looked at together, and no more than `limit`.
 std::uint64_t fragment_bytes(const Rehearsal& found, std::uint64_t pixels, std::uint64_t bytes_each,
                              std::uint64_t limit) {

@@ -59,13 +59,16 @@ void turn_keys_round(Image& image) {
     for (std::uint32_t& code : image.codes) code = rasterizer::depth_key(code);
 }
 
+bool is_closed(const RenderOptions& options, const Algorithm& algorithm) noexcept {
+    return algorithm.closed_form != nullptr && !options.keep_layers;
+}
+
 int tile_size_of(const RenderOptions& options, const Algorithm& algorithm) noexcept {
     constexpr std::int64_t large = 128, many = 32;
     const bool has_many = std::int64_t{options.width} * options.height >= many * large * large;
     if (!algorithm.replayed) return options.tile_size.value_or(has_many ? large : 64);
     // Passes that run come back to the same fragments: a small tile's stay in a cache. A closed form visits them once.
-    const bool is_closed = algorithm.closed_form != nullptr && options.max_passes == 0 && !options.keep_layers;
-    return options.tile_size.value_or(is_closed ? 64 : 32);
+    return options.tile_size.value_or(is_closed(options, algorithm) ? 64 : 32);
 }
 
 struct Renderer::State {

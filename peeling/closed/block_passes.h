@@ -1,25 +1,24 @@
-// peeling/closed/block_passes.h - the passes of a peel over a block of columns without equal depths, on UNORM8 targets: the scalar twins
-// of block_passes_simd.cpp.
+// peeling/closed/block_passes.h - the passes of a peel over a block of columns: the scalar twins of block_passes_simd.cpp.
 //
-// Rule     Pass i takes level i of a column from the front, dual peeling also level i from its back, until they meet.
-//          Columns do not meet: the twins go from column to column, the vectors through many side by side; what is
-//          beyond a column's end changes nothing. Dual front: the UNDER of under_text-inl.h, stored under MAX with the
-//          front that other fragments pass through. Dual back: the code of the far colour, OVER what is there, where
-//          its alpha is not 0. Front to back: the code of the colour times alpha, UNDER what is there.
-// Tests    tests/peeling/closed/columns_test.cpp; tests/peeling/execution_test.cpp
+// Rule     Pass i takes depth i of a column from the front, dual peeling also depth i from its back, until they meet.
+//          Columns do not meet: the twins go from column to column, the vectors through many side by side. Dual front:
+//          the UNDER of under_text-inl.h, stored under MAX with the front that other fragments pass through. Dual back:
+//          the code of the far colour, OVER what is there, where its alpha is not 0. Front to back: the code of the
+//          colour times alpha, UNDER what is there; where no limit ends it, one layer more, which is empty.
+// Ties     Fragments of one depth are one group. Dual keeps MAX over what each of them would leave; front to back takes
+//          the first.
+// Tests    tests/peeling/closed/block_passes_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <algorithm>
-#include <bit>
 
+#include "peeling/closed/block_targets.h"
 #include "peeling/closed/columns.h"
 #include "peeling/programs/programs.h"
 #include "peeling/programs/under.h"
-#include "pipeline/formats/unorm8.h"
-#include "pipeline/stages/blend_unorm8.h"
 
 namespace strata::peeling {
 
-using BlockCodes = std::array<LaneWords, 4>;  // UNORM8 codes by channel
+using BlockCodes = std::array<LaneWords, 4>;  // codes of a target by channel
 
 inline namespace strict {
 namespace scalar {
@@ -33,44 +32,6 @@ using Codes = std::array<std::uint32_t, 4>;
     return {block.color[0][place], block.color[1][place], block.color[2][place], block.color[3][place]};
 }
 
-// `others`: how many more fragments the pixel has, before and behind. Each of them passes the old front through, and
-// MAX keeps it; without one the cleared target, 0, is what MAX meets (algorithms.md 5.4).
-inline void blend_near(const Color& color, std::uint32_t others, Codes& front) noexcept {
-    const float through = let_through(OneFloat{}, pipeline::unorm8_value(front[3]));
-    for (std::size_t c = 0; c < 4; ++c) {
-        const float blended = c == 3 ? covered(OneFloat{}, through, color[3])
-                                     : under(pipeline::unorm8_value(front[c]), through, color[3], color[c]);
-        front[c] = std::max(others > 0 ? front[c] : 0u, std::uint32_t{pipeline::to_unorm8(blended)});
-    }
-}
-
-// t = s F + d G as blend_unorm8.h combines codes.
-template <pipeline::BlendRounding rounding>
-[[nodiscard]] std::uint32_t add(std::uint32_t s, std::uint32_t s_factor, std::uint32_t d,
-                                std::uint32_t d_factor) noexcept {
-    const auto value = [](std::uint32_t code) { return static_cast<float>(code); };
-    return static_cast<std::uint32_t>(
-        pipeline::Unorm8Arithmetic<rounding>::template combine<pipeline::BlendEquation::add>(
-            value(s), value(s_factor), value(d), value(d_factor)));
-}
-
-// OVER of the dumped colour; its quad discards pixels whose dump has alpha 0 (algorithms.md 5.1).
-template <pipeline::BlendRounding rounding>
-void blend_far(const Color& color, Codes& back) noexcept {
-    const std::uint32_t alpha = pipeline::to_unorm8(color[3]);
-    for (std::size_t c = 0; c < 3 && alpha != 0; ++c)
-        back[c] = add<rounding>(pipeline::to_unorm8(color[c]), alpha, back[c], 255 - alpha);
-}
-
-// blend_mode::under.
-template <pipeline::BlendRounding rounding>
-void blend_front(const Color& color, Codes& front) noexcept {
-    for (std::size_t c = 0; c < 3; ++c)
-        front[c] = add<rounding>(pipeline::to_unorm8(color[c] * color[3]), front[3], front[c], 255);
-    const std::uint32_t alpha = pipeline::to_unorm8(color[3]);
-    front[3] = add<rounding>(alpha, 0, front[3], 255 - alpha);
-}
-
 [[nodiscard]] inline Codes column(const BlockCodes& codes, std::size_t lane) noexcept {
     return {codes[0][lane], codes[1][lane], codes[2][lane], codes[3][lane]};
 }
@@ -78,45 +39,128 @@ inline void put_column(const Codes& column, std::size_t lane, BlockCodes& codes)
     for (std::size_t c = 0; c < 4; ++c) codes[c][lane] = column[c];
 }
 
-template <pipeline::BlendRounding rounding>
-void peel_both_ends(const ColumnBlock& block, BlockCodes& front_codes, BlockCodes& back_codes) noexcept {
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const std::uint32_t n = block.visible[lane];
-        Codes front = column(front_codes, lane), back = column(back_codes, lane);
-        for (std::uint32_t pass = 0; 2 * pass < n; ++pass) {
-            blend_near(color_at(block, lane, pass), n + block.hidden[lane] - 1, front);
-            if (2 * pass + 1 < n) blend_far<rounding>(color_at(block, lane, n - 1 - pass), back);
+// Colours that MAX does not order: on float targets negative ones, -0 and NaN; and those that a half may not have sums of.
+[[nodiscard]] inline bool is_plain(const Color& color) noexcept {
+    const auto is_at_most = [](float value, float most) {
+        return std::bit_cast<std::uint32_t>(value) <= std::bit_cast<std::uint32_t>(most);
+    };
+    return is_at_most(color[0], most_plain_color) && is_at_most(color[1], most_plain_color) &&
+           is_at_most(color[2], most_plain_color) && is_at_most(color[3], 1.0f);
+}
+
+// The passes of one column on one kind of target.
+template <class Rules>
+class ColumnPasses {
+  public:
+    ColumnPasses(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
+        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules} {}
+
+    void both_ends(Codes& front, Codes& back) const {
+        std::uint32_t near = 0, far = block_.visible[lane_];
+        for (std::uint32_t pass = 0; near < far && pass < most_; ++pass) {
+            const std::uint32_t first = near, behind = far;
+            near = block_.end_of_depth(lane_, near, far);
+            blend_near(first, near, front);
+            if (near == far) break;
+            far = block_.begin_of_depth(lane_, near, far - 1);
+            blend_far(far, behind, back);
         }
-        put_column(front, lane, front_codes);
-        put_column(back, lane, back_codes);
     }
-}
 
-// Front to back, near to far: level k is layer k, because a block here holds no depth twice.
-template <pipeline::BlendRounding rounding>
-void peel_front(const ColumnBlock& block, BlockCodes& codes) noexcept {
-    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        Codes front = column(codes, lane);
-        for (std::uint32_t k = 0; k < block.visible[lane]; ++k) blend_front<rounding>(color_at(block, lane, k), front);
-        put_column(front, lane, codes);
+    // blend_mode::under.
+    void front_alone(Codes& front) const {
+        const std::uint32_t end = block_.visible[lane_];
+        std::uint32_t layers = 0;
+        for (std::uint32_t k = 0; k < end && layers < most_; k = block_.end_of_depth(lane_, k, end), ++layers)
+            blend_under(color_at(block_, lane_, k), front);
+        if (layers < most_) blend_under({}, front);
     }
+    [[nodiscard]] bool has_plain_colors() const {
+        for (std::uint32_t k = 0; k < block_.visible[lane_]; ++k)
+            if (!is_plain(color_at(block_, lane_, k))) return false;
+        return true;
+    }
+
+  private:
+    // Every fragment outside [begin, end) passes the old front through, and MAX keeps it; without one the cleared
+    // target, 0, is what MAX meets (algorithms.md 5.4).
+    void blend_near(std::uint32_t begin, std::uint32_t end, Codes& front) const {
+        Codes next = block_.visible[lane_] + block_.hidden[lane_] > end - begin ? front : Codes{};
+        const float through = let_through(OneFloat{}, target_.value(front[3]));
+        for (std::uint32_t k = begin; k < end; ++k) {
+            const Color color = color_at(block_, lane_, k);
+            for (std::size_t c = 0; c < 4; ++c) {
+                const float blended = c == 3 ? covered(OneFloat{}, through, color[3])
+                                             : under(target_.value(front[c]), through, color[3], color[c]);
+                next[c] = std::max(next[c], target_.max_code(blended));
+            }
+        }
+        front = next;
+    }
+
+    // OVER of the dumped colour; its quad discards pixels whose dump has alpha 0 (algorithms.md 5.1).
+    void blend_far(std::uint32_t begin, std::uint32_t end, Codes& back) const {
+        Codes dump{};
+        for (std::uint32_t k = begin; k < end; ++k)
+            for (std::size_t c = 0; c < 4; ++c)
+                dump[c] = std::max(dump[c], target_.max_code(color_at(block_, lane_, k)[c]));
+        const float alpha = target_.operand(dump[3]), rest = target_.rest(alpha);
+        for (std::size_t c = 0; c < 3 && dump[3] != 0; ++c)
+            back[c] = target_.add(target_.operand(dump[c]), alpha, target_.operand(back[c]), rest);
+    }
+
+    void blend_under(const Color& color, Codes& front) const {
+        const float alpha = target_.operand(target_.code(color[3])), let = target_.operand(front[3]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float layer = target_.operand(target_.code(color[c] * color[3]));
+            front[c] = target_.add(layer, let, target_.operand(front[c]), target_.one);
+        }
+        front[3] = target_.add(alpha, 0.0f, let, target_.rest(alpha));
+    }
+
+    const ColumnBlock& block_;
+    std::size_t lane_;
+    std::uint32_t most_;
+    Target<Rules> target_;
+};
+
+// The columns that hold a depth twice, or all of them.
+[[nodiscard]] inline bool peel_both_ends(const ColumnBlock& block, bool tied_alone, BlockCodes& front_codes,
+                                         BlockCodes& back_codes, const BlockRules& rules) {
+    bool is_plain = true;
+    with_rules(rules, [&]<class Rules>(Rules) {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            if (tied_alone && block.has_ties[lane] == 0) continue;
+            const ColumnPasses<Rules> passes{block, lane, rules};
+            Codes front = column(front_codes, lane), back = column(back_codes, lane);
+            passes.both_ends(front, back);
+            put_column(front, lane, front_codes);
+            put_column(back, lane, back_codes);
+            is_plain &= rules.type == pipeline::ChannelType::unorm8 || passes.has_plain_colors();
+        }
+    });
+    return is_plain;
 }
 
-inline void codes_of(const std::uint32_t* words, BlockCodes& codes) noexcept {
-    for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) codes[c][lane] = words[lane] >> (8 * c) & 0xffu;
+inline void peel_front(const ColumnBlock& block, BlockCodes& codes, const BlockRules& rules) {
+    with_rules(rules, [&]<class Rules>(Rules) {
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            Codes front = column(codes, lane);
+            ColumnPasses<Rules>{block, lane, rules}.front_alone(front);
+            put_column(front, lane, codes);
+        }
+    });
 }
 
-inline void composite(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning,
-                      std::uint32_t* words) noexcept {
+template <class Rules>
+void composite(const Target<Rules>& target, const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning,
+               std::uint32_t* words) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
-        const float through = through_front(meaning, pipeline::unorm8_value(front[3][lane]));
+        const float through = through_front(meaning, target.value(front[3][lane]));
         words[lane] = 0xff000000u;
         for (std::size_t c = 0; c < 3; ++c) {
-            const float behind = pipeline::unorm8_value(back[c][lane]);
-            const std::uint32_t code =
-                pipeline::to_unorm8(composited(pipeline::unorm8_value(front[c][lane]), through, behind));
-            words[lane] |= code << (8 * c);
+            const float behind = target.value(back[c][lane]);
+            words[lane] |= target.code(composited(target.value(front[c][lane]), through, behind)) << (8 * c);
         }
     }
 }
@@ -124,12 +168,20 @@ inline void composite(const BlockCodes& front, const BlockCodes& back, FrontAlph
 }  // namespace scalar
 }  // namespace strict
 
-// All passes of the block. `front` and `back` hold what was there before.
-void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding);
-void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding);
+// All passes of the block. `front` and `back` hold what was there before. False if MAX does not order the colours: the
+// codes are then of no use. Front to back, nothing is blended onto what lies behind, and all colours will do.
+[[nodiscard]] bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back,
+                                  const BlockRules& rules);
+bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules);
 // Sixteen words of an rgba8 target, red lowest.
-[[nodiscard]] BlockCodes codes_of(const std::uint32_t* words);
-// Stores there what the last quad of a peel stores: the front over the colour behind it, alpha 1.
-void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words);
+[[nodiscard]] inline BlockCodes codes_of(const std::uint32_t* words) noexcept {
+    BlockCodes codes;
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) codes[c][lane] = words[lane] >> (8 * c) & 0xffu;
+    return codes;
+}
+// Stores in an rgba8 target what the last quad of a peel stores: the front over the colour behind it, alpha 1.
+void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
+                     std::uint32_t* words);
 
 }  // namespace strata::peeling

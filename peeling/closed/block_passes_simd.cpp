@@ -6,26 +6,12 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 #include "peeling/closed/block_passes.h"
-#include "pipeline/formats/unorm8-inl.h"
+#include "peeling/closed/block_targets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
-using Words = hn::CappedTag<std::uint32_t, block_lanes>;
-using Signed = hn::RebindToSigned<Words>;
-using Floats = hn::RebindToFloat<Words>;
 constexpr std::size_t vector_lanes = hn::MaxLanes(Words{});
-
-using WordVec = hn::Vec<Words>;
-using WordMask = hn::Mask<Words>;
-using FloatVec = hn::Vec<Floats>;
-
-// Codes are at most 255: exact in binary32, and positive as signed words.
-HWY_INLINE FloatVec float_of(WordVec code) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, code)); }
-
-HWY_INLINE FloatVec value_of(WordVec code) { return pipeline::HWY_NAMESPACE::unorm8_values(Words{}, code); }
-HWY_INLINE WordVec code_of(FloatVec x) { return pipeline::HWY_NAMESPACE::unorm8_codes(Words{}, x); }
 
 struct AllLanes {
     HWY_INLINE static FloatVec all(float v) { return hn::Set(Floats{}, v); }
@@ -33,55 +19,86 @@ struct AllLanes {
 
 #include "peeling/programs/under_text-inl.h"
 
-// Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut to
-// 255^2; the shifts divide by 255 and round as fragment-stages.md 8.2 says.
-template <pipeline::BlendRounding rounding>
-HWY_INLINE WordVec blended(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
-    const Signed di;
-    const auto sum = hn::ConvertTo(di, hn::Add(hn::Mul(s, s_factor), hn::Mul(d, d_factor)));
-    const auto biased =
-        hn::Add(hn::Min(sum, hn::Set(di, 65025)), hn::Set(di, rounding == pipeline::BlendRounding::nearest ? 128 : 1));
-    return hn::BitCast(Words{}, hn::ShiftRight<8>(hn::Add(biased, hn::ShiftRight<8>(biased))));
-}
-
-// Some columns of a block, and their front and back while the passes run.
-template <pipeline::BlendRounding rounding>
+// Some columns of a block, and their front and back while the passes run. Dual peeling is that of columns without ties.
+template <class Rules>
 class Columns {
   public:
-    HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane) : block_{block}, lane_{lane} {
+    using Target = VectorTarget<Rules>;
+    using Held = typename Target::Held;
+
+    HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
+        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules} {
         visible_ = hn::LoadU(Words{}, &block.visible[lane]);
         alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
         is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.height)));
     }
-    HWY_INLINE void load(const BlockCodes& codes, WordVec (&to)[4]) const {
-        for (std::size_t c = 0; c < 4; ++c) to[c] = hn::LoadU(Words{}, &codes[c][lane_]);
+    HWY_INLINE void load(const BlockCodes& codes, Held (&to)[4]) const {
+        for (std::size_t c = 0; c < 4; ++c) to[c] = target_.held(hn::LoadU(Words{}, &codes[c][lane_]));
     }
-    HWY_INLINE void store(const WordVec (&from)[4], BlockCodes& codes) const {
-        for (std::size_t c = 0; c < 4; ++c) hn::StoreU(from[c], Words{}, &codes[c][lane_]);
+    // A channel that nothing was blended onto keeps its code, of a NaN or a denormal, too.
+    HWY_INLINE void store(WordMask blended, const Held (&from)[4], std::size_t channels, BlockCodes& codes) const {
+        for (std::size_t c = 0; c < channels; ++c) {
+            const WordVec old = hn::LoadU(Words{}, &codes[c][lane_]);
+            hn::StoreU(hn::IfThenElse(blended, target_.codes(from[c]), old), Words{}, &codes[c][lane_]);
+        }
     }
 
-    HWY_INLINE void both_ends(BlockCodes& front_codes, BlockCodes& back_codes) const {
-        WordVec front[4], back[4];
+    // False if MAX does not order the colours.
+    HWY_INLINE bool both_ends(BlockCodes& front_codes, BlockCodes& back_codes) const {
+        Held front[4], back[4];
         load(front_codes, front);
         load(back_codes, back);
-        for (std::uint32_t pass = 0; 2 * pass < block_.height; ++pass) {
+        WordVec most_color = hn::Zero(Words{}), most_alpha = most_color;
+        WordMask is_blended = hn::Eq(most_color, hn::Set(Words{}, 1));
+        const auto meet = [&](const Color& color) HWY_ATTR {
+            if constexpr (!Target::is_float) return;
+            for (std::size_t c = 0; c < 3; ++c)
+                most_color = hn::Max(most_color, hn::BitCast(Words{}, color.channel[c]));
+            most_alpha = hn::Max(most_alpha, hn::BitCast(Words{}, color.channel[3]));
+        };
+        for (std::uint32_t pass = 0; 2 * pass < block_.height && pass < most_; ++pass) {
             const WordMask has_near = hn::Lt(hn::Set(Words{}, 2 * pass), visible_);
-            blend_near(take(level(pass), has_near), has_near, front);
+            const Color near = take(level(pass), has_near);
+            meet(near);
+            blend_near(near, has_near, front);
             if (2 * pass + 1 == block_.height) break;  // no column has a far one any more
             const WordMask has_far = hn::Lt(hn::Set(Words{}, 2 * pass + 1), visible_);
             const WordVec place = is_full_ ? level(block_.height - 1 - pass) : far_places(pass, has_far);
-            blend_far(take(place, has_far), back);
+            const Color far = take(place, has_far);
+            meet(far);
+            is_blended = hn::Or(is_blended, blend_far(far, back));
         }
-        store(front, front_codes);
-        store(back, back_codes);
+        store(hn::Ne(visible_, hn::Zero(Words{})), front, 4, front_codes);
+        store(is_blended, back, 3, back_codes);  // BACK has no alpha of its own
+        const auto is_at_most = [](WordVec bits, float most) HWY_ATTR {
+            const WordVec bound = hn::BitCast(Words{}, hn::Set(Floats{}, most));
+            return hn::AllTrue(Words{}, hn::Eq(hn::Max(bits, bound), bound));
+        };
+        return is_at_most(most_color, most_plain_color) && is_at_most(most_alpha, 1.0f);
     }
 
-    HWY_INLINE void front_alone(BlockCodes& front_codes) const {
-        WordVec front[4];
+    HWY_INLINE void front_alone(BlockCodes& front_codes, bool has_ties) const {
+        Held front[4];
         load(front_codes, front);
-        for (std::uint32_t pass = 0; pass < block_.height; ++pass)
-            blend_front(take(level(pass), hn::Lt(hn::Set(Words{}, pass), visible_)), front);
-        store(front, front_codes);
+        const WordVec most = hn::Set(Words{}, most_);
+        WordVec layers = visible_, key_before = hn::Zero(Words{});
+        if (has_ties) layers = key_before;
+        const std::uint32_t end = has_ties ? block_.height : std::min(block_.height, most_);
+        for (std::uint32_t pass = 0; pass < end; ++pass) {
+            WordVec key;
+            const WordVec place = level(pass, key);
+            WordMask has = hn::Lt(hn::Set(Words{}, pass), visible_);
+            if (has_ties) {
+                if (pass > 0) has = hn::And(has, hn::Ne(key, key_before));
+                has = hn::And(has, hn::Lt(layers, most));
+                layers = hn::Add(layers, hn::IfThenElseZero(has, hn::Set(Words{}, 1)));
+            }
+            key_before = key;
+            blend_front(take(place, has), has, front);
+        }
+        const WordMask all = hn::Eq(visible_, visible_);
+        blend_front(take(visible_, hn::Not(all)), hn::Lt(layers, most), front);
+        store(all, front, 4, front_codes);
     }
 
   private:
@@ -91,7 +108,11 @@ class Columns {
 
     // Places of level k, near to far.
     HWY_INLINE WordVec level(std::size_t k) const {
-        WordVec place, key;
+        WordVec key;
+        return level(k, key);
+    }
+    HWY_INLINE WordVec level(std::size_t k, WordVec& key) const {
+        WordVec place;
         hn::LoadInterleaved2(Words{}, reinterpret_cast<const std::uint32_t*>(block_.levels + k * block_lanes + lane_),
                              place, key);
         return place;
@@ -123,89 +144,93 @@ class Columns {
         return color;
     }
 
-    // As scalar::blend_near. A column whose only fragment is the near one has no other to pass the old front through; a
+    // As the twin's blend_near. A column whose only fragment is the near one has no other to pass the old front through; a
     // column that has ended keeps it, because 0 members differ from its number of fragments.
-    HWY_INLINE void blend_near(const Color& color, WordMask has, WordVec (&front)[4]) const {
-        const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, value_of(front[3]));
+    HWY_INLINE void blend_near(const Color& color, WordMask has, Held (&front)[4]) const {
+        const FloatVec alpha = color.channel[3], through = let_through(AllLanes{}, target_.value(front[3]));
         const WordVec own = hn::IfThenElseZero(has, hn::Set(Words{}, 1));
         const WordMask others = hn::Ne(alive_, own);
         for (std::size_t c = 0; c < 4; ++c) {
             const FloatVec blended = c == 3 ? covered(AllLanes{}, through, alpha)
-                                            : under(value_of(front[c]), through, alpha, color.channel[c]);
-            front[c] = hn::Max(hn::IfThenElseZero(others, front[c]), hn::IfThenElseZero(has, code_of(blended)));
+                                            : under(target_.value(front[c]), through, alpha, color.channel[c]);
+            front[c] = greater(where(others, front[c]), where(has, target_.stored(blended)));
         }
     }
 
-    // As scalar::blend_far; a column without a far fragment takes alpha 0, and keeps its back.
-    HWY_INLINE static void blend_far(const Color& color, WordVec (&back)[4]) {
-        const WordVec code = code_of(color.channel[3]);
-        const WordMask is_there = hn::Ne(code, hn::Zero(Words{}));
-        const FloatVec alpha = float_of(code), rest = hn::Sub(hn::Set(Floats{}, 255.0f), alpha);
+    // As the twin's; a column without a far fragment takes alpha 0, and keeps its back. Says which columns have changed.
+    HWY_INLINE WordMask blend_far(const Color& color, Held (&back)[4]) const {
+        const Held dump = target_.stored(color.channel[3]);
+        const WordMask is_there = is_set(dump);
+        const FloatVec alpha = target_.operand(dump), rest = target_.rest(alpha);
         for (std::size_t c = 0; c < 3; ++c) {
-            const WordVec over = blended<rounding>(float_of(code_of(color.channel[c])), alpha, float_of(back[c]), rest);
-            back[c] = hn::IfThenElse(is_there, over, back[c]);
+            const FloatVec far = target_.operand(target_.stored(color.channel[c]));
+            back[c] = choose(is_there, target_.add(far, alpha, target_.operand(back[c]), rest), back[c]);
         }
+        return is_there;
     }
 
-    // As scalar::blend_front; a column that has ended takes colour 0, which is neutral under UNDER.
-    HWY_INLINE static void blend_front(const Color& color, WordVec (&front)[4]) {
-        const FloatVec all = hn::Set(Floats{}, 255.0f), let_through = float_of(front[3]);
+    // As the twin's blend_under. An 8-bit column that has ended takes colour 0, which is neutral; a float one is kept.
+    HWY_INLINE void blend_front(const Color& color, WordMask has, Held (&front)[4]) const {
+        const FloatVec let_through = target_.operand(front[3]);
+        const auto keep = [&](Held next, Held old)
+                              HWY_ATTR { return Target::is_float ? choose(has, next, old) : next; };
         for (std::size_t c = 0; c < 3; ++c) {
-            const WordVec source = code_of(hn::Mul(color.channel[c], color.channel[3]));
-            front[c] = blended<rounding>(float_of(source), let_through, float_of(front[c]), all);
+            const FloatVec layer = target_.operand(target_.stored(hn::Mul(color.channel[c], color.channel[3])));
+            front[c] = keep(target_.add(layer, let_through, target_.operand(front[c]), target_.one()), front[c]);
         }
-        const FloatVec alpha = float_of(code_of(color.channel[3]));
-        front[3] = blended<rounding>(alpha, hn::Zero(Floats{}), let_through, hn::Sub(all, alpha));
+        const FloatVec alpha = target_.operand(target_.stored(color.channel[3]));
+        front[3] = keep(target_.add(alpha, hn::Zero(Floats{}), let_through, target_.rest(alpha)), front[3]);
     }
 
     const ColumnBlock& block_;
     std::size_t lane_;
+    std::uint32_t most_;
+    Target target_;
     WordVec visible_, alive_;
     bool is_full_;
 };
 
-void both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
-    using enum pipeline::BlendRounding;
-    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-        if (rounding == nearest)
-            Columns<nearest>{block, lane}.both_ends(front, back);
-        else
-            Columns<truncate>{block, lane}.both_ends(front, back);
+bool both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
+    bool is_plain = true;
+    with_rules(rules, [&]<class Rules>(Rules) HWY_ATTR {
+        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+            is_plain &= Columns<Rules>{block, lane, rules}.both_ends(front, back);
+    });
+    return is_plain;
 }
 
-void front_alone(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
-    using enum pipeline::BlendRounding;
-    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
-        if (rounding == nearest)
-            Columns<nearest>{block, lane}.front_alone(front);
-        else
-            Columns<truncate>{block, lane}.front_alone(front);
-}
-
-void codes(const std::uint32_t* words, BlockCodes& out) {
-    for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
-        const WordVec word = hn::LoadU(Words{}, words + lane);
-        for (int c = 0; c < 4; ++c)
-            hn::StoreU(hn::And(hn::ShiftRightSame(word, 8 * c), hn::Set(Words{}, 0xffu)), Words{},
-                       &out[static_cast<std::size_t>(c)][lane]);
-    }
+void front_alone(const ColumnBlock& block, BlockCodes& front, const BlockRules& rules) {
+    const bool has_ties = block.has_any_tie();
+    with_rules(rules, [&]<class Rules>(Rules) HWY_ATTR {
+        for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
+            Columns<Rules>{block, lane, rules}.front_alone(front, has_ties);
+    });
 }
 
 // algorithms.md 0.4, with the codes packed to a word a pixel, red lowest.
-void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
+template <pipeline::UnormRounding to_code>
+void last_quad_by(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
+    using Target = VectorTarget<Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // nothing is blended here
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
-        const FloatVec alpha = value_of(hn::LoadU(d, &front[3][lane]));
+        const auto value = [lane](const LaneWords& codes)
+                               HWY_ATTR { return Target::value(hn::LoadU(Words{}, &codes[lane])); };
+        const FloatVec alpha = value(front[3]);
         const FloatVec through = meaning == FrontAlpha::covers ? let_through(AllLanes{}, alpha) : alpha;
         WordVec word = hn::Set(d, 0xff000000u);
         for (std::size_t c = 0; c < 3; ++c) {
-            const FloatVec near = value_of(hn::LoadU(d, &front[c][lane])),
-                           behind = value_of(hn::LoadU(d, &back[c][lane]));
-            const WordVec code = code_of(composited(near, through, behind));
+            const WordVec code = Target::stored(composited(value(front[c]), through, value(back[c])));
             word = hn::Or(word, hn::ShiftLeftSame(code, static_cast<int>(8 * c)));
         }
         hn::StoreU(word, d, words + lane);
     }
+}
+
+void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
+               std::uint32_t* words) {
+    using enum pipeline::UnormRounding;
+    if (rules.rounding.unorm == half_up) return last_quad_by<half_up>(front, back, meaning, words);
+    last_quad_by<product_even>(front, back, meaning, words);
 }
 
 }  // namespace strata::peeling::HWY_NAMESPACE
@@ -217,39 +242,38 @@ HWY_AFTER_NAMESPACE();
 namespace strata::peeling {
 HWY_EXPORT(both_ends);
 HWY_EXPORT(front_alone);
-HWY_EXPORT(codes);
 HWY_EXPORT(last_quad);
 
-void peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, pipeline::BlendRounding rounding) {
-    using enum pipeline::BlendRounding;
-    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(both_ends))(block, front, back, rounding);
-    if (rounding == nearest)
-        scalar::peel_both_ends<nearest>(block, front, back);
-    else
-        scalar::peel_both_ends<truncate>(block, front, back);
+// Tied columns are rare, and left to the twin.
+bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
+    if (simd_is_scalar()) return scalar::peel_both_ends(block, false, front, back, rules);
+    const auto kernel = kernel_of(HWY_DISPATCH_TABLE(both_ends));
+    if (!block.has_any_tie()) return kernel(block, front, back, rules);
+    BlockCodes tied_front = front, tied_back = back;
+    bool is_plain = kernel(block, front, back, rules);
+    is_plain &= scalar::peel_both_ends(block, true, tied_front, tied_back, rules);
+    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+        if (block.has_ties[lane] == 0) continue;
+        scalar::put_column(scalar::column(tied_front, lane), lane, front);
+        scalar::put_column(scalar::column(tied_back, lane), lane, back);
+    }
+    return is_plain;
 }
 
-void peel_front(const ColumnBlock& block, BlockCodes& front, pipeline::BlendRounding rounding) {
-    using enum pipeline::BlendRounding;
-    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(front_alone))(block, front, rounding);
-    if (rounding == nearest)
-        scalar::peel_front<nearest>(block, front);
-    else
-        scalar::peel_front<truncate>(block, front);
-}
-
-BlockCodes codes_of(const std::uint32_t* words) {
-    BlockCodes result;
+bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes&, const BlockRules& rules) {
     if (simd_is_scalar())
-        scalar::codes_of(words, result);
+        scalar::peel_front(block, front, rules);
     else
-        kernel_of(HWY_DISPATCH_TABLE(codes))(words, result);
-    return result;
+        kernel_of(HWY_DISPATCH_TABLE(front_alone))(block, front, rules);
+    return true;
 }
 
-void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
-    if (simd_is_scalar()) return scalar::composite(front, back, meaning, words);
-    kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, meaning, words);
+void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
+                     std::uint32_t* words) {
+    if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, meaning, rules, words);
+    with_rules(rules, [&]<class Rules>(Rules) {
+        scalar::composite(scalar::Target<Rules>{rules}, front, back, meaning, words);
+    });
 }
 
 }  // namespace strata::peeling

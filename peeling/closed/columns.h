@@ -40,6 +40,17 @@ struct ColumnBlock {
     [[nodiscard]] std::uint32_t place(std::size_t lane, std::size_t k) const noexcept {
         return static_cast<std::uint32_t>(levels[k * block_lanes + lane]);
     }
+    // Level k and those beside it that hold its depth end here, at most, and begin here, at least.
+    [[nodiscard]] std::uint32_t end_of_depth(std::size_t lane, std::uint32_t k, std::uint32_t most) const noexcept {
+        std::uint32_t end = k + 1;
+        while (end < most && key(lane, end) == key(lane, k)) ++end;
+        return end;
+    }
+    [[nodiscard]] std::uint32_t begin_of_depth(std::size_t lane, std::uint32_t least, std::uint32_t k) const noexcept {
+        std::uint32_t begin = k;
+        while (begin > least && key(lane, begin - 1) == key(lane, k)) --begin;
+        return begin;
+    }
     [[nodiscard]] bool has_any_tie() const noexcept {
         std::uint32_t any = 0;
         for (const std::uint32_t tied : has_ties) any |= tied;

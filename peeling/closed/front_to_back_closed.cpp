@@ -12,12 +12,7 @@
 #include <algorithm>
 
 #include "peeling/closed/arrivals.h"
-#include "peeling/closed/closed_form.h"
-#include "peeling/programs/region_programs.h"
-#include "pipeline/formats/convert.h"
-#include "pipeline/frame/pass_counters.h"
-#include "pipeline/region/region_shortcuts.h"
-#include "pipeline/stages/blend.h"
+#include "peeling/closed/block_course.h"
 
 namespace strata::peeling {
 
@@ -118,74 +113,14 @@ class ColumnTallies {
     std::vector<std::uint32_t> depth_number_;  // by place in a column: its depth, from 1
 };
 
-void trace_layer(Region& region, const ColumnBlock& block, std::size_t lane, std::uint32_t k) {
+void trace_layers(Region& region, const ColumnBlock& block, std::uint32_t most) {
     if (!region.frame().trace) return;
-    region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, Side::front, false});
-}
-
-// Composites the layers of some pixels of a block as `peel` and `composite` do: stored, loaded, blended UNDER.
-class GroupComposite {
-  public:
-    GroupComposite(Region& region, const ColumnBlock& block, const BlockPixels& pixels)
-        : region_{region}, block_{block}, lane_{pixels.lane}, n_{pixels.count} {
-        std::fill_n(next_.begin(), n_, 0u);
+    for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane) {
+        const std::uint32_t end = block.visible[lane];
+        std::uint32_t layers = 0;
+        for (std::uint32_t k = 0; k < end && layers < most; k = block.end_of_depth(lane, k, end), ++layers)
+            region.trace({static_cast<std::uint32_t>(block.first + lane), block.key(lane, k), 0, Side::front, false});
     }
-
-    // The last layer is an empty one, as in the last pass.
-    void run(BlockCodes& codes) {
-        const Format format = region_.frame().color_format;
-        const auto count = static_cast<int>(n_);
-        ColorCodes accumulated;
-        for (std::size_t c = 0; c < 4; ++c)
-            for (std::size_t i = 0; i < n_; ++i) accumulated[c][i] = codes[c][lane_[i]];
-        for (bool any = true; any;) {
-            any = take_layer();
-            for (std::size_t c = 0; c < 4; ++c) {
-                encode(info(format).type, region_.profile().half_rounding, layer_[c], codes_, count);
-                decode(info(format).type, codes_, layer_[c], count);
-            }
-            blend(blend_mode::under, info(format).type, region_.profile(), 4, layer_, accumulated, count);
-        }
-        for (std::size_t c = 0; c < 4; ++c)
-            for (std::size_t i = 0; i < n_; ++i) codes[c][lane_[i]] = accumulated[c][i];
-    }
-
-  private:
-    // The next layer of every pixel: the first arrival of the next depth, times alpha; (0, 0, 0, 0) where none is left.
-    [[nodiscard]] bool take_layer() {
-        bool any = false;
-        for (std::size_t i = 0; i < n_; ++i) {
-            const std::size_t lane = lane_[i];
-            const std::uint32_t k = next_[i], end = block_.visible[lane];
-            const bool has = k < end;
-            const std::size_t place = has ? block_.place(lane, k) : 0;
-            for (std::size_t c = 0; c < 4; ++c) color_[c][i] = has ? block_.color[c][place] : 0.0f;
-            if (!has) continue;
-            any = true;
-            trace_layer(region_, block_, lane, k);
-            while (next_[i] < end && block_.key(lane, next_[i]) == block_.key(lane, k)) ++next_[i];
-        }
-        premultiply(color_, layer_, n_);
-        return any;
-    }
-
-    Region& region_;
-    const ColumnBlock& block_;
-    std::array<std::size_t, block_lanes> lane_;
-    std::size_t n_;
-    Lanes<std::uint32_t> next_, codes_;
-    ColorLanes color_, layer_;
-};
-
-// The accumulated colour's clear value, (0, 0, 0, 1), as codes.
-BlockCodes cleared(const Region& region) {
-    BlockCodes block{};
-    Lanes<float> one;
-    Lanes<std::uint32_t> code;
-    std::fill_n(one.begin(), block_lanes, 1.0f);
-    encode(info(region.frame().color_format).type, region.profile().half_rounding, one, code, int{block_lanes});
-    std::copy_n(code.begin(), block_lanes, block[3].begin());
-    return block;
 }
 
 // Everything that one iteration counts; called with 1, 2, 3 ...
@@ -228,89 +163,10 @@ class PassCounters {
     std::uint64_t passed_ = 0, exhausted_ = 0;
 };
 
-// The blocks of an rgba8 frame, from fragments to the last quad.
-class Rgba8Blocks {
-  public:
-    explicit Rgba8Blocks(Region& region)
-        : region_{region},
-          target_{region.make_color()},
-          background_{RegionShortcuts{region}.words(region.opaque_color())},
-          result_{RegionShortcuts{region}.words(target_)},
-          before_{cleared(region)} {
-        for (std::size_t pixel = 0; pixel < region.rect().area(); ++pixel)  // where there is no fragment
-            result_[pixel] = background_[pixel] | 0xff000000u;
-    }
-
-    void add(const ColumnBlock& block) {
-        BlockCodes front = before_;
-        peel_front(block, front, region_.profile().blend_rounding);
-        if (block.has_any_tie()) {
-            const BlockPixels tied = pixels_of(block, true);
-            for (std::size_t i = 0; i < tied.count; ++i)
-                for (std::size_t c = 0; c < 4; ++c) front[c][tied.lane[i]] = before_[c][tied.lane[i]];
-            GroupComposite{region_, block, tied}.run(front);
-        }
-        composite_block(front, codes_of(background_ + block.first), FrontAlpha::lets_through, result_ + block.first);
-        if (!region_.frame().trace) return;
-        for (std::size_t lane = 0; lane < static_cast<std::size_t>(block.count); ++lane)
-            for (std::uint32_t k = 0; k < block.visible[lane] && block.has_ties[lane] == 0; ++k)
-                trace_layer(region_, block, lane, k);
-    }
-
-    void publish() {
-        const std::uint64_t area = region_.rect().area();
-        RegionShortcuts{region_}.book(of_loads(4 + 4, area) + of_color(4, area, false),
-                                      {.full_screen = 1});  // the last quad
-        region_.publish(target_);
-    }
-
-  private:
-    Region& region_;
-    Target target_;
-    const std::uint32_t* background_;
-    std::uint32_t* result_;
-    BlockCodes before_;
-};
-
-// The blocks of a frame of any other format, composited by the passes' own stage functions.
-class OtherBlocks {
-  public:
-    explicit OtherBlocks(Region& region)
-        : region_{region}, accumulated_{region.make_color()}, before_{cleared(region)} {
-        fill();
-    }
-
-    void add(const ColumnBlock& block) {
-        BlockCodes codes = before_;
-        GroupComposite{region_, block, pixels_of(block, false)}.run(codes);
-        for (std::size_t c = 0; c < 4; ++c) std::copy_n(codes[c].begin(), block.count, codes_[c].begin());
-        RegionShortcuts{region_}.store_pixels(accumulated_, static_cast<std::uint32_t>(block.first), block.count,
-                                              codes_);
-    }
-
-    // Not a clear: nothing is counted before it is sure that this form applies.
-    void fill() {
-        const std::size_t pixels = region_.rect().area();
-        for (std::size_t c = 0; c < 4; ++c) codes_[c].fill(before_[c][0]);
-        for (std::size_t first = 0; first < pixels; first += batch_capacity)
-            RegionShortcuts{region_}.store_pixels(
-                accumulated_, static_cast<std::uint32_t>(first),
-                static_cast<int>(std::min<std::size_t>(pixels - first, batch_capacity)), codes_);
-    }
-
-    void publish() { publish_over_background(region_, accumulated_, region_.opaque_color()); }
-
-  private:
-    Region& region_;
-    Target accumulated_;
-    BlockCodes before_;
-    ColorCodes codes_;
-};
-
 // Goes through the passes as the algorithm does, with the same questions in the same order; only the books are written.
 void count_passes(Region& region, const RegionFragments& fragments, const PassTallies& tallies) {
     PassCounters counters{region, fragments, tallies};
-    for (std::size_t pass = 1;; ++pass) {  // no limit: peels_to_the_end()
+    for (std::size_t pass = 1; !region.limit_reached(); ++pass) {
         region.begin_iteration();
         RegionShortcuts{region}.book(counters.of(pass), {.geometry = 1, .full_screen = 1, .copies = 1});
         if (!region.any(RegionShortcuts::query_of(counters.passed()), Idle::when_zero)) break;
@@ -318,30 +174,32 @@ void count_passes(Region& region, const RegionFragments& fragments, const PassTa
 }
 
 // One walk over the blocks gives colours and tallies; the counters follow once it is sure that all fragments fitted.
-template <class Blocks>
+template <class Course>
 bool composite_layers(Region& region) {
     PassTallies tallies;
     ColumnTallies columns{tallies};
-    Blocks blocks{region};
+    const BlockRules rules = block_rules(region.frame(), 0);
+    Course course{region, FrontAlpha::lets_through, rules};
     const auto fragments = for_each_block(region, [&](const ColumnBlock& block) {
         columns.add(block);
-        blocks.add(block);
+        course.run(block, peel_front);
+        trace_layers(region, block, rules.most_passes);
     });
     if (!fragments) return false;
     columns.finish();
     const auto color = static_cast<std::uint64_t>(info(region.frame().color_format).bytes_per_pixel);
     RegionShortcuts{region}.book(of_clear(color, region.rect().area()), {});  // the accumulated colour's clear
     count_passes(region, *fragments, tallies);
-    blocks.publish();
+    course.publish();
     return true;
 }
 
 }  // namespace
 
 bool front_to_back_closed(Region& region) {
-    if (!peels_to_the_end(region.frame())) return false;
-    if (region.frame().color_format == Format::rgba8) return composite_layers<Rgba8Blocks>(region);
-    return composite_layers<OtherBlocks>(region);
+    if (!peels_by_columns(region.frame())) return false;
+    return has_float_blocks(region.frame()) ? composite_layers<FloatCourse>(region)
+                                            : composite_layers<Rgba8Course>(region);
 }
 
 }  // namespace strata::peeling

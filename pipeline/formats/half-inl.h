@@ -2,10 +2,11 @@
 // *_simd.cpp alone: Highway compiles it once a set, wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
 //
 // Rule     half_to_float and to_half<nearest_even> of half.h, to the bit; but a signalling NaN becomes quiet. `Words`
-//          is a tag of 32-bit words, a code in the low half of each. Only sets with has_halves convert as fast as that.
-// Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/execution_test.cpp
+//          is a tag of 32-bit words, a code in the low half of each. Only sets with has_halves convert as fast as that:
+//          values_of_halves and codes_of_halves go lane by lane on the others, rounded_to_half by integers.
+// Tests    tests/pipeline/stages/simd_stages_test.cpp; tests/peeling/closed/block_passes_test.cpp; tests/peeling/execution_test.cpp
 #include "hwy/highway.h"
-#include "rasterizer/base/numerics.h"
+#include "pipeline/formats/half.h"
 
 #if defined(STRATA_PIPELINE_HALF_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_PIPELINE_HALF_INL_H
@@ -37,6 +38,65 @@ HWY_INLINE hn::Vec<Words> half_codes(Words words, hn::Vec<hn::RebindToFloat<Word
 #else
 constexpr bool has_halves = false;
 #endif
+
+// The two for any set, where a few vectors are converted.
+template <class Words>
+HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> values_of_halves(Words d, hn::Vec<Words> codes) {
+    if constexpr (has_halves) {
+        return half_values(d, codes);
+    } else {
+        alignas(64) std::uint32_t word[hn::MaxLanes(d)];
+        alignas(64) float value[hn::MaxLanes(d)];
+        hn::Store(codes, d, word);
+        for (std::size_t i = 0; i < hn::Lanes(d); ++i) value[i] = half_to_float(static_cast<std::uint16_t>(word[i]));
+        return hn::Load(hn::RebindToFloat<Words>{}, value);
+    }
+}
+
+// Of values that a half has.
+template <class Words>
+HWY_INLINE hn::Vec<Words> codes_of_halves(Words d, hn::Vec<hn::RebindToFloat<Words>> values) {
+    if constexpr (has_halves) {
+        return half_codes(d, values);
+    } else {
+        alignas(64) std::uint32_t word[hn::MaxLanes(d)];
+        alignas(64) float value[hn::MaxLanes(d)];
+        hn::Store(values, hn::RebindToFloat<Words>{}, value);
+        for (std::size_t i = 0; i < hn::Lanes(d); ++i) word[i] = to_half<HalfRounding::nearest_even>(value[i]);
+        return hn::Load(d, word);
+    }
+}
+
+// half_to_float of to_half: the value that a half keeps of each lane, by to_half's steps on binary32's own bits.
+template <HalfRounding rounding, class Words>
+HWY_INLINE hn::Vec<hn::RebindToFloat<Words>> rounded_to_half(Words, hn::Vec<hn::RebindToFloat<Words>> values) {
+    const hn::RebindToSigned<Words> d;
+    const hn::RebindToFloat<Words> floats;
+    constexpr bool is_nearest = rounding == HalfRounding::nearest_even;
+    if constexpr (has_halves && is_nearest)
+        return hn::PromoteTo(floats, hn::DemoteTo(hn::Rebind<hwy::float16_t, Words>{}, values));
+    const auto bits = hn::BitCast(d, values), magnitude = hn::And(bits, hn::Set(d, 0x7fffffff));
+    const auto cut = hn::Set(d, ~0x1fff), infinity = hn::Set(d, 255 << 23), two_to_16 = hn::Set(d, 143 << 23);
+    const auto is_small = hn::Lt(magnitude, hn::Set(d, 113 << 23));  // below 2^-14
+    const auto small = hn::BitCast(floats, hn::IfThenElseZero(is_small, magnitude));
+    auto result = magnitude, denormal = magnitude, beyond = infinity;
+    if constexpr (is_nearest) {
+        const auto last = hn::And(hn::ShiftRight<13>(magnitude), hn::Set(d, 1));
+        result = hn::And(hn::Add(magnitude, hn::Add(last, hn::Set(d, 0xfff))), cut);
+        const auto half = hn::Set(floats, 0.5f);
+        denormal = hn::BitCast(d, hn::Sub(hn::Add(small, half), half));
+    } else {
+        result = hn::And(magnitude, cut);
+        const auto units = hn::ConvertTo(d, hn::Mul(small, hn::Set(floats, 0x1p24f)));  // cuts
+        denormal = hn::BitCast(d, hn::Mul(hn::ConvertTo(floats, units), hn::Set(floats, 0x1p-24f)));
+        beyond = hn::IfThenElse(hn::Eq(magnitude, infinity), infinity, hn::Set(d, 0x477fe000));  // 65504
+    }
+    result = hn::IfThenElse(is_small, denormal, result);
+    result = hn::IfThenElse(hn::Lt(result, two_to_16), result, beyond);
+    const auto nan = hn::Or(hn::And(magnitude, cut), hn::Set(d, 0x7fc00000));
+    result = hn::IfThenElse(hn::Gt(magnitude, infinity), nan, result);
+    return hn::BitCast(floats, hn::Or(result, hn::AndNot(hn::Set(d, 0x7fffffff), bits)));
+}
 
 // A denormal as the zero of its sign: flushed of blend_float.h.
 template <class Words>

@@ -5,6 +5,7 @@
 #include "tests/peeling/rendering.h"
 #include "tests/support/difference.h"
 #include "tests/support/host_environment.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/random_triangles.h"
 
 namespace {
@@ -80,6 +81,13 @@ void check_all_ways(const TriangleScene& scene, const Machine& machine, RenderOp
                                << way.trust_idle << ", fragment memory " << way.fragment_memory);
         CHECK(difference(found, expected) == "");
     }
+}
+
+// A profile that has no name.
+RenderResult drawn_on(const strata::pipeline::DeviceProfile& profile, const TriangleScene& scene, const char* algorithm,
+                      const RenderOptions& options) {
+    strata::peeling::Renderer renderer{scene.list, scene.view, profile, options};
+    return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
 }
 
 RenderOptions small_frame() {
@@ -260,6 +268,48 @@ TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
                 }
 }
 
+// Mesa's drivers round each product of a blend and convert by binary32 products; other profiles may mix the rules. Random ones.
+TEST_CASE(
+    "peels execute alike on devices that blend and convert by every rule, in every format, with ties and under "
+    "limits") {
+    Random random{81};
+    const std::array<Way, 2> chosen{ways[7], ways[10]};
+    using namespace strata::pipeline;
+    for (const char* base : {"llvmpipe", "llvmpipe_sse", "softpipe", "geforce8_dx101"})
+        for (const auto format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
+            for (const char* algorithm : {"front_to_back", "dual"})
+                for (int trial = 0; trial < 3; ++trial) {
+                    TriangleScene scene = random_triangles(82, 12);
+                    scene.list.instances.push_back(scene.list.instances[0]);  // every depth twice
+                    DeviceProfile profile = *find_profile(base);
+                    if (trial > 0) {
+                        profile.blend_rounding = static_cast<BlendRounding>(random_int(random, 0, 2));
+                        profile.unorm_rounding = static_cast<UnormRounding>(random_int(random, 0, 1));
+                        profile.half_rounding = static_cast<HalfRounding>(random_int(random, 0, 1));
+                        profile.denormals = static_cast<DenormalRule>(random_int(random, 0, 1));
+                        profile.min_max_nan = static_cast<MinMaxNan>(random_int(random, 0, 1));
+                    }
+                    RenderOptions options = small_frame();
+                    options.width = 40;
+                    options.height = 28;
+                    options.color_format = format;
+                    options.alpha = random_channel(random);
+                    options.background = random_color(random);
+                    options.execution = Execution::literal;
+                    const auto drawn = [&](const RenderOptions& how) {
+                        return drawn_on(profile, scene, algorithm, how);
+                    };
+                    const RenderResult expected = drawn(options);
+                    REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+                    INFO(algorithm << " on " << base << ", format " << static_cast<int>(format) << ", trial " << trial);
+                    for (const Way& way : chosen) {
+                        const RenderResult found = drawn(with(options, way));
+                        CHECK(difference(found, expected) == "");
+                        CHECK(found.frame.work.visited == 0);  // no pass has run
+                    }
+                }
+}
+
 // Rows and closed forms know colours by exact planes alone, even where depth is theirs.
 TEST_CASE("colours by the chip's weights execute alike on a device whose depth is an exact plane") {
     strata::pipeline::DeviceProfile profile = *strata::pipeline::find_profile("ideal");
@@ -270,10 +320,7 @@ TEST_CASE("colours by the chip's weights execute alike on a device whose depth i
             RenderOptions options = small_frame();
             options.color_format = format;
             options.execution = Execution::literal;
-            const auto drawn = [&](const RenderOptions& how) {
-                strata::peeling::Renderer renderer{scene.list, scene.view, profile, how};
-                return renderer.render(*strata::peeling::find_algorithm(algorithm), {}, {});
-            };
+            const auto drawn = [&](const RenderOptions& how) { return drawn_on(profile, scene, algorithm, how); };
             const RenderResult expected = drawn(options);
             REQUIRE(expected.outcome == strata::peeling::Outcome::done);
             options.execution = Execution::replay;

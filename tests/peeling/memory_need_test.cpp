@@ -63,7 +63,7 @@ TEST_CASE("targets of a whole frame have every pixel, those of tiles the pixels 
     literal.nearest_depth = false;
     RenderOptions replay = literal;
     replay.execution = Execution::replay;
-    replay.max_passes = 20;
+    replay.termination.rule = strata::pipeline::TerminationRule::paper;  // by passes
     replay.tile_size = 32;
     const std::uint64_t whole = need_of("front_to_back", literal).targets / (std::uint64_t{1000} * 500);
     const std::uint64_t tiled = need_of("front_to_back", replay).targets /

@@ -70,8 +70,10 @@ TEST_CASE("every selection keeps the promise that it makes of its program, on ev
                     options.color_format = format;
                     options.max_passes = max_passes;
                     INFO(algorithm.name << " on " << profile << ", at most " << max_passes << " passes");
-                    CHECK_NOTHROW(
-                        render(scene.list, scene.view, {profile, algorithm.name}, options, {.check_selections = true}));
+                    strata::peeling::Algorithm by_passes = algorithm;
+                    by_passes.closed_form = nullptr;
+                    strata::peeling::Renderer renderer{scene.list, scene.view, *find_profile(profile), options};
+                    CHECK_NOTHROW(renderer.render(by_passes, {}, {.check_selections = true}));
                 }
 }
 

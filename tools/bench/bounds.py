@@ -30,7 +30,7 @@ def parse_arguments():
     parser.add_argument("--captures", default=str(ROOT / "../shared/nv2a"), help="pictures for hardware-check")
     parser.add_argument("--size", default=MODEL_SIZE, help="of the models' frames")
     parser.add_argument("--repeat", type=int, default=3, help="pairs of a row")
-    parser.add_argument("--rows", default="formats,devices,layers,check", help="which groups of rows")
+    parser.add_argument("--rows", default="formats,devices,drivers,layers,check", help="which groups of rows")
     options = parser.parse_args()
     if not pathlib.Path(options.strata).exists():
         sys.exit(f"bounds.py: --strata: expected the built command, found nothing at {options.strata}")
@@ -89,6 +89,15 @@ def device_rows(options, table):
                   frame(options, scene, options.size, "geforce3", "rgba8", "depth_units", limited), 1.5)
 
 
+def driver_rows(options, table):
+    """Devices that draw as Mesa's software drivers do beside one that draws by exact planes."""
+    for name, scene in models(options):
+        for algorithm in ("dual", "front_to_back"):
+            times = lambda profile: frame(options, scene, options.size, profile, "rgba8", algorithm, ("--alpha", "0.5"))
+            for driver in ("llvmpipe", "llvmpipe_sse", "softpipe"):
+                table.row(f"{name}, {algorithm}, {driver} to geforce8", times(driver), times("geforce8"), 2)
+
+
 def layers_command(strata, scene, size, profile, algorithm, extra, folder):
     return [strata, "layers", scene, "--size", size, "--profile", profile, "--algorithm", algorithm, "--threads", "1", *extra,
             "-o", f"{folder}/layers.exr", "--stats", f"{folder}/stats.json"]
@@ -129,7 +138,7 @@ def check_rows(options, table):
 def main():
     options = parse_arguments()
     table = Table(options.repeat)
-    groups = {"formats": format_rows, "devices": device_rows, "layers": layer_rows, "check": check_rows}
+    groups = {"formats": format_rows, "devices": device_rows, "drivers": driver_rows, "layers": layer_rows, "check": check_rows}
     for name in options.rows.split(","):
         if name not in groups:
             sys.exit(f"bounds.py: --rows: expected {', '.join(groups)}, found '{name}'")

@@ -1,5 +1,4 @@
-// Model: std::sort of each column on its own; for the dual blocks the passes themselves, fragment by fragment in binary32 as dual.cpp
-// writes them, stored by an UNORM8 rule of the test's own.
+// Model: std::sort of each column on its own.
 #include "peeling/closed/columns.h"
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <vector>
 
 #include "peeling/closed/arrivals.h"
-#include "peeling/closed/block_passes.h"
 #include "rasterizer/base/simd.h"
 #include "tests/support/random_numbers.h"
 
@@ -98,12 +96,7 @@ TEST_CASE("columns of any height and order are sorted, each on its own, on every
 
 namespace {
 
-std::uint32_t stored(float x) {
-    const double clamped = std::clamp(double{x}, 0.0, 1.0);
-    return static_cast<std::uint32_t>(std::floor(clamped * 255.0 + 0.5));
-}
-
-// A block's data, and the passes over one column of it. Colours stand anywhere, or row by row in whole columns.
+// A block's data. Colours stand anywhere, or row by row in whole columns.
 struct Scene {
     std::vector<std::uint64_t> rows;
     std::array<std::vector<float>, 4> color;
@@ -127,55 +120,9 @@ struct Scene {
         block.levels = rows.data();
         for (std::size_t c = 0; c < 4; ++c) block.color[c] = color[c].data();
     }
-
-    [[nodiscard]] float value(std::size_t lane, std::size_t k, std::size_t c) const {
-        return color[c][rows[k * block_lanes + lane] & 0xffffffffu];
-    }
-
-    void expect(std::size_t lane, const BlockCodes& opaque, BlockCodes& front, BlockCodes& back) const {
-        std::size_t near = 0, far = block.visible[lane];
-        std::array<std::uint32_t, 4> f{}, b{};
-        for (std::size_t c = 0; c < 4; ++c) b[c] = opaque[c][lane];
-        for (; near < far; ++near) {
-            std::array<float, 4> held;
-            for (std::size_t c = 0; c < 4; ++c) held[c] = static_cast<float>(f[c]) / 255.0f;
-            for (std::size_t c = 0; c < 4; ++c) {
-                const float a = value(lane, near, 3);
-                const float under = c == 3 ? 1.0f - (1.0f - held[3]) * (1.0f - a)
-                                           : held[c] + (1.0f - held[3]) * (a * value(lane, near, c));
-                f[c] = std::max(block.visible[lane] + block.hidden[lane] > 1 ? f[c] : 0u, stored(under));
-            }
-            if (near + 1 >= far) break;
-            --far;
-            const std::uint32_t a = stored(value(lane, far, 3));
-            for (std::size_t c = 0; c < 3 && a != 0; ++c)
-                b[c] = static_cast<std::uint32_t>(
-                    std::floor((stored(value(lane, far, c)) * a + b[c] * (255 - a)) / 255.0 + 0.5));
-        }
-        for (std::size_t c = 0; c < 4; ++c) front[c][lane] = f[c], back[c][lane] = b[c];
-    }
 };
 
 }  // namespace
-
-TEST_CASE("a block of columns is peeled from both ends like its passes, on every instruction set") {
-    Random random{92};
-    std::uint64_t wrong = 0;
-    for (std::uint32_t depth = 0; depth <= 40; ++depth) {
-        const Scene scene{random, depth, depth % 3 == 0};
-        BlockCodes opaque{}, front{}, back{};
-        for (auto& channel : opaque)
-            for (auto& code : channel) code = below(random, 256);
-        for (std::size_t lane = 0; lane < block_lanes; ++lane) scene.expect(lane, opaque, front, back);
-        for (const Simd simd : available_simd()) {
-            const SimdScope kernels{simd};
-            BlockCodes f{}, b = opaque;
-            peel_both_ends(scene.block, f, b, pipeline::BlendRounding::nearest);
-            wrong += f == front && b == back ? 0 : 1;
-        }
-    }
-    CHECK(wrong == 0);
-}
 
 namespace {
 

@@ -1,0 +1,138 @@
+// peeling/closed/block_targets-inl.h - block_targets.h a vector of columns at a time. For *_simd.cpp alone: Highway compiles it once a set,
+// wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
+//
+// Rule     While the passes of a block run, an 8-bit channel is held as its code, a float as what blending makes of its
+//          value: without denormals where the device flushes them.
+// Numbers  Halves are multiples of 2^-24 and 1 - x of a half is 0 or at least 2^-11, so that no product or sum of them is
+//          a denormal of binary32, which flushing would make 0.
+// Tests    tests/peeling/closed/block_passes_test.cpp
+#include "hwy/highway.h"
+#include "peeling/closed/block_targets.h"
+#include "peeling/closed/columns.h"
+#include "pipeline/formats/half-inl.h"
+#include "pipeline/formats/unorm8-inl.h"
+
+#if defined(STRATA_PEELING_BLOCK_TARGETS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRATA_PEELING_BLOCK_TARGETS_INL_H
+#undef STRATA_PEELING_BLOCK_TARGETS_INL_H
+#else
+#define STRATA_PEELING_BLOCK_TARGETS_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::peeling::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+namespace formats = pipeline::HWY_NAMESPACE;
+
+using Words = hn::CappedTag<std::uint32_t, block_lanes>;
+using Signed = hn::RebindToSigned<Words>;
+using Floats = hn::RebindToFloat<Words>;
+
+using WordVec = hn::Vec<Words>;
+using WordMask = hn::Mask<Words>;
+using FloatVec = hn::Vec<Floats>;
+
+HWY_INLINE WordVec where(WordMask mask, WordVec x) { return hn::IfThenElseZero(mask, x); }
+HWY_INLINE FloatVec where(WordMask mask, FloatVec x) { return hn::IfThenElseZero(hn::RebindMask(Floats{}, mask), x); }
+HWY_INLINE WordVec choose(WordMask mask, WordVec yes, WordVec no) { return hn::IfThenElse(mask, yes, no); }
+HWY_INLINE FloatVec choose(WordMask mask, FloatVec yes, FloatVec no) {
+    return hn::IfThenElse(hn::RebindMask(Floats{}, mask), yes, no);
+}
+HWY_INLINE WordMask is_set(WordVec x) { return hn::Ne(x, hn::Zero(Words{})); }
+HWY_INLINE WordMask is_set(FloatVec x) { return is_set(hn::BitCast(Words{}, x)); }
+// Of values that are not negative, whose bits order as they do.
+HWY_INLINE WordVec greater(WordVec a, WordVec b) { return hn::Max(a, b); }
+HWY_INLINE FloatVec greater(FloatVec a, FloatVec b) {
+    return hn::BitCast(Floats{}, hn::Max(hn::BitCast(Words{}, a), hn::BitCast(Words{}, b)));
+}
+
+template <class Rules>
+class VectorTarget;
+
+template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code>
+class VectorTarget<Unorm8Rules<blend, to_code>> {
+  public:
+    using Held = WordVec;
+    static constexpr bool is_float = false;
+
+    HWY_INLINE explicit VectorTarget(const BlockRules&) {}
+    HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, 255.0f); }
+    HWY_INLINE static Held held(WordVec codes) { return codes; }
+    HWY_INLINE static WordVec codes(Held x) { return x; }
+    HWY_INLINE static FloatVec value(Held x) {
+        if constexpr (to_code == pipeline::UnormRounding::half_up) return formats::unorm8_values(Words{}, x);
+        return hn::Mul(operand(x), hn::Set(Floats{}, 1.0f / 255.0f));
+    }
+    HWY_INLINE static Held stored(FloatVec x) { return formats::unorm8_codes<to_code>(Words{}, x); }
+    // Codes are at most 255: exact in binary32, and positive as signed words.
+    HWY_INLINE static FloatVec operand(Held x) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, x)); }
+    HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
+
+    // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut to
+    // 255^2; the shifts divide by 255 and round as fragment-stages.md 8.2 says.
+    HWY_INLINE static Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
+        using enum pipeline::BlendRounding;
+        const Signed di;
+        const FloatVec source = hn::Mul(s, s_factor), destination = hn::Mul(d, d_factor);
+        if constexpr (blend == each_product)
+            return hn::BitCast(Words{}, hn::Min(hn::Add(product(source), product(destination)), hn::Set(di, 255)));
+        const auto sum = hn::Min(hn::ConvertTo(di, hn::Add(source, destination)), hn::Set(di, 65025));
+        const auto biased = hn::Add(sum, hn::Set(di, blend == nearest ? 128 : 1));
+        return hn::BitCast(Words{}, hn::ShiftRight<8>(hn::Add(biased, hn::ShiftRight<8>(biased))));
+    }
+
+  private:
+    // Unorm8Arithmetic::product.
+    HWY_INLINE static hn::Vec<Signed> product(FloatVec ab) {
+        const Signed di;
+        const auto whole = hn::ConvertTo(di, ab);
+        return hn::ShiftRight<8>(hn::Add(hn::Add(whole, hn::ShiftRight<8>(whole)), hn::Set(di, 128)));
+    }
+};
+
+template <pipeline::ChannelType type, pipeline::HalfRounding half>
+class VectorTarget<FloatRules<type, half>> {
+  public:
+    using Held = FloatVec;
+    static constexpr bool is_float = true;
+
+    HWY_INLINE explicit VectorTarget(const BlockRules& rules)
+        : kept_of_small_{hn::Set(Words{}, rules.flushes ? 0x80000000u : ~0u)} {}
+    HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, 1.0f); }
+    HWY_INLINE Held held(WordVec codes) const {
+        if constexpr (is_half) return formats::values_of_halves(Words{}, codes);
+        return flushed(hn::BitCast(Floats{}, codes));
+    }
+    HWY_INLINE static WordVec codes(Held x) {
+        if constexpr (is_half) return formats::codes_of_halves(Words{}, x);
+        return hn::BitCast(Words{}, x);
+    }
+    HWY_INLINE static FloatVec value(Held x) { return x; }
+    HWY_INLINE Held stored(FloatVec x) const { return flushed(rounded(x)); }
+    HWY_INLINE static FloatVec operand(Held x) { return x; }
+    HWY_INLINE FloatVec rest(FloatVec x) const { return flushed(hn::Sub(one(), x)); }
+    HWY_INLINE Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) const {
+        const FloatVec sum = hn::Add(flushed(hn::Mul(s, s_factor)), flushed(hn::Mul(d, d_factor)));
+        return rounded(formats::canonical(Words{}, flushed(sum)));
+    }
+
+  private:
+    static constexpr bool is_half = type == pipeline::ChannelType::half;
+
+    HWY_INLINE FloatVec flushed(FloatVec x) const {
+        if constexpr (is_half) return x;
+        const WordVec bits = hn::BitCast(Words{}, x);
+        const WordMask is_small = hn::Eq(hn::And(bits, hn::Set(Words{}, 0x7f800000u)), hn::Zero(Words{}));
+        return hn::BitCast(Floats{}, hn::IfThenElse(is_small, hn::And(bits, kept_of_small_), bits));
+    }
+    HWY_INLINE static FloatVec rounded(FloatVec x) {
+        if constexpr (is_half) return formats::rounded_to_half<half>(Words{}, x);
+        return x;
+    }
+
+    WordVec kept_of_small_;
+};
+
+}  // namespace strata::peeling::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,120 @@
+// peeling/closed/block_targets.h - how a colour target keeps what the passes of a block store: the scalar twins of block_targets-inl.h.
+//
+// Rule     A channel is kept as a code. A program reads its value, and what it writes is converted once. A blend takes
+//          operands, codes of 8 bits as whole numbers and floats without denormals, and rounds its sum once, or each
+//          product, as blend_unorm8.h and blend_float.h say.
+// Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
+// Tests    tests/peeling/closed/block_passes_test.cpp
+#pragma once
+#include <bit>
+#include <cstdint>
+
+#include "pipeline/formats/color_rounding.h"
+#include "pipeline/formats/format.h"
+#include "pipeline/formats/unorm8_product.h"
+#include "pipeline/stages/blend_float.h"
+#include "pipeline/stages/blend_unorm8.h"
+
+namespace strata::peeling {
+
+// What the passes of a block go by.
+struct BlockRules {
+    pipeline::ChannelType type = pipeline::ChannelType::unorm8;
+    pipeline::ColorRounding rounding = pipeline::HalfRounding::nearest_even;
+    pipeline::BlendRounding blend = pipeline::BlendRounding::nearest;
+    bool flushes = true;              // denormals, in blends of floats
+    std::uint32_t most_passes = ~0u;  // that peel, where a frame ends sooner
+};
+
+// Colours from 0 to this one, with alphas from 0 to 1, have no sum beyond the halves, and MAX keeps one of them.
+inline constexpr float most_plain_color = 1024.0f;
+
+// The rules as types, for loops that are compiled for them.
+template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code>
+struct Unorm8Rules {};
+template <pipeline::ChannelType type, pipeline::HalfRounding half>
+struct FloatRules {};
+
+template <pipeline::UnormRounding to_code, class Body>
+void with_blend(pipeline::BlendRounding blend, const Body& body) {
+    using enum pipeline::BlendRounding;
+    switch (blend) {
+        case nearest: return body(Unorm8Rules<nearest, to_code>{});
+        case truncate: return body(Unorm8Rules<truncate, to_code>{});
+        case each_product: return body(Unorm8Rules<each_product, to_code>{});
+    }
+}
+
+// Calls body with the type of the rules.
+template <class Body>
+void with_rules(const BlockRules& rules, const Body& body) {
+    using enum pipeline::ChannelType;
+    using enum pipeline::HalfRounding;
+    using enum pipeline::UnormRounding;
+    if (rules.type == single) return body(FloatRules<single, nearest_even>{});
+    if (rules.type == half && rules.rounding.half == nearest_even) return body(FloatRules<half, nearest_even>{});
+    if (rules.type == half) return body(FloatRules<half, toward_zero>{});
+    if (rules.rounding.unorm == half_up) return with_blend<half_up>(rules.blend, body);
+    with_blend<product_even>(rules.blend, body);
+}
+
+inline namespace strict {
+
+// The value of an 8-bit code, as programs read it.
+template <pipeline::UnormRounding to_code>
+[[nodiscard]] constexpr float code_value(std::uint32_t code) noexcept {
+    return to_code == pipeline::UnormRounding::half_up ? pipeline::unorm8_value(code) : pipeline::unorm8_product(code);
+}
+
+namespace scalar {
+
+template <class Rules>
+struct Target;
+
+template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code>
+struct Target<Unorm8Rules<blend, to_code>> {
+    static constexpr float one = 255.0f;
+
+    explicit Target(const BlockRules&) noexcept {}
+    [[nodiscard]] static float value(std::uint32_t code) noexcept { return code_value<to_code>(code); }
+    [[nodiscard]] static std::uint32_t code(float x) noexcept { return pipeline::to_unorm8<to_code>(x); }
+    // What MAX leaves of x, above 0.
+    [[nodiscard]] static std::uint32_t max_code(float x) noexcept { return code(x); }
+    [[nodiscard]] static float operand(std::uint32_t code) noexcept { return static_cast<float>(code); }
+    [[nodiscard]] static float rest(float x) noexcept { return one - x; }
+    [[nodiscard]] static std::uint32_t add(float s, float s_factor, float d, float d_factor) noexcept {
+        using Arithmetic = pipeline::Unorm8Arithmetic<blend>;
+        return static_cast<std::uint32_t>(
+            Arithmetic::template combine<pipeline::BlendEquation::add>(s, s_factor, d, d_factor));
+    }
+};
+
+template <pipeline::ChannelType type, pipeline::HalfRounding half>
+struct Target<FloatRules<type, half>> {
+    static constexpr float one = 1.0f;
+    bool flushes;
+
+    explicit Target(const BlockRules& rules) noexcept : flushes{rules.flushes} {}
+    [[nodiscard]] static float value(std::uint32_t code) noexcept {
+        if constexpr (type == pipeline::ChannelType::single) return std::bit_cast<float>(code);
+        return pipeline::half_to_float(static_cast<std::uint16_t>(code));
+    }
+    [[nodiscard]] static std::uint32_t code(float x) noexcept {
+        if constexpr (type == pipeline::ChannelType::single) return std::bit_cast<std::uint32_t>(x);
+        return pipeline::to_half<half>(x);
+    }
+    [[nodiscard]] float flushed(float x) const noexcept {
+        return flushes ? pipeline::flushed<pipeline::DenormalRule::flush>(x) : x;
+    }
+    [[nodiscard]] std::uint32_t max_code(float x) const noexcept { return code(flushed(x)); }
+    [[nodiscard]] float operand(std::uint32_t code) const noexcept { return flushed(value(code)); }
+    [[nodiscard]] float rest(float x) const noexcept { return flushed(one - x); }
+    [[nodiscard]] std::uint32_t add(float s, float s_factor, float d, float d_factor) const noexcept {
+        const float sum = flushed(s * s_factor) + flushed(d * d_factor);
+        return code(pipeline::canonical(flushed(sum)));
+    }
+};
+
+}  // namespace scalar
+}  // namespace strict
+}  // namespace strata::peeling

@@ -1,0 +1,351 @@
+// Model: the passes themselves, one depth after the other, fragment by fragment in binary64 rounded to binary32 after every operation (a
+// product or sum of binary32 that is rounded twice is rounded once: 53 >= 2 * 24 + 2), stored by rules of the test's own.
+#include "peeling/closed/block_passes.h"
+
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "rasterizer/base/simd.h"
+#include "tests/support/random_numbers.h"
+
+// A namespace of its own: names of the model are short.
+namespace strata::peeling::block_passes_model {
+namespace {
+
+using pipeline::BlendRounding;
+using pipeline::ChannelType;
+using pipeline::HalfRounding;
+using pipeline::UnormRounding;
+using strata::testing::Random;
+using strata::testing::random_channel;
+using strata::testing::random_int;
+
+// Every rule that a block is peeled by.
+std::vector<BlockRules> all_rules() {
+    std::vector<BlockRules> rules;
+    for (const auto by : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product})
+        for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
+            rules.push_back({ChannelType::unorm8, {HalfRounding::nearest_even, unorm}, by, true});
+    for (const bool flushes : {false, true}) {
+        rules.push_back({ChannelType::single, HalfRounding::nearest_even, BlendRounding::nearest, flushes});
+        for (const auto half : {HalfRounding::nearest_even, HalfRounding::toward_zero})
+            rules.push_back({ChannelType::half, half, BlendRounding::nearest, flushes});
+    }
+    return rules;
+}
+
+float rounded(double exact) { return static_cast<float>(exact); }
+float product(float a, float b) { return rounded(double{a} * b); }
+float sum(float a, float b) { return rounded(double{a} + b); }
+
+// The half nearest to x, or the next one toward zero: units of 2^(exponent - 10), of 2^-24 for small ones.
+float model_half(float x, HalfRounding rounding) {
+    if (!std::isfinite(x) || x == 0) return x;
+    const int unit = std::max(std::ilogb(x), -14) - 10;
+    const double units = std::ldexp(double{x}, -unit);
+    const double whole = rounding == HalfRounding::nearest_even ? std::nearbyint(units) : std::trunc(units);
+    const double half = std::copysign(std::ldexp(whole, unit), x);
+    if (std::fabs(half) < 65536) return rounded(half);
+    return std::copysign(rounding == HalfRounding::nearest_even ? std::numeric_limits<float>::infinity() : 65504.0f, x);
+}
+
+// A target of the machine.
+struct Machine {
+    BlockRules rules;
+
+    [[nodiscard]] bool is_unorm8() const { return rules.type == ChannelType::unorm8; }
+    [[nodiscard]] float flushed(float x) const {
+        return rules.flushes && std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0f, x) : x;
+    }
+    [[nodiscard]] float read(std::uint32_t code) const {
+        if (rules.type == ChannelType::single) return std::bit_cast<float>(code);
+        if (rules.type == ChannelType::half) return pipeline::half_to_float(static_cast<std::uint16_t>(code));
+        if (rules.rounding.unorm == UnormRounding::half_up) return rounded(code / 255.0);
+        return product(static_cast<float>(code), rounded(1.0 / 255.0));
+    }
+    [[nodiscard]] std::uint32_t write(float x) const {
+        if (rules.type == ChannelType::single) return std::bit_cast<std::uint32_t>(x);
+        if (rules.type == ChannelType::half && std::isnan(x)) return pipeline::to_half<HalfRounding::nearest_even>(x);
+        if (rules.type == ChannelType::half)
+            return pipeline::to_half<HalfRounding::toward_zero>(model_half(x, rules.rounding.half));  // a half already
+        const float clamped = std::isnan(x) ? 0.0f : std::clamp(x, 0.0f, 1.0f);
+        if (rules.rounding.unorm == UnormRounding::half_up)
+            return static_cast<std::uint32_t>(std::floor(double{clamped} * 255 + 0.5));
+        return static_cast<std::uint32_t>(std::nearbyint(product(clamped, 255)));
+    }
+    [[nodiscard]] std::uint32_t max(float x, std::uint32_t code) const {
+        return is_unorm8() ? std::max(write(x), code) : write(std::max(flushed(x), read(code)));
+    }
+
+    // s F + d G, the factors as values or codes: a float of the source that is to be stored, `rest` for 1 - alpha.
+    [[nodiscard]] std::uint32_t integers(std::uint32_t s, std::uint32_t F, std::uint32_t d, std::uint32_t G) const {
+        const auto part = [](std::uint32_t ab) { return (ab + ab / 256 + 128) / 256; };
+        if (rules.blend == BlendRounding::each_product) return std::min(part(s * F) + part(d * G), 255u);
+        const double t = std::min(s * F + d * G, 65025u) / 255.0;
+        return static_cast<std::uint32_t>(std::floor(rules.blend == BlendRounding::nearest ? t + 0.5 : t));
+    }
+    [[nodiscard]] std::uint32_t floats(float s, float F, float d, float G) const {
+        const float result = flushed(sum(flushed(product(s, F)), flushed(product(d, G))));
+        return write(std::isnan(result) ? std::bit_cast<float>(0x7fffffffu) : result);
+    }
+    [[nodiscard]] std::uint32_t over(std::uint32_t s, std::uint32_t alpha, std::uint32_t d) const {
+        if (is_unorm8()) return integers(s, alpha, d, 255 - alpha);
+        const float a = flushed(read(alpha));
+        return floats(flushed(read(s)), a, flushed(read(d)), flushed(sum(1, -a)));
+    }
+    [[nodiscard]] std::uint32_t under(std::uint32_t s, std::uint32_t d, std::uint32_t transmittance) const {
+        if (is_unorm8()) return integers(s, transmittance, d, 255);
+        return floats(flushed(read(s)), flushed(read(transmittance)), flushed(read(d)), 1);
+    }
+    [[nodiscard]] std::uint32_t through(std::uint32_t alpha, std::uint32_t transmittance) const {
+        if (is_unorm8()) return integers(alpha, 0, transmittance, 255 - alpha);
+        const float a = flushed(read(alpha));
+        return floats(a, 0, flushed(read(transmittance)), flushed(sum(1, -a)));
+    }
+};
+
+using scalar::Codes;
+using scalar::Color;
+
+enum class Colors { plain, any };
+
+float random_value(Random& random, const BlockRules& rules, Colors colors) {
+    const float channel = random_channel(random);
+    if (rules.type == ChannelType::unorm8 && colors == Colors::plain) return channel;
+    const int kind = random_int(random, 0, colors == Colors::plain ? 15 : 25);
+    const int exponent = random_int(random, -140, 10);
+    if (kind < 11) return channel;
+    if (kind < 14) return std::ldexp(channel, exponent);
+    if (kind < 16) return channel * 1024.0f;
+    if (kind < 20) return -std::ldexp(channel, exponent);
+    if (kind < 22) return std::ldexp(channel, exponent + 120);
+    const std::array<std::uint32_t, 4> rare{0x7f800000u, 0xff800000u, 0x7fc01234u, 0xffa00001u};
+    return std::bit_cast<float>(rare[static_cast<std::size_t>(kind - 22)]);
+}
+
+// Sixteen columns of `depth` fragments or fewer; half of the scenes have depths of several fragments.
+struct PassScene {
+    std::vector<std::uint64_t> levels;
+    std::array<std::vector<float>, 4> color;
+    ColumnBlock block;
+
+    PassScene(Random& random, std::uint32_t depth, bool full, bool ties, const BlockRules& rules, Colors colors)
+        : levels(depth * block_lanes, ~std::uint64_t{0}) {
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i <= levels.size() + block_lanes; ++i) {
+                const float value = random_value(random, rules, colors);
+                color[c].push_back(c == 3 && colors == Colors::plain ? std::min(value, 1.0f) : value);
+            }
+        block.height = depth;
+        block.count = block_lanes;
+        for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+            block.visible[lane] =
+                lane == 0 || full ? depth : static_cast<std::uint32_t>(random_int(random, 0, int(depth)));
+            block.hidden[lane] = static_cast<std::uint32_t>(random_int(random, 0, 1));
+            std::uint64_t key = 100;
+            for (std::size_t k = 0; k < block.visible[lane]; ++k) {
+                const bool is_tied = k > 0 && ties && random_int(random, 0, 2) == 0;
+                key += is_tied ? 0 : 1;
+                if (is_tied) block.has_ties[lane] = ~0u;
+                const std::size_t place = full ? k * block_lanes + lane : random() % levels.size();
+                levels[k * block_lanes + lane] = key << 32 | place;
+            }
+        }
+        block.levels = levels.data();
+        for (std::size_t c = 0; c < 4; ++c) block.color[c] = color[c].data();
+    }
+
+    // A column's colours, depth by depth.
+    [[nodiscard]] std::vector<std::vector<Color>> depths(std::size_t lane) const {
+        std::vector<std::vector<Color>> all;
+        for (std::size_t k = 0; k < block.visible[lane]; ++k) {
+            const std::uint64_t word = levels[k * block_lanes + lane];
+            if (k == 0 || word >> 32 != levels[(k - 1) * block_lanes + lane] >> 32) all.emplace_back();
+            const auto place = static_cast<std::size_t>(word & 0xffffffffu);
+            all.back().push_back({color[0][place], color[1][place], color[2][place], color[3][place]});
+        }
+        return all;
+    }
+
+    void peel_dual(const Machine& machine, std::size_t lane, Codes& front, Codes& back) const {
+        const auto all = depths(lane);
+        for (std::size_t near = 0, far = all.size(); near < far && near < machine.rules.most_passes; ++near) {
+            const std::size_t others = block.visible[lane] + block.hidden[lane] - all[near].size();
+            const Codes before = front;
+            if (others == 0) front = {};
+            const float transmittance = sum(1, -machine.read(before[3]));
+            for (const Color& c : all[near]) {
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const float layer = product(transmittance, product(c[3], c[i]));
+                    front[i] = machine.max(sum(machine.read(before[i]), layer), front[i]);
+                }
+                front[3] = machine.max(sum(1, -product(transmittance, sum(1, -c[3]))), front[3]);
+            }
+            if (near + 1 == far) break;
+            Codes dump{};
+            for (const Color& c : all[--far])
+                for (std::size_t i = 0; i < 4; ++i) dump[i] = machine.max(c[i], dump[i]);
+            for (std::size_t i = 0; i < 3 && dump[3] != 0; ++i) back[i] = machine.over(dump[i], dump[3], back[i]);
+        }
+    }
+
+    void peel_front_to_back(const Machine& machine, std::size_t lane, Codes& front) const {
+        auto all = depths(lane);
+        all.push_back({Color{}});
+        if (all.size() > machine.rules.most_passes) all.resize(machine.rules.most_passes);
+        for (const auto& depth : all) {
+            const Color& c = depth.front();
+            for (std::size_t i = 0; i < 3; ++i)
+                front[i] = machine.under(machine.write(product(c[i], c[3])), front[i], front[3]);
+            front[3] = machine.through(machine.write(c[3]), front[3]);
+        }
+    }
+};
+
+std::uint32_t any_code(Random& random, const BlockRules& rules) {
+    if (rules.type == ChannelType::unorm8) return static_cast<std::uint32_t>(random_int(random, 0, 255));
+    const std::uint32_t bits = random() & (rules.type == ChannelType::half ? 0xffffu : 0xffffffffu);
+    const std::uint32_t plain = Machine{rules}.write(random_channel(random));
+    return random_int(random, 0, 1) == 0 ? bits : plain;
+}
+
+// None, or one about where the deepest column ends.
+std::uint32_t any_limit(Random& random, std::uint32_t depth) {
+    const int limit = random_int(random, -4, static_cast<int>(depth) + 2);
+    return limit < 0 ? ~0u : static_cast<std::uint32_t>(limit);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a block is peeled from both ends like its passes, by every rule of a target and under limits, on every "
+    "instruction set") {
+    Random random{92};
+    for (BlockRules rules : all_rules()) {
+        std::uint64_t wrong = 0, refused = 0, pixels = 0;
+        for (std::uint32_t depth = 0; depth <= 24; ++depth)
+            for (const bool ties : {false, true}) {
+                rules.most_passes = any_limit(random, depth);
+                const PassScene scene{random, depth, depth % 3 == 0, ties, rules, Colors::plain};
+                BlockCodes opaque{}, front{}, back{};
+                for (auto& channel : opaque)
+                    for (auto& code : channel) code = any_code(random, rules);
+                for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+                    Codes f{}, b = scalar::column(opaque, lane);
+                    scene.peel_dual({rules}, lane, f, b);
+                    scalar::put_column(f, lane, front);
+                    scalar::put_column(b, lane, back);
+                    pixels += 1;
+                }
+                for (const Simd simd : available_simd()) {
+                    const SimdScope kernels{simd};
+                    BlockCodes f{}, b = opaque;
+                    refused += peel_both_ends(scene.block, f, b, rules) ? 0 : 1;
+                    wrong += f == front && b == back ? 0 : 1;
+                }
+            }
+        INFO("type " << static_cast<int>(rules.type) << ", half " << static_cast<int>(rules.rounding.half) << ", unorm "
+                     << static_cast<int>(rules.rounding.unorm) << ", blend " << static_cast<int>(rules.blend)
+                     << ", flushes " << rules.flushes);
+        CHECK(pixels > 0);
+        CHECK(refused == 0);
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE(
+    "a block is peeled from the front like its passes, by every rule and of any colours, on every instruction set") {
+    Random random{93};
+    for (BlockRules rules : all_rules()) {
+        std::uint64_t wrong = 0;
+        for (std::uint32_t depth = 0; depth <= 24; ++depth)
+            for (const bool ties : {false, true})
+                for (const Colors colors : {Colors::plain, Colors::any}) {
+                    rules.most_passes = any_limit(random, depth);
+                    const PassScene scene{random, depth, depth % 3 == 0, ties, rules, colors};
+                    BlockCodes cleared{}, front{};
+                    cleared[3].fill(Machine{rules}.write(1.0f));
+                    for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+                        Codes f = scalar::column(cleared, lane);
+                        scene.peel_front_to_back({rules}, lane, f);
+                        scalar::put_column(f, lane, front);
+                    }
+                    for (const Simd simd : available_simd()) {
+                        const SimdScope kernels{simd};
+                        BlockCodes f = cleared, b{};
+                        wrong += peel_front(scene.block, f, b, rules) && f == front && b == BlockCodes{} ? 0 : 1;
+                    }
+                }
+        INFO("type " << static_cast<int>(rules.type) << ", half " << static_cast<int>(rules.rounding.half) << ", unorm "
+                     << static_cast<int>(rules.rounding.unorm) << ", blend " << static_cast<int>(rules.blend)
+                     << ", flushes " << rules.flushes);
+        CHECK(wrong == 0);
+    }
+}
+
+TEST_CASE("colours that MAX does not order are told on float targets, wherever they stand, on every instruction set") {
+    Random random{94};
+    const std::array<float, 6> foreign{-0.0f,  -0.5f, 1024.5f, std::nanf(""), std::numeric_limits<float>::infinity(),
+                                       -1e-40f};
+    std::uint64_t wrong = 0;
+    for (const BlockRules& rules : all_rules())
+        for (std::size_t k = 0; k < 5; ++k)
+            for (std::size_t c = 0; c < 4; ++c)
+                for (const bool ties : {false, true})
+                    for (const float value : foreign) {
+                        PassScene scene{random, 5, true, ties, rules, Colors::plain};
+                        scene.color[c][k * block_lanes + random() % block_lanes] =
+                            c == 3 && value > 1024 ? 1.0000001f : value;
+                        for (const Simd simd : available_simd()) {
+                            const SimdScope kernels{simd};
+                            BlockCodes f{}, b{};
+                            const bool is_plain = peel_both_ends(scene.block, f, b, rules);
+                            wrong += is_plain == (rules.type == ChannelType::unorm8) ? 0 : 1;
+                        }
+                    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("the last quad puts a front over what is behind it, and leaves every code that nothing stands before") {
+    Random random{95};
+    std::uint64_t wrong = 0;
+    for (const BlockRules& rules : all_rules()) {
+        if (rules.type != ChannelType::unorm8) continue;
+        const Machine machine{rules};
+        for (int trial = 0; trial < 64; ++trial)
+            for (const FrontAlpha meaning : {FrontAlpha::covers, FrontAlpha::lets_through}) {
+                const bool is_empty = trial < 16;
+                BlockCodes front{}, back{};
+                LaneWords expected;
+                for (std::size_t lane = 0; lane < block_lanes; ++lane) {
+                    expected[lane] = 0xff000000u;
+                    for (std::size_t c = 0; c < 4; ++c) {
+                        const auto code = static_cast<std::uint32_t>(random_int(random, 0, 255));
+                        const bool lets = c == 3 && meaning == FrontAlpha::lets_through;
+                        front[c][lane] = !is_empty ? code : lets ? 255u : 0u;
+                        back[c][lane] = static_cast<std::uint32_t>(trial % 16) * 16 + static_cast<std::uint32_t>(lane);
+                    }
+                    const float alpha = machine.read(front[3][lane]);
+                    const float through = meaning == FrontAlpha::covers ? sum(1, -alpha) : alpha;
+                    for (std::size_t c = 0; c < 3; ++c) {
+                        const float behind = product(through, machine.read(back[c][lane]));
+                        const std::uint32_t code =
+                            is_empty ? back[c][lane] : machine.write(sum(machine.read(front[c][lane]), behind));
+                        expected[lane] |= code << (8 * c);
+                    }
+                }
+                for (const Simd simd : available_simd()) {
+                    const SimdScope kernels{simd};
+                    LaneWords words{};
+                    composite_block(front, back, meaning, rules, words.data());
+                    wrong += words == expected ? 0 : 1;
+                }
+            }
+    }
+    CHECK(wrong == 0);
+}
+
+}  // namespace strata::peeling::block_passes_model
