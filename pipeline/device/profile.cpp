@@ -125,10 +125,13 @@ DeviceProfile llvmpipe_sse() {
 DeviceProfile softpipe() {
     DeviceProfile p = mesa();
     p.name = "softpipe";
-    p.description = "no device: Mesa 22.3's softpipe in coverage and depth; its colours are not known";
+    p.description = "no device: Mesa 22.3's softpipe where a pass blends a pixel once";
     p.raster.coverage = CoverageRule::float_spans;
     p.raster.plane_rule = PlaneRule::least_corner;
+    p.raster.perspective = PerspectiveDivide::quotient;
     p.raster.depth_rounding = DepthRounding::product_floor;
+    p.blend_rounding = BlendRounding::nearest;
+    p.min_max_nan = MinMaxNan::propagate;
     p.max_samples = 1;
     return p;
 }

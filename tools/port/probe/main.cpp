@@ -74,7 +74,10 @@ class Painter {
         glUseProgram(program_.name());
         glBindVertexArray(layout_);
         glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+        // As peels are drawn: where no query counts, softpipe steps D16 along its spans (mesa-rasterizers.md 3.3).
+        glBeginQuery(GL_SAMPLES_PASSED, query_.name());
         for (const KitDraw& one : item.draws) draw(one);
+        glEndQuery(GL_SAMPLES_PASSED);
         glDisable(GL_BLEND);
         glDisable(GL_POLYGON_OFFSET_FILL);
     }
@@ -92,7 +95,7 @@ class Painter {
         glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(one.words.size() / 8));
     }
 
-    Handle program_;
+    Handle program_, query_ = make_query();
     GLuint layout_ = 0, buffer_ = 0;
 };
 
