@@ -169,7 +169,7 @@ a pixel that differs first. Every bit counts. `depth_units` is the port's shadow
 """
     why = "## Why\n\nA driver's own profile with one rule of another device: the pixels of " + "; ".join(WHY) + """ that differ from the
 driver then. A rule that changes nothing decides no pixel of these scenes. softpipe rounds 24-bit depths down, and the port's program rounds
-them to nearest as llvmpipe does: its peel finds other layers there. softpipe's 8-bit colours are not understood: of `coincident` every depth
+them to nearest as llvmpipe does: its peel finds other layers there. what softpipe blends several times in a pass is not emulated: of `coincident` every depth
 and stencil of the coherent peel is equal, and the first blended colours differ by one code. mesa-rasterizers.md has each rule.
 
 """
