@@ -34,6 +34,7 @@ struct alignas(64) TriangleGroup {
     PerTriangle small;                  // 1: all that follows holds
     PerTriangle area, turned;           // twice the area, without its sign; its sign as a mask
     std::array<PerTriangle, 3> value, step, down, tie;
+    PerTriangle reached;  // 0: no centre is covered: the box has none, or all of it lies outside of an edge
 
     [[nodiscard]] Rect box(std::size_t k) const noexcept {
         const auto left = static_cast<int>(x0[k]), top = static_cast<int>(y0[k]);
@@ -71,7 +72,7 @@ struct RegionOrigin {
 
 struct SmallKernels {
     void (*set_up)(const GroupRules& rules, TriangleGroup& group) noexcept;
-    // Sets up all but the edges: boxes, areas, and which triangles are small.
+    // Sets up all but the edges and what they reach: boxes, areas, and which triangles are small.
     void (*set_up_boxes)(const GroupRules& rules, TriangleGroup& group) noexcept;
     // Appends the pixels of small triangle `k`; false if the batch must be flushed first: then it holds one of them, or
     // has no room.
@@ -142,6 +143,19 @@ inline void find_edge(const GroupRules& rules, std::size_t i, TriangleGroup& __r
     }
 }
 
+// An edge is largest in a corner of the box. What has wrapped belongs to triangles that are not small.
+inline void find_reached(TriangleGroup& __restrict g) noexcept {
+    for (std::size_t k = 0; k < TriangleGroup::size; ++k) {
+        const auto if_positive = [](std::uint32_t v) { return v & ((v >> 31) - 1); };
+        std::uint32_t outside = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            outside |= g.value[i][k] + if_positive(g.step[i][k]) * (g.width[k] - 1) +
+                       if_positive(g.down[i][k]) * (g.height[k] - 1);
+        const std::uint32_t has_box = (g.width[k] != 0 ? 1u : 0u) & (g.height[k] != 0 ? 1u : 0u);
+        g.reached[k] = has_box & ~(outside >> 31 & g.small[k]);
+    }
+}
+
 inline void set_up_boxes(const GroupRules& rules, TriangleGroup& group) noexcept {
     find_boxes(rules, group);
     find_areas(group);
@@ -149,6 +163,7 @@ inline void set_up_boxes(const GroupRules& rules, TriangleGroup& group) noexcept
 inline void set_up_group(const GroupRules& rules, TriangleGroup& group) noexcept {
     set_up_boxes(rules, group);
     for (std::size_t i = 0; i < 3; ++i) find_edge(rules, i, group);
+    find_reached(group);
 }
 
 // The meaning of SmallKernels::emit: coverage first, because the batch takes all of the triangle or nothing.

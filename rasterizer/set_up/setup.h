@@ -39,7 +39,7 @@ struct SourceTriangle {
 // The triangles that set-up makes of a run of source triangles. Vertices made by clipping are numbered from the soup's
 // last one on.
 struct SetupChunk {
-    std::vector<TriangleRecord> triangles;
+    UninitializedVector<TriangleRecord> triangles;
     std::vector<std::array<double, 3>> offset_z;
     std::vector<ClipVertex> vertices;
     std::vector<WindowCorner> corners;

@@ -141,7 +141,7 @@ class RowWalk {
   private:
     [[gnu::flatten]] void draw_group(std::span<const std::uint32_t> triangles) {
         for (std::size_t k = 0; k < triangles.size(); ++k) {
-            if (group_.width[k] == 0 || group_.height[k] == 0) continue;
+            if (group_.reached[k] == 0) continue;
             if (group_.small[k] == 0)
                 draw_large(triangles[k]);
             else if (group_.width[k] <= 8 && group_.height[k] <= 8)

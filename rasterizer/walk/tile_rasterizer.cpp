@@ -39,7 +39,7 @@ class TileRasterizer::Pass {
     void draw_group(std::span<const std::uint32_t> triangles) {
         for (std::size_t k = 0; k < triangles.size(); ++k) {
             const TriangleRecord& record = geometry_.triangles[triangles[k]];
-            if (group_.box(k).area() == 0 && record.negative_w == 0) continue;
+            if (group_.reached[k] == 0 && record.negative_w == 0) continue;
             use_material(record.material);
             if (group_.small[k] != 0 && record.negative_w == 0)
                 draw_small(triangles[k], k);

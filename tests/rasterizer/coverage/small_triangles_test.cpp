@@ -68,7 +68,8 @@ using Corners = std::array<SubpixelPoint, 3>;
 }
 
 struct GroupErrors {
-    std::uint64_t boxes = 0, small = 0, areas = 0, centres = 0, small_triangles = 0, pixels = 0;
+    std::uint64_t boxes = 0, small = 0, areas = 0, centres = 0, reached = 0;
+    std::uint64_t small_triangles = 0, pixels = 0, missed = 0;
 };
 
 void compare_group(const TriangleGroup& g, const std::vector<Corners>& all, const GroupRules& rules,
@@ -83,10 +84,12 @@ void compare_group(const TriangleGroup& g, const std::vector<Corners>& all, cons
         const bool is_small =
             found.width() <= 16 && found.height() <= 15 && right - left <= 16384 && bottom - top <= 16384;
         wrong.small += (g.small[k] != 0) != is_small ? 1 : 0;
+        if (!is_small) wrong.reached += (g.reached[k] != 0) == is_empty ? 1 : 0;
         if (!is_small || g.small[k] > 1) continue;
         ++wrong.small_triangles;
         const std::int64_t area = area_of(p[0], p[1], p[2]);
         wrong.areas += std::int64_t{g.area[k]} != std::abs(area) || (g.turned[k] != 0) != (area < 0) ? 1 : 0;
+        unsigned edges_met = 0;  // bit i: some centre of the box is not outside of edge i
         for (int y = found.y0; area != 0 && y < found.y1; ++y)
             for (int x = found.x0; x < found.x1; ++x, ++wrong.pixels) {
                 bool covered = true;
@@ -94,9 +97,13 @@ void compare_group(const TriangleGroup& g, const std::vector<Corners>& all, cons
                     const std::uint32_t e = g.value[i][k] + g.step[i][k] * static_cast<std::uint32_t>(x - found.x0) +
                                             g.down[i][k] * static_cast<std::uint32_t>(y - found.y0);
                     covered = covered && e < 0x80000000u;
+                    edges_met |= (~e >> 31) << i;
                 }
                 wrong.centres += covered != takes_centre(p, x, y, rules) ? 1 : 0;
             }
+        if (area == 0) continue;
+        wrong.reached += (g.reached[k] != 0) != (edges_met == 7) ? 1 : 0;
+        wrong.missed += !is_empty && g.reached[k] == 0 ? 1 : 0;
     }
 }
 
@@ -142,6 +149,8 @@ TEST_CASE(
         CHECK(wrong.small == 0);
         CHECK(wrong.areas == 0);
         CHECK(wrong.centres == 0);
+        CHECK(wrong.reached == 0);
+        CHECK(wrong.missed > 50);
         CHECK(wrong.small_triangles > 500);
         CHECK(wrong.pixels > 10000);
     }
