@@ -5,6 +5,7 @@
 #include <string>
 
 #include "pipeline/formats/unorm8.h"
+#include "pipeline/geforce3/combiner_loops.h"
 
 namespace strata::pipeline {
 namespace {
@@ -12,44 +13,23 @@ namespace {
 using Input = CombinerInput;
 using Reg = CombinerRegister;
 
-// In units of 1/255. The chip's half is 128, not 127.5 (chip-fragment.md 9).
-constexpr std::int32_t one = 255, half = 128;
-
-[[nodiscard]] constexpr std::int32_t mapped(CombinerMapping mapping, std::int32_t e) noexcept {
-    const std::int32_t positive = std::max(e, 0);
-    switch (mapping) {
-        case CombinerMapping::unsigned_identity: return positive;
-        case CombinerMapping::unsigned_invert: return one - std::min(positive, one);
-        case CombinerMapping::expand_normal: return 2 * positive - one;
-        case CombinerMapping::expand_negate: return one - 2 * positive;
-        case CombinerMapping::half_bias_normal: return positive - half;
-        case CombinerMapping::half_bias_negate: return half - positive;
-        case CombinerMapping::signed_identity: return e;
-        case CombinerMapping::signed_negate: return -e;
-    }
-    return 0;  // unreachable: the enum is closed
-}
-
-// A sum of products in units of 1/255^2, to 1/255, to nearest.
-[[nodiscard]] constexpr std::int32_t rounded(std::int32_t sum) noexcept {
-    return sum >= 0 ? (sum + one / 2) / one : -((-sum + one / 2) / one);
-}
+constexpr std::int32_t one = combiner_one;
 
 // Bias, scale and clamp of a rounded result (combiners.md 2.2).
-[[nodiscard]] constexpr std::int32_t scaled(const CombinerPortion& p, std::int32_t x) noexcept {
-    if (p.bias == CombinerBias::by_negative_half) x -= half;
+[[nodiscard]] CombinerScaling scaling_of(const CombinerPortion& p) noexcept {
+    const std::int32_t bias = p.bias == CombinerBias::by_negative_half ? combiner_half : 0;
     switch (p.scale) {
-        case CombinerScale::by_one: break;
-        case CombinerScale::by_two: x *= 2; break;
-        case CombinerScale::by_four: x *= 4; break;
-        case CombinerScale::by_half: x = (x + 1) >> 1; break;  // a half goes up
+        case CombinerScale::by_one: return {bias, 0, 0};
+        case CombinerScale::by_two: return {bias, 1, 0};
+        case CombinerScale::by_four: return {bias, 2, 0};
+        case CombinerScale::by_half: return {bias, 0, 1};
     }
-    return std::clamp(x, -one, one);
+    return {};  // unreachable: the enum is closed
 }
 
 // Which of the two products a choice takes.
 [[nodiscard]] constexpr bool takes_cd(CombinerSum rule, std::int32_t alpha) noexcept {
-    return rule == CombinerSum::mux_low_bit ? (alpha & 1) != 0 : alpha >= half;
+    return rule == CombinerSum::mux_low_bit ? (alpha & 1) != 0 : alpha >= combiner_half;
 }
 
 // Colour sum and E F are no registers of general stages, and neither is `discard`.
@@ -77,22 +57,6 @@ void check(const CombinerPortion& p, bool is_alpha) {
 
 }  // namespace
 
-// An input as the portion reads it: the channel for output channel c, mapped.
-struct CombinerUnit::Operand {
-    const Register& reg;
-    const Input& input;
-    // 3 in an alpha portion, where `own` means alpha; else 0.
-    std::size_t own_alpha;
-
-    [[nodiscard]] std::int32_t at(std::size_t c, std::size_t i) const noexcept {
-        const std::size_t channel = input.component == CombinerComponent::alpha  ? 3
-                                    : input.component == CombinerComponent::blue ? 2
-                                    : own_alpha != 0                             ? 3
-                                                                                 : c;
-        return mapped(input.mapping, reg[channel][i]);
-    }
-};
-
 CombinerUnit::CombinerUnit(const Combiners& state) : state_{state} {
     require(state.stages.size() <= max_combiner_stages, "at most eight general stages");
     for (const CombinerStage& stage : state.stages) {
@@ -111,9 +75,24 @@ const CombinerUnit::Register& CombinerUnit::value_of(Reg r) const noexcept {
     return registers_[static_cast<std::size_t>(r)];
 }
 
+// In an alpha portion, as in G, `own` means alpha.
+CombinerOperand CombinerUnit::operand(const Input& input, bool is_alpha) const noexcept {
+    const Register& reg = value_of(input.source);
+    CombinerOperand operand{{}, map_of(input.mapping)};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const bool is_own = input.component == CombinerComponent::own;
+        const std::size_t own = is_alpha ? 3 : c;
+        operand.channel[c] = reg[is_own ? own : input.component == CombinerComponent::blue ? 2 : 3].data();
+    }
+    return operand;
+}
+
 void CombinerUnit::load(Reg r, const ColorLanes* color, std::size_t count) {
     for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t i = 0; i < count; ++i) at(r)[c][i] = color == nullptr ? 0 : to_unorm8((*color)[c][i]);
+        if (color == nullptr)
+            std::fill_n(at(r)[c].begin(), count, 0);
+        else
+            combiner_loops().load((*color)[c].data(), at(r)[c].data(), count);
 }
 
 void CombinerUnit::set_constants(const std::array<Rgba, 2>& constant, std::size_t count) {
@@ -123,25 +102,21 @@ void CombinerUnit::set_constants(const std::array<Rgba, 2>& constant, std::size_
                         std::int32_t{to_unorm8(constant[k][c])});
 }
 
+// The sum adds the exact products, before either is rounded: one rounding for each of the three results.
 void CombinerUnit::run_portion(const CombinerPortion& p, bool is_alpha, std::size_t count) {
-    const std::size_t first = is_alpha ? 3 : 0, end = is_alpha ? 4 : 3;
-    const auto operand = [&](const Input& input) { return Operand{value_of(input.source), input, first}; };
-    const Operand a = operand(p.a), b = operand(p.b), c = operand(p.c), d = operand(p.d);
-    const auto product = [&](const Operand& x, const Operand& y, CombinerProduct kind, std::size_t ch, std::size_t i) {
-        if (kind == CombinerProduct::component_wise) return x.at(ch, i) * y.at(ch, i);
-        return x.at(0, i) * y.at(0, i) + x.at(1, i) * y.at(1, i) + x.at(2, i) * y.at(2, i);
-    };
-    for (std::size_t ch = first; ch < end; ++ch)
-        for (std::size_t i = 0; i < count; ++i) {
-            // The sum adds the exact products, before either is rounded: one rounding for each of the three results.
-            const std::int32_t ab = product(a, b, p.ab_product, ch, i), cd = product(c, d, p.cd_product, ch, i);
-            const std::int32_t sum = p.sum_rule == CombinerSum::add                ? ab + cd
-                                     : takes_cd(p.sum_rule, at(Reg::spare0)[3][i]) ? cd
-                                                                                   : ab;
-            result_[0][ch][i] = scaled(p, rounded(ab));
-            result_[1][ch][i] = scaled(p, rounded(cd));
-            result_[2][ch][i] = scaled(p, rounded(sum));
-        }
+    const CombinerLoops& loops = combiner_loops();
+    const CombinerScaling scaling = scaling_of(p);
+    for (std::size_t c = is_alpha ? 3 : 0; c < (is_alpha ? 4u : 3u); ++c) {
+        auto &ab = result_[0][c], &cd = result_[1][c], &sum = result_[2][c];
+        loops.multiply(operand(p.a, is_alpha), operand(p.b, is_alpha), p.ab_product, c, ab.data(), count);
+        loops.multiply(operand(p.c, is_alpha), operand(p.d, is_alpha), p.cd_product, c, cd.data(), count);
+        if (p.sum_rule == CombinerSum::add)
+            for (std::size_t i = 0; i < count; ++i) sum[i] = ab[i] + cd[i];
+        else
+            for (std::size_t i = 0; i < count; ++i)
+                sum[i] = takes_cd(p.sum_rule, at(Reg::spare0)[3][i]) ? cd[i] : ab[i];
+        for (auto* const result : {&ab, &cd, &sum}) loops.settle(scaling, result->data(), result->data(), count);
+    }
 }
 
 void CombinerUnit::commit(const CombinerPortion& p, bool is_alpha, std::size_t count) {
@@ -162,30 +137,25 @@ void CombinerUnit::run_stage(const CombinerStage& stage, std::size_t count) {
 
 void CombinerUnit::finish(ColorLanes& out, std::size_t count) {
     const FinalCombiner& f = state_.final_stage;
+    const CombinerLoops& loops = combiner_loops();
     set_constants(f.constant, count);
-    const auto operand = [&](const Input& input) { return Operand{value_of(input.source), input, 0}; };
-    const Operand a = operand(f.a), b = operand(f.b), c = operand(f.c), d = operand(f.d), e = operand(f.e),
-                  second = operand(f.f);
-    const Operand g{value_of(f.g.source), f.g, f.g.component == CombinerComponent::own ? std::size_t{3} : 0};
-    for (std::size_t ch = 0; ch < 3; ++ch)
+    for (std::size_t c = 0; c < 3; ++c) {
         for (std::size_t i = 0; i < count; ++i) {
             // spare0 may be negative here; the sum takes it as 0 (combiners.md 3).
-            const std::int32_t spare0 = std::max(at(Reg::spare0)[ch][i], 0),
-                               secondary = at(Reg::secondary_color)[ch][i];
+            const std::int32_t spare0 = std::max(at(Reg::spare0)[c][i], 0), secondary = at(Reg::secondary_color)[c][i];
             const std::int32_t sum =
                 (f.inverts_spare0 ? one - spare0 : spare0) + (f.inverts_secondary_color ? one - secondary : secondary);
-            sum_[ch][i] = f.clamps_color_sum ? std::min(sum, one) : sum;
-            product_[ch][i] = rounded(e.at(ch, i) * second.at(ch, i));
+            sum_[c][i] = f.clamps_color_sum ? std::min(sum, one) : sum;
         }
-    for (std::size_t ch = 0; ch < 3; ++ch)
-        for (std::size_t i = 0; i < count; ++i) {
-            // Both products are summed exactly and rounded once; D is added behind the rounding.
-            const std::int32_t weight = a.at(ch, i);
-            const std::int32_t mixed = rounded(weight * b.at(ch, i) + (one - weight) * c.at(ch, i)) + d.at(ch, i);
-            out[ch][i] = from_unorm8(static_cast<std::uint8_t>(std::clamp(mixed, 0, one)));
-        }
-    for (std::size_t i = 0; i < count; ++i)
-        out[3][i] = from_unorm8(static_cast<std::uint8_t>(std::clamp(g.at(3, i), 0, one)));
+        std::int32_t* const product = product_[c].data();
+        loops.multiply(operand(f.e, false), operand(f.f, false), CombinerProduct::component_wise, c, product, count);
+        loops.settle({}, product, product, count);
+    }
+    const CombinerMix rgb{operand(f.a, false), operand(f.b, false), operand(f.c, false), operand(f.d, false)};
+    for (std::size_t c = 0; c < 3; ++c) loops.mix(rgb, c, out[c].data(), count);
+    // Alpha is G alone: 0 G + (1 - 0) 0 + G.
+    const CombinerOperand g = operand(f.g, true), zero = operand({.source = Reg::zero}, true);
+    loops.mix({zero, g, zero, g}, 3, out[3].data(), count);
 }
 
 // Alpha of spare0 starts as texture 0's alpha, and everything else of the spare registers as 0 (combiners.md 1).

@@ -123,6 +123,8 @@ struct CombinerSources {
     std::array<const ColorLanes*, 4> texture{};  // null: 0
 };
 
+struct CombinerOperand;
+
 // Runs one state over batches. Its registers are as wide as a batch, so a unit serves one thread.
 class CombinerUnit {
   public:
@@ -135,10 +137,10 @@ class CombinerUnit {
   private:
     using Values = rasterizer::Lanes<std::int32_t>;
     using Register = std::array<Values, 4>;
-    struct Operand;
 
     [[nodiscard]] Register& at(CombinerRegister r) noexcept { return registers_[static_cast<std::size_t>(r)]; }
     [[nodiscard]] const Register& value_of(CombinerRegister r) const noexcept;
+    [[nodiscard]] CombinerOperand operand(const CombinerInput& input, bool is_alpha) const noexcept;
     void load(CombinerRegister r, const ColorLanes* color, std::size_t count);
     void set_constants(const std::array<Rgba, 2>& constant, std::size_t count);
     void run_stage(const CombinerStage& stage, std::size_t count);

@@ -1,10 +1,12 @@
 // The combiners against a scalar model of one fragment in rational arithmetic, and against values read off an NV2A.
 #include "pipeline/geforce3/combiner.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
 #include <stdexcept>
 
+#include "rasterizer/base/simd.h"
 #include "tests/pipeline/addressing_model.h"
 
 using namespace strata::pipeline;
@@ -21,10 +23,13 @@ struct Fragment {
     std::array<Color, 4> texture{};
 };
 
+constexpr int lanes_used = 19;  // whole vectors and a rest, whatever the instruction set
+
 void put(ColorLanes& lanes, const Color& c) {
-    for (std::size_t k = 0; k < 4; ++k) lanes[k][0] = static_cast<float>(c[k]) / 255.0f;
+    for (std::size_t k = 0; k < 4; ++k) std::fill_n(lanes[k].begin(), lanes_used, static_cast<float>(c[k]) / 255.0f);
 }
 
+// The fragment in every lane, by every instruction set: all must give the same.
 Color run(const Combiners& state, const Fragment& f) {
     const auto lanes = std::make_unique<std::array<ColorLanes, 7>>();
     put((*lanes)[0], f.primary);
@@ -34,10 +39,18 @@ Color run(const Combiners& state, const Fragment& f) {
         put((*lanes)[2 + u], f.texture[u]);
         sources.texture[u] = &(*lanes)[2 + u];
     }
-    const auto unit = std::make_unique<CombinerUnit>(state);
-    unit->run(sources, (*lanes)[6], 1);
-    Color out;
-    for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<int>((*lanes)[6][k][0] * 255.0f + 0.5f);
+    Color out{-1, -1, -1, -1};
+    for (const strata::Simd simd : strata::available_simd()) {
+        const strata::SimdScope scope{simd};
+        const auto unit = std::make_unique<CombinerUnit>(state);
+        unit->run(sources, (*lanes)[6], lanes_used);
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto& channel = (*lanes)[6][k];
+            if (out[k] < 0) out[k] = static_cast<int>(channel[0] * 255.0f + 0.5f);
+            const float expected = static_cast<float>(out[k]) / 255.0f;
+            REQUIRE(std::count(channel.begin(), channel.begin() + lanes_used, expected) == lanes_used);
+        }
+    }
     return out;
 }
 
