@@ -92,7 +92,7 @@ void add_arithmetic(std::vector<Operation>& list) {
     Operation precise = operation("shader.mul-add-precise", "is a * b + c contracted where it is `precise`?", "exact",
                                   triples(907, true, true), {of("rounded twice", rounded_twice), of("fused", fused)});
     std::string& text = precise.programs.front().fragment;
-    text.replace(text.find("result ="), 0, "precise highp float exact = a * b + c; ");
+    text.insert(text.find("result ="), "precise highp float exact = a * b + c; ");
     text.insert(0,
                 "#ifdef GL_ES\n#error GLSL ES 3.00 has no precise\n#else\n"
                 "#extension GL_ARB_gpu_shader5 : require\n#endif\n");

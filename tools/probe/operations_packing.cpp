@@ -101,8 +101,8 @@ std::uint32_t half_code_by_shifts(float value) {
 
 void add_packing(std::vector<Operation>& list) {
     constexpr int most = 65535, most_signed = 32767;
-    Operation unorm = operation("shader.pack-unorm", "how does packUnorm2x16 round?", "packUnorm2x16",
-                                beside_codes(most, false));
+    Operation unorm =
+        operation("shader.pack-unorm", "how does packUnorm2x16 round?", "packUnorm2x16", beside_codes(most, false));
     add(unorm, "nearest even of the binary32 product", scaled<most, Step::even>);
     add(unorm, "a half up of the binary32 product", scaled<most, Step::up>);
     add(unorm, "cut", scaled<most, Step::cut>);

@@ -1,7 +1,8 @@
 // tools/probe/operations_srgb.cpp - sRGB both ways: codes of a texture to linear values, linear values to codes of a target.
 //
-// Source   the devices' own rules, tried on their pictures: a driver's table in 8 decimal digits, its 104 linear pieces (F. Giesen, "Float to
-//          sRGB8", https://gist.github.com/rygorous/2203834, public domain), its cubic; SwiftShader's table and its powers of binary32.
+// Source   the drivers' own rules, tried on their pictures. Mesa 22: util/format_srgb.py (a table in 8 decimal digits; 104 lines after F. Giesen,
+//          "Float to sRGB8", https://gist.github.com/rygorous/2203834), gallivm/lp_bld_format_srgb.c (a cubic, and roots).
+//          SwiftShader: Pipeline/Constants.cpp (a table of 65,280ths) and Pipeline/ShaderCore.cpp (powers).
 // Tests    tests/tools/probe/operations_rules_test.cpp
 #include <fmt/format.h>
 
@@ -121,8 +122,7 @@ std::uint32_t by_roots(float linear) {
     const float x = std::clamp(linear, 0.0f, 1.0f), root = std::sqrt(x);
     const auto a = static_cast<float>(0.675f * 1.0622 * 255.0f), b = static_cast<float>(0.325f * 1.0622 * 255.0f);
     const float power = std::sqrt(std::sqrt(root * x));
-    const float code =
-        x <= 0.0031308f ? x * (12.92f * 255.0f) : a * power + (b * root + -0.0620f * 255.0f);
+    const float code = x <= 0.0031308f ? x * (12.92f * 255.0f) : a * power + (b * root + -0.0620f * 255.0f);
     return static_cast<std::uint32_t>(std::nearbyint(code));
 }
 

@@ -96,6 +96,7 @@ class Painter {
         }
         (one.polygon_offset ? glEnable : glDisable)(GL_POLYGON_OFFSET_FILL);
         if (one.polygon_offset) glPolygonOffset((*one.polygon_offset)[0], (*one.polygon_offset)[1]);
+        // Once on it stays: where it can be asked for, all items have it.
         if (one.alpha_above) {
             glEnable(alpha_test);
             glAlphaFunc(GL_GREATER, *one.alpha_above);
