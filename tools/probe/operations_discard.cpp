@@ -98,6 +98,16 @@ float by_quotients(float a, float w) {
     return quotient / inverse;
 }
 
+// SwiftShader's planes of a / w and 1 / w (its Pipeline/SetupRoutine.cpp) from the third corner on, which lies a quarter of a pixel above the
+// centre: `own` and `other` are the corners' parts of their slope along y, which cancel but for roundings. Along x they are 0.
+float by_planes(float a, float w) {
+    const float inverse = 1.0f / w, square = w * w, scale = 1.0f / (square * 0.25f);
+    const float own = square * 0.5f * (scale * inverse), other = -0.25f * w * scale;
+    const float over = inverse - 0.25f * ((own + other) + other);
+    const float value = a * inverse - 0.25f * ((a * own + a * other) + a * other);
+    return value * (1.0f / over);
+}
+
 Hypothesis arriving(std::string name, float (*arrived)(float, float)) {
     return {std::move(name), [arrived](const Texel& given) {
                 return one_word(arrived(float_of(given[0]), float_of(given[2])) < float_of(given[1]) ? 0 : 1);
@@ -132,8 +142,10 @@ Operation by_attribute() {
         }
     o.hypotheses = {arriving("as it is", [](float a, float) { return a; }),
                     arriving("a (1 / w), times the reciprocal of 1 / w", by_reciprocals),
-                    arriving("a (1 / w) / (1 / w)", by_quotient), arriving("(a / w) w", by_product),
-                    arriving("(a / w) / (1 / w)", by_quotients)};
+                    arriving("a (1 / w) / (1 / w)", by_quotient),
+                    arriving("(a / w) w", by_product),
+                    arriving("(a / w) / (1 / w)", by_quotients),
+                    arriving("planes of a / w and 1 / w, times a reciprocal", by_planes)};
     return o;
 }
 

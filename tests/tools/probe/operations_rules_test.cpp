@@ -1,5 +1,6 @@
 // Model: sRGB's formula by libm's pow and Mesa's least squares anew; rationals of Boost.Multiprecision for comparisons, codes and roundings.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <catch2/catch.hpp>
@@ -159,6 +160,29 @@ TEST_CASE(
             return true;
         }) == 0);
     }
+}
+
+TEST_CASE("planes of a / w and 1 / w are those of three corners of any places, of which the third comes first") {
+    // Corners and the centre of a pixel from the third corner on, in pixels; every step is rounded to binary32.
+    const auto at_center = [](float a, float w) {
+        const float x1 = -0.25f * w, y1 = -0.5f * w, x2 = 0.25f * w, y2 = -0.5f * w, inverse = 1.0f / w;
+        const float part = 1.0f / (x1 * y2 - x2 * y1), own = part * inverse;
+        const std::array<float, 3> x{(y1 * w - y2 * w) * own, y2 * part, -y1 * part};
+        const std::array<float, 3> y{(x2 * w - x1 * w) * own, -x2 * part, x1 * part};
+        const auto plane = [&](float v) {
+            const float slope_x = v * x[0] + v * x[1] + v * x[2], slope_y = v * y[0] + v * y[1] + v * y[2];
+            return v * inverse + -0.25f * slope_y + 0.0f * slope_x;
+        };
+        return plane(a) * (1.0f / plane(1.0f));
+    };
+    int apart = 0;
+    CHECK(Rule("test.discard-attribute", "planes of a / w and 1 / w, times a reciprocal")
+              .wrong([&](const Texel& t, std::uint32_t kept) {
+                  const float arrived = at_center(float_of_word(t[0]), float_of_word(t[2]));
+                  apart += arrived != float_of_word(t[0]) ? 1 : 0;
+                  return kept == (arrived < float_of_word(t[1]) ? 0u : 1u);
+              }) == 0);
+    CHECK(apart > 100);
 }
 
 TEST_CASE("integers that become floats by halves are rounded twice, those below 2^31 once") {
