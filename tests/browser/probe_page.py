@@ -2,7 +2,7 @@
 """Measures headless Chromium with the page of a kit, by keyboard alone: probe_page.py STRATA
 
 The page must draw without an error on the console, load nothing, say what it cannot draw, and offer an archive that `strata infer` reads. The
-profile that comes out must draw the coverage of twenty unseen scenes as the browser did. With STRATA_KEEP=FOLDER the answers and what was
+profile that comes out must draw the coverage of twenty unseen scenes as the browser did, and tools/probe/swiftshader.py must have its depths. With STRATA_KEEP=FOLDER the answers and what was
 inferred stay there. Exit status 77, said aloud, without Chromium, its driver or Selenium (Debian: chromium, chromium-driver, python3-selenium).
 """
 import json
@@ -84,6 +84,9 @@ def main():
         found = infer(strata, archive, profile)
         with open(os.path.join(folder, "inferred.json"), "w", encoding="utf-8") as file:
             json.dump(found, file, indent=1)
+        model = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tools", "probe", "swiftshader.py")
+        ended = subprocess.run([sys.executable, "-B", model, os.path.join(kit, "kit.json"), archive], capture_output=True, text=True)
+        wrong += [f"SwiftShader's planes are not the model's: {ended.stdout}{ended.stderr}"] * (ended.returncode != 0)
         states = {f["field"]: f["state"] for f in found["fields"]}
         # Colours of slivers rest on the same fields, by rules of planes that SwiftShader does not share.
         broken = {f["field"]: f["broken_at"]["scene"] for f in found["fields"] if f["state"] == "broken"}

@@ -46,17 +46,23 @@ const std::vector<std::string>& driver_names() {
     return names;
 }
 
-HeadlessContext::HeadlessContext(const std::string& driver, int threads) {
+HeadlessContext::HeadlessContext(const std::string& driver, int threads, ContextKind kind) {
     choose(driver, threads);
     display_ = display_of(driver);
     require(display_ != EGL_NO_DISPLAY, "eglGetPlatformDisplay");
     require(eglInitialize(display_, nullptr, nullptr) == EGL_TRUE, "eglInitialize");
     require(eglBindAPI(EGL_OPENGL_API) == EGL_TRUE, "eglBindAPI");
-    constexpr std::array version{
-        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const bool is_core = kind == ContextKind::core;
+    const std::array version{
+        EGL_CONTEXT_MAJOR_VERSION,
+        3,
+        EGL_CONTEXT_MINOR_VERSION,
+        3,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        is_core ? EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT : EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT,
+        EGL_NONE};
     context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version.data());
-    require(context_ != EGL_NO_CONTEXT, "eglCreateContext (3.3 core)");
+    require(context_ != EGL_NO_CONTEXT, is_core ? "eglCreateContext (3.3 core)" : "eglCreateContext (3.3 compatible)");
     require(eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE, "eglMakeCurrent");
     // Without this check a machine with a GPU driver would be taken for Mesa's, and one without for a GPU.
     const std::string found = renderer();

@@ -1,6 +1,7 @@
 // tools/probe/kit_depth.cpp - a fragment's depth: its plane, its conversion to a code, and polygon offset.
 #include "tools/probe/kit.h"
 #include "tools/probe/shapes.h"
+#include "tools/probe/split_depths.h"
 
 namespace strata::probe {
 
@@ -31,6 +32,30 @@ Item slopes_item(DepthFormat format, int count, std::uint64_t seed, const std::s
     Draw draw;
     Dice dice{seed};
     add_slopes(item, draw, dice, count);
+    item.draws = {draw};
+    return item;
+}
+
+// A cell of 8 x 8 pixels for each triangle that parts two neighbouring reciprocals.
+Item split_reciprocals_item(std::uint64_t seed, const std::string& name) {
+    Item item{.name = name, .decides = depth_fields, .width = 128, .height = 128};
+    item.depth = DepthFormat::d24;
+    Draw draw;
+    Dice dice{seed};
+    const std::vector<TwoReciprocals> pairs = neighbouring_reciprocals();
+    for (int i = 0; i < 256; ++i) {
+        const std::optional<SplitDepths> found = split_depths(dice, pairs[static_cast<std::size_t>(i) % pairs.size()]);
+        if (!found) continue;
+        const auto left = static_cast<float>(i % 16 * 8), top = static_cast<float>(i / 16 * 8);
+        // A hair that every snapping drops, whichever way rows are numbered in every second cell.
+        constexpr float hair = 0x1p-14f;
+        std::array<Place, 3> p;
+        for (std::size_t k = 0; k < 3; ++k)
+            p[k] = {left + static_cast<float>(found->x[k]) / 16.0f + hair,
+                    top + static_cast<float>(found->y[k]) / 16.0f + (i % 2 == 0 ? hair : -hair), found->z[k], 1.0f};
+        const Color color = code_color(i);
+        add_triangle(item, draw, p, {color, color, color});
+    }
     item.draws = {draw};
     return item;
 }
@@ -95,6 +120,7 @@ void add_depth(std::vector<Item>& items) {
     items.push_back(slopes_item(DepthFormat::d16, 24, 23, "depth.d16"));
     items.push_back(slopes_item(DepthFormat::d24, 60, 24, "depth.d24-again"));
     items.push_back(slopes_item(DepthFormat::d32f, 60, 25, "depth.d32f-again"));
+    items.push_back(split_reciprocals_item(26, "depth.split-reciprocals"));
     items.push_back(codes_item(DepthFormat::d24, "depth.codes-d24"));
     items.push_back(codes_item(DepthFormat::d16, "depth.codes-d16"));
     items.push_back(offset_item(DepthFormat::d24, "offset.d24"));

@@ -86,8 +86,10 @@ const std::vector<Operation>& operations() {
         std::vector<Operation> all;
         add_arithmetic(all);
         add_conversions(all);
+        add_packing(all);
         add_textures(all);
         add_tests(all);
+        add_discards(all);
         return all;
     }();
     return list;

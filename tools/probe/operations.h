@@ -108,7 +108,10 @@ struct OperationFinding {
 void add_arithmetic(std::vector<Operation>& list);
 void add_conversions(std::vector<Operation>& list);
 void add_textures(std::vector<Operation>& list);
+void add_packing(std::vector<Operation>& list);
+void add_srgb(std::vector<Operation>& list);
 void add_tests(std::vector<Operation>& list);
+void add_discards(std::vector<Operation>& list);
 
 // `body` reads `given` and sets `result`; `declared` stands before main.
 [[nodiscard]] std::vector<ShaderPair> one_pass(const std::string& body, const std::string& declared = "",

@@ -88,6 +88,15 @@ void add_arithmetic(std::vector<Operation>& list) {
     list.push_back(operation("shader.mul-add-through-bits", "is a product that became bits contracted?",
                              "F(U(a * b)) + c", triples(902, true, true),
                              {of("rounded twice", rounded_twice), of("fused", fused)}));
+    // GLSL 3.30 has the word by an extension, GLSL ES 3.00 has it not.
+    Operation precise = operation("shader.mul-add-precise", "is a * b + c contracted where it is `precise`?", "exact",
+                                  triples(907, true, true), {of("rounded twice", rounded_twice), of("fused", fused)});
+    std::string& text = precise.programs.front().fragment;
+    text.insert(text.find("result ="), "precise highp float exact = a * b + c; ");
+    text.insert(0,
+                "#ifdef GL_ES\n#error GLSL ES 3.00 has no precise\n#else\n"
+                "#extension GL_ARB_gpu_shader5 : require\n#endif\n");
+    list.push_back(std::move(precise));
     list.push_back(operation("shader.division", "how is a / b rounded?", "a / b", triples(903, true, false),
                              {of("correctly rounded", quotient), of("a * (1 / b)", by_reciprocal)}));
     list.push_back(operation("shader.reciprocal", "how is 1 / a rounded?", "1.0 / a", triples(904, true, false),

@@ -100,10 +100,19 @@ std::uint32_t uint_by_either_half(std::uint32_t a, std::uint32_t b) {
     return (low >> 31) != 0 ? low | int_indefinite(word_of(float_of(a) - 0x1p31f), b) : low;
 }
 
+// The same, the upper half by a sum that ends at 32 bits, and 0 of what has the sign of negative numbers.
+std::uint32_t uint_by_signless_halves(std::uint32_t a, std::uint32_t b) {
+    return (a >> 31) != 0 ? 0 : uint_by_halves(a, b);
+}
+
 std::uint32_t float_even(std::uint32_t a, std::uint32_t) { return word_of(static_cast<float>(a)); }
 std::uint32_t float_cut(std::uint32_t a, std::uint32_t) {
     const int width = std::bit_width(a);
     return word_of(static_cast<float>(width > 24 ? a >> (width - 24) << (width - 24) : a));
+}
+// The lower 31 bits, rounded; then the upper one is added, and the sum rounded again.
+std::uint32_t float_by_halves(std::uint32_t a, std::uint32_t) {
+    return word_of(static_cast<float>(a & 0x7fffffffu) + ((a >> 31) != 0 ? 0x1p31f : 0.0f));
 }
 std::uint32_t float_signed(std::uint32_t a, std::uint32_t) {
     return word_of(static_cast<float>(static_cast<std::int32_t>(a)));
@@ -142,9 +151,11 @@ void add_conversions(std::vector<Operation>& list) {
     list.push_back(operation("shader.to-uint", "what is uint(a) out of range?", "uint(a)", integers, odd_pairs(),
                              {of("the nearest end, 0 of NaN", uint_saturated), of("the low bits of 64", uint_low_bits),
                               of("2^32 - 1", uint_all_ones), of("two signed halves", uint_by_halves),
-                              of("two signed halves, by or", uint_by_either_half)}));
+                              of("two signed halves, by or", uint_by_either_half),
+                              of("two signed halves, 0 below 0", uint_by_signless_halves)}));
     list.push_back(operation("shader.from-uint", "how is float(integer) rounded?", "U(float(given.x))", floats, words(),
-                             {of("nearest even", float_even), of("toward zero", float_cut)}));
+                             {of("nearest even", float_even), of("toward zero", float_cut),
+                              of("31 bits, then 2^31 added", float_by_halves)}));
     list.push_back(operation("shader.from-int", "how is float(integer) rounded, below 0?", "U(float(int(given.x)))",
                              floats, words(), {of("nearest even", float_signed)}));
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/numbers/srgb_encode.h"
 #include "tools/probe/dice.h"
 #include "tools/probe/operations_parts.h"
 
@@ -61,6 +60,8 @@ float weight_of(float u, int weight_bits, bool nearest) {
 
 float code_nearest(float weight) { return std::floor(weight * 255.0f + 0.5f) / 255.0f; }
 float code_nearest_scaled(float weight) { return std::floor(weight * 255.0f + 0.5f) * (1.0f / 255.0f); }
+// The weight of a texel that is kept as the upper 8 of 16 bits.
+float of_65280ths(float weight) { return weight * 65280.0f * (1.0f / 65280.0f); }
 float code_cut(float weight) { return std::floor(weight * 255.0f) / 255.0f; }
 
 // Two texels, 0 and 1: the result is the weight.
@@ -90,49 +91,9 @@ Operation weights(const std::string& format) {
             add(name + ", then the nearest code times 1 / 255", count, nearest, code_nearest_scaled);
             add(name + ", then the code below", count, nearest, code_cut);
         }
-    if (codes) add("binary32, then the nearest code", 0, false, code_nearest);
-    return o;
-}
-
-Operation decoded() {
-    Operation o =
-        operation("texture.srgb-decode", "how exact is the table of sRGB?",
-                  "result = uvec4(U(texelFetch(image, ivec2(int(given.x), 0), 0).r), 0u, 0u, 0u);", plain_image);
-    o.image = SourceImage{.format = "srgb8"};
-    for (std::uint32_t code = 0; code < 256; ++code) {
-        o.image->texels.push_back(code);
-        o.inputs.push_back(one_word(code));
-    }
-    const auto exact = [](const Texel& t) { return scenes::decode_srgb(static_cast<float>(t[0]) / 255.0f); };
-    o.hypotheses = {
-        {"the formula, rounded to binary32", [exact](const Texel& t) { return one_word(word_of(exact(t))); }},
-        {"the formula, rounded to 8 bits",
-         [exact](const Texel& t) { return one_word(word_of(std::floor(exact(t) * 255.0f + 0.5f) / 255.0f)); }},
-        {"the formula, rounded to 16 bits", [exact](const Texel& t) {
-             return one_word(word_of(static_cast<float>(std::floor(double{exact(t)} * 65535.0 + 0.5) / 65535.0)));
-         }}};
-    return o;
-}
-
-// Alpha is linear: its codes are those of a store to UNORM8.
-Operation encoded() {
-    Operation o{.name = "target.srgb-encode", .question = "which code does a linear value get in an sRGB target?"};
-    o.corners = whole_picture();
-    o.programs = one_pass("result = vec4(F(given.x), F(given.x), F(given.x), 1.0);", "", true);
-    o.result = ResultKind::srgb8;
-    for (std::uint32_t code = 0; code < 256; ++code) {
-        // The values of the codes and of their borders, and the nearest representable neighbours at 2^-10 of them.
-        const float middle = scenes::decode_srgb(static_cast<float>(code) / 255.0f);
-        const float border = scenes::decode_srgb((static_cast<float>(code) + 0.5f) / 255.0f);
-        for (const float value : {middle, border * (1.0f - 0x1p-10f), border, border * (1.0f + 0x1p-10f)})
-            o.inputs.push_back(one_word(word_of(value)));
-    }
-    o.hypotheses = {{"the nearest code of the exact formula",
-                     [](const Texel& t) { return one_word(scenes::encode_srgb8(float_of(t[0]))); }},
-                    {"the code below of the exact formula", [](const Texel& t) {
-                         const float encoded = scenes::encode_srgb(std::clamp(float_of(t[0]), 0.0f, 1.0f));
-                         return one_word(static_cast<std::uint32_t>(std::floor(encoded * 255.0f)));
-                     }}};
+    if (!codes) return o;
+    add("binary32, then the nearest code", 0, false, code_nearest);
+    add("binary32, times 65,280, times its reciprocal", 0, false, of_65280ths);
     return o;
 }
 
@@ -200,6 +161,15 @@ Operation shadow(const std::string& format, int depth_bits) {
     add("clamped, against the code times a reciprocal", [](float r, std::uint32_t code, int n) {
         return std::clamp(r, 0.0f, 1.0f) <= static_cast<float>(code) * depth_of(1, n);
     });
+    // Kept as binary32: of 32 bits, the code's upper ones repeated below, and 2^32 - 1, which is rounded, too.
+    if (depth_bits == 24) {
+        add("as it is, against the binary32 of 32 bits", [](float r, std::uint32_t code, int) {
+            return r <= static_cast<float>(code << 8 | code >> 16) * 0x1p-32f;
+        });
+        add("clamped, against the binary32 of 32 bits", [](float r, std::uint32_t code, int) {
+            return std::clamp(r, 0.0f, 1.0f) <= static_cast<float>(code << 8 | code >> 16) * 0x1p-32f;
+        });
+    }
     add("rounded to the nearest code",
         [](float r, std::uint32_t code, int n) { return std::floor(code_of(double{r}, n) + 0.5) <= code; });
     add("cut to a code", [](float r, std::uint32_t code, int n) { return std::floor(code_of(double{r}, n)) <= code; });
@@ -212,8 +182,7 @@ void add_textures(std::vector<Operation>& list) {
     list.push_back(nearest_texel());
     list.push_back(weights("rgba8"));
     list.push_back(weights("r16f"));
-    list.push_back(decoded());
-    list.push_back(encoded());
+    add_srgb(list);
     list.push_back(shadow("d16", 16));
     list.push_back(shadow("d24", 24));
     list.push_back(shadow("d32f", 32));

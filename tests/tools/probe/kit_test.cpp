@@ -12,6 +12,7 @@
 #include "tools/probe/draw_item.h"
 #include "tools/probe/fields.h"
 #include "tools/probe/shapes.h"
+#include "tools/probe/split_depths.h"
 #include "tools/probe/split_weights.h"
 
 using namespace strata;
@@ -137,5 +138,17 @@ TEST_CASE("the kit tells a reciprocal of 24 to 27 bits from one that has a bit m
             more.raster.hypothesis.reciprocal_bits = bits + 1;
             INFO(bits);
             CHECK(difference(*draw_item(fewer, item, y).answer, *draw_item(more, item, y).answer).color > 0);
+        }
+}
+
+TEST_CASE("the kit tells a reciprocal of 24 to 30 bits from one whose deficit is a unit of 2^-32 more, by depths") {
+    const Item& item = *std::ranges::find(kit(), "depth.split-reciprocals", &Item::name);
+    for (const YDirection y : {YDirection::up, YDirection::down})
+        for (const TwoReciprocals& two : neighbouring_reciprocals()) {
+            DeviceProfile one = *pipeline::find_profile("geforce3"), other = one;
+            one.raster.hypothesis = two.first;
+            other.raster.hypothesis = two.second;
+            INFO(two.first.reciprocal_bits << " bits, deficit " << two.first.reciprocal_deficit);
+            CHECK(difference(*draw_item(one, item, y).answer, *draw_item(other, item, y).answer).depth > 0);
         }
 }

@@ -43,7 +43,8 @@ KitDraw draw_of(const json& described) {
         draw.blend = {equations.at(blend.at(0).get<std::string>()), factors.at(blend.at(1).get<std::string>()),
                       factors.at(blend.at(2).get<std::string>())};
     if (const json& offset = described.at("polygon_offset"); !offset.is_null()) draw.polygon_offset = pair_of(offset);
-    draw.has_alpha_test = !described.at("alpha_above").is_null();
+    if (const json& above = described.at("alpha_above"); !above.is_null())
+        draw.alpha_above = std::bit_cast<float>(words_of(above.get<std::string>()).at(0));
     return draw;
 }
 

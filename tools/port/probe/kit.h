@@ -22,7 +22,8 @@ struct KitDraw {
     std::optional<KitBlend> blend;
     // Factor and units.
     std::optional<std::array<float, 2>> polygon_offset;
-    bool has_alpha_test = false;
+    // The reference of an alpha test GREATER.
+    std::optional<float> alpha_above;
 };
 
 struct KitItem {

@@ -30,17 +30,20 @@ function wordsOf(digits) {
 }
 const floatsOf = (digits) => new Float32Array(wordsOf(digits).buffer);
 
+// Of what a compiler says: the first mistake, for the others follow from it.
+const firstLine = (log) => log.trim().split('\n')[0];
+
 function makeProgram(gl, vertex, fragment) {
   const program = gl.createProgram();
   for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(type);
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
-    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(firstLine(gl.getShaderInfoLog(shader)));
     gl.attachShader(program, shader);
   }
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(firstLine(gl.getProgramInfoLog(program)));
   return program;
 }
 
