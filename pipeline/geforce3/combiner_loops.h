@@ -25,7 +25,8 @@ struct CombinerMap {
 };
 [[nodiscard]] constexpr CombinerMap map_of(CombinerMapping mapping) noexcept {
     constexpr std::int32_t one = combiner_one, half = combiner_half;
-    constexpr std::int32_t low = std::numeric_limits<std::int32_t>::min(), high = std::numeric_limits<std::int32_t>::max();
+    constexpr std::int32_t low = std::numeric_limits<std::int32_t>::min(),
+                           high = std::numeric_limits<std::int32_t>::max();
     switch (mapping) {
         case CombinerMapping::unsigned_identity: return {0, high, 1, 0};
         case CombinerMapping::unsigned_invert: return {0, one, -1, one};
@@ -59,7 +60,8 @@ struct CombinerLoops {
     void (*multiply)(const CombinerOperand& x, const CombinerOperand& y, CombinerProduct kind, std::size_t c,
                      std::int32_t* to, std::size_t count) noexcept;
     // A sum of products, to 1/255, scaled.
-    void (*settle)(const CombinerScaling& scaling, const std::int32_t* from, std::int32_t* to, std::size_t count) noexcept;
+    void (*settle)(const CombinerScaling& scaling, const std::int32_t* from, std::int32_t* to,
+                   std::size_t count) noexcept;
     void (*mix)(const CombinerMix& operands, std::size_t c, float* to, std::size_t count) noexcept;
 };
 
