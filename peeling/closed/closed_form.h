@@ -40,7 +40,10 @@ namespace strata::peeling {
     using enum pipeline::TerminationRule;
     const auto rule = frame.termination.rule;
     const bool is_known = frame.color_format == pipeline::Format::rgba8 || has_float_blocks(frame);
-    return is_known && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() &&
+    // A profile that blends codes in binary32 has no block that does (fragment-stages.md 9.5).
+    const bool blends_codes =
+        frame.color_format != pipeline::Format::rgba8 || frame.profile->blend_storage == pipeline::BlendStorage::target;
+    return is_known && blends_codes && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() &&
            frame.replay.bytes > 0 && !frame.keep_layers;
 }
 
