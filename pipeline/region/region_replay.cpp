@@ -42,7 +42,9 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
         require_range(batch);
         given(batch);
     };
-    const rasterizer::BatchSink sink = wraps_depths() && needs.code ? rasterizer::BatchSink{checked} : given;
+    // A silent look orders nothing.
+    const bool checks = wraps_depths() && needs.code && (books_.counts || source_ == Source::captured);
+    const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
     if (primitives.empty()) rasterizer_->draw(geometry, triangles, frame_.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
         return geometry.triangles[triangle].primitive < primitive;

@@ -26,7 +26,7 @@ void RegionShortcuts::count_coverage(std::span<std::uint32_t> coverage) {
 
 // Each part has twice as many triangles as the one before. A program that soon has enough is asked soon, and few
 // batches end early.
-void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink given,
+void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect& band, rasterizer::BatchSink sink,
                                      const bool& goes_on) {
     const PreparedDraw& list = *region_.frame_.transparent;
     const MaterialNeeds& materials = region_.needs_of_tile(list);
@@ -35,11 +35,6 @@ void RegionShortcuts::rasterize_band(FragmentNeeds needs, const rasterizer::Rect
     region_.samples_textures_ = needs.texcoord;
     region_.takes_shadow_ = needs.color && list.needs.shadow != 0;
     if (region_.takes_shadow_) needs.units |= list.needs.shadow;
-    auto checked = [&](FragmentBatch& batch) {
-        region_.require_range(batch);
-        given(batch);
-    };
-    const rasterizer::BatchSink sink = region_.wraps_depths() && needs.code ? rasterizer::BatchSink{checked} : given;
     rasterizer::TileRasterizer rows{band};
     auto triangles = region_.triangles_of(list);
     for (std::size_t part = 64; goes_on && !triangles.empty(); part *= 2) {
