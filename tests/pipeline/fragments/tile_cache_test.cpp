@@ -199,3 +199,25 @@ TEST_CASE("tiles leave what the frame leaves, though what throws a cached tile o
         CHECK(literal.refusal.empty());
     }
 }
+
+TEST_CASE("a fragment that its program discards fetches its tile, unless the pass has a test") {
+    constexpr int width = 512;
+    const FragmentScene scene =
+        ten_on_each(width, 128, 0.34f / 255.0f, {321, 65 * width + 3});  // tiles (5, 0) and (0, 1)
+    for (const bool has_test : {false, true}) {
+        TestFrame test{scene, "softpipe"};
+        RegionBooks books;
+        Region region{test.frame, {test.frame.rect()}, books};
+        PassState state;
+        state.color[0] = region.make(Format::rgba8);
+        state.blend[0] = blend_mode::sum;
+        state.depth_target = region.make_depth();
+        state.depth = {.enabled = has_test, .func = CompareFunc::always, .write = false};
+        static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+            out.color[0] = in.color;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+                if (in.pixel[i] >= 64 * width) out.alive[i] = 0;
+        }));
+        CHECK(region.storage(state.color[0]).code(321, 0, 0) == (has_test ? 3 : 0));
+    }
+}
