@@ -154,15 +154,17 @@ bool is_quotient(DepthPath path) { return path == DepthPath::perspective_rq || p
 
 // The proof in safe_range.h is for two depths of the same fragments and a quantised reference; elsewhere no
 // advice is better than a wrong one.
-Advice advice_for(const Experiment& e, const std::vector<PathPair>& pairs, const std::vector<std::uint32_t>& opaque) {
+Advice advice_for(const Experiment& e, rasterizer::OffsetUnit unit, const std::vector<PathPair>& pairs,
+                  const std::vector<std::uint32_t>& opaque) {
     Advice advice;
     if (draws_twice(e.render) || !e.render.quantize_reference || e.algorithm->key != DepthKey::stored_code)
         return advice;
     const DepthFormat format = *e.render.depth;
     advice.epsilon_ulps = safe_epsilon(pairs, opaque);
     advice.epsilon = safe_absolute(pairs, opaque, format);
-    const bool is_fixed = code_kind(format) == rasterizer::CodeKind::fixed;
-    if (is_fixed && is_quotient(e.compare) && !is_quotient(e.write)) advice.bias = safe_bias(pairs, opaque);
+    const bool is_code = code_kind(format) == rasterizer::CodeKind::fixed &&
+                         (unit == rasterizer::OffsetUnit::format || unit == rasterizer::OffsetUnit::buffer);
+    if (is_code && is_quotient(e.compare) && !is_quotient(e.write)) advice.bias = safe_bias(pairs, opaque);
     return advice;
 }
 
@@ -183,7 +185,7 @@ Measurement measure(const DrawList& list, const View& view, const DeviceProfile&
         // Passes into different viewports share no depth buffer: their codes are compared, and no peel is run.
         m.peeled = e.moved_window == std::array{0, 0};
         if (!m.peeled) return m;
-        m.advice = advice_for(e, pairs.pairs, written.opaque);
+        m.advice = advice_for(e, profile.raster.offset_unit, pairs.pairs, written.opaque);
         run_peel(m, passes);
         m.truth = true_picture(machine, bare(e.render, e.write));
         m.image = image_error(m.picture, m.truth);

@@ -40,7 +40,12 @@ namespace strata::peeling {
     using enum pipeline::TerminationRule;
     const auto rule = frame.termination.rule;
     const bool is_known = frame.color_format == pipeline::Format::rgba8 || has_float_blocks(frame);
-    return is_known && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() &&
+    // No block blends codes in binary32 (fragment-stages.md 9.5), and no column sorts depths beyond the range (depth.md 2.9).
+    const pipeline::DeviceProfile& profile = *frame.profile;
+    const bool is_ordinary =
+        profile.raster.depth_limits == rasterizer::DepthLimits::clamp &&
+        (frame.color_format != pipeline::Format::rgba8 || profile.blend_storage == pipeline::BlendStorage::target);
+    return is_known && is_ordinary && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() &&
            frame.replay.bytes > 0 && !frame.keep_layers;
 }
 

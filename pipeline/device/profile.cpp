@@ -93,6 +93,7 @@ DeviceProfile mesa() {
     p.raster.plane_origin = PlaneOrigin::unsnapped;
     p.raster.perspective = PerspectiveDivide::reciprocal;
     p.raster.depth_rounding = DepthRounding::product_even;
+    p.raster.offset_unit = OffsetUnit::two_codes;
     p.half_rounding = HalfRounding::toward_zero;
     p.unorm_rounding = UnormRounding::product_even;
     p.blend_rounding = BlendRounding::each_product;
@@ -125,12 +126,14 @@ DeviceProfile llvmpipe_sse() {
 DeviceProfile softpipe() {
     DeviceProfile p = mesa();
     p.name = "softpipe";
-    p.description = "no device: Mesa 22.3's softpipe where a pass blends a pixel once";
+    p.description = "no device: Mesa 22.3's softpipe, whose blends round when a cached tile is put back";
     p.raster.coverage = CoverageRule::float_spans;
     p.raster.plane_rule = PlaneRule::least_corner;
     p.raster.perspective = PerspectiveDivide::quotient;
     p.raster.depth_rounding = DepthRounding::product_floor;
+    p.raster.depth_limits = DepthLimits::wrap;
     p.blend_rounding = BlendRounding::nearest;
+    p.blend_storage = BlendStorage::cached_tiles;
     p.min_max_nan = MinMaxNan::propagate;
     p.max_samples = 1;
     return p;

@@ -15,6 +15,9 @@ namespace strata::pipeline {
 enum class AlphaTestPrecision : std::uint8_t { unorm8, by_target };
 // How an 8-bit blend becomes a code: its exact sum half up, or cut; or each product by itself (fragment-stages.md 8.2).
 enum class BlendRounding : std::uint8_t { nearest, truncate, each_product };
+// What a blend reads and leaves: the target's codes, or binary32 in a cache of tiles, rounded when a tile leaves it or the pass
+// ends (fragment-stages.md 9.5).
+enum class BlendStorage : std::uint8_t { target, cached_tiles };
 // The result of MIN and MAX of one NaN and one number (fragment-stages.md 9.3).
 enum class MinMaxNan : std::uint8_t { other_operand, propagate };
 // Whether binary32 blending turns operands and results below 2^-126 into zeros (fragment-stages.md 9.1).
@@ -34,6 +37,7 @@ struct DeviceProfile {
     // Stages
     AlphaTestPrecision alpha_test = AlphaTestPrecision::by_target;
     BlendRounding blend_rounding = BlendRounding::nearest;
+    BlendStorage blend_storage = BlendStorage::target;
     HalfRounding half_rounding = HalfRounding::nearest_even;
     UnormRounding unorm_rounding = UnormRounding::half_up;
     MinMaxNan min_max_nan = MinMaxNan::other_operand;
@@ -83,7 +87,8 @@ struct DeviceProfile {
     [[nodiscard]] ColorRounding color_rounding() const noexcept { return {half_rounding, unorm_rounding}; }
     // Whether 8-bit targets follow one of the rules that kernels beside the stages know: one rounding of the exact value.
     [[nodiscard]] bool rounds_codes_once() const noexcept {
-        return unorm_rounding == UnormRounding::half_up && blend_rounding != BlendRounding::each_product;
+        return unorm_rounding == UnormRounding::half_up && blend_rounding != BlendRounding::each_product &&
+               blend_storage == BlendStorage::target;
     }
 
     // Whether depth buffers of that format exist; d24s8 is a d24 with stencil beside it.

@@ -13,6 +13,7 @@
 #include "pipeline/formats/image_words.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
+#include "pipeline/fragments/tile_cache.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"

@@ -43,6 +43,7 @@ struct SortRequest;
 struct SelectedFragments;
 struct KeyWindow;
 class StoredDepth;
+class TileCache;
 
 class Region {
   public:
@@ -190,6 +191,20 @@ class Region {
     void rasterize(const PreparedDraw& list, rasterizer::FragmentNeeds needs,
                    std::span<const PrimitiveRange> primitives, rasterizer::BatchSink sink);
     void replay(rasterizer::BatchSink sink);
+    void require_range(const FragmentBatch& batch) const;
+    // Whether depths beyond the range have codes of their own (depth.md 2.9).
+    [[nodiscard]] bool wraps_depths() const noexcept {
+        return profile().raster.depth_limits == rasterizer::DepthLimits::wrap;
+    }
+    // Around the batches of a pass whose blends binary32 holds (tile_cache.h); nothing for other profiles.
+    void open_cache(const PassState& state) {
+        if (profile().blend_storage != BlendStorage::target) open_tile_cache(state);
+    }
+    void close_cache() {
+        if (cache_ != nullptr) close_tile_cache();
+    }
+    void open_tile_cache(const PassState& state);
+    void close_tile_cache();
     // Selections: region_selection.cpp.
     [[nodiscard]] bool may_select(const PassState& state, const PreparedDraw& list);
     void capture_unseen(const PreparedDraw& list, const rasterizer::FragmentNeeds& kept);
@@ -312,6 +327,7 @@ class Region {
 
     std::optional<MaterialNeeds> transparent_needs_, opaque_needs_;  // of the tile's triangles, once asked for
     std::optional<TargetStorage> idle_stencil_;
+    std::unique_ptr<TileCache> cache_;         // of profiles with BlendStorage::cached_tiles
     DepthOutcome depth_ = DepthOutcome::open;  // of the present pass
     bool opaque_depth_is_cleared_ = false;     // 1 everywhere, as before the first opaque triangle
     enum class Source : std::uint8_t {

@@ -30,7 +30,9 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     };
+    open_cache(state);
     for_each_batch(list, state, rasterizer::BatchSink{sink});
+    close_cache();
     tell_alteration(PassKind::geometry, drawn);
     show({.step = Step::geometry, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
     return drawn;
@@ -40,6 +42,7 @@ template <FragmentProgram P>
 Drawn Region::draw_selected(const PassState& state, P& program) {
     const Counters before = record().counters;
     select(state);
+    open_cache(state);
     Drawn drawn;
     PassState drawn_to = state;
     while (FragmentBatch* const batch = next_selected(state)) {
@@ -49,6 +52,7 @@ Drawn Region::draw_selected(const PassState& state, P& program) {
         drawn_to.sample_mask = samples_of_selected(state);
         finish(drawn_to, *batch, out, drawn);
     }
+    close_cache();
     return book_selected(state, before, drawn);
 }
 
@@ -73,6 +77,7 @@ Drawn Region::full_screen(const PassState& state, P&& program) {
 template <FragmentProgram P>
 Drawn Region::draw_screen(const PassState& state, P& program) {
     begin_pass(state, PassKind::full_screen);
+    open_cache(state);
     Drawn drawn;
     FragmentBatch& batch = screen_batch();
     for (std::size_t next = 0; next_screen_batch(batch, next);) {
@@ -82,6 +87,7 @@ Drawn Region::draw_screen(const PassState& state, P& program) {
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     }
+    close_cache();
     tell_alteration(PassKind::full_screen, drawn);
     show({.step = Step::full_screen, .state = &state, .passed = drawn.passed.own_, .tallied = drawn.tallied.own_});
     return drawn;

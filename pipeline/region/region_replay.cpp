@@ -33,11 +33,18 @@ std::span<const std::uint32_t> Region::triangles_of(const PreparedDraw& list) co
 // Without ranges all triangles are drawn. Triangles stand in submission order, and the pieces of a clipped one carry
 // its number, so that a range of primitives is a run of triangles.
 void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<const PrimitiveRange> primitives,
-                       rasterizer::BatchSink sink) {
+                       rasterizer::BatchSink given) {
     samples_textures_ = needs.color && needs_of_tile(list).texcoord;
     takes_shadow_ = needs.color && list.needs.shadow != 0;
     const auto& geometry = list.geometry;
     const auto triangles = triangles_of(list);
+    auto checked = [&](FragmentBatch& batch) {
+        require_range(batch);
+        given(batch);
+    };
+    // A silent look orders nothing.
+    const bool checks = wraps_depths() && needs.code && (books_.counts || source_ == Source::captured);
+    const rasterizer::BatchSink sink = checks ? rasterizer::BatchSink{checked} : given;
     if (primitives.empty()) rasterizer_->draw(geometry, triangles, frame_.key_request(), needs, sink);
     const auto before = [&](std::uint32_t triangle, std::uint32_t primitive) {
         return geometry.triangles[triangle].primitive < primitive;
@@ -47,6 +54,14 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
         const auto last = std::lower_bound(first, triangles.end(), range.last, before);
         rasterizer_->draw(geometry, {first, last}, frame_.key_request(), needs, sink);
     }
+}
+
+// Codes beyond the range order as no key does: where one comes, the frame is drawn as its definition has it (execution.md 5.4).
+void Region::require_range(const FragmentBatch& batch) const {
+    const rasterizer::DepthFormat format = frame_.key_request().format;
+    const auto is_beyond = [&](std::uint32_t code) { return rasterizer::is_beyond_range(code, format); };
+    if (extent_ == Extent::tile && std::any_of(batch.code.begin(), batch.code.begin() + batch.count, is_beyond))
+        throw NeedsFrame{};
 }
 
 // Sends every captured batch down the stages again, in submission order.
@@ -67,8 +82,8 @@ DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& l
                           state.depth_unit_count == 0 && !state.replaces_depth;
     const rasterizer::DepthRequest depth = frame_.key_request();
     const bool has_bound = depth.path == DepthPath::float32 || depth.path == DepthPath::exact;
-    if (!is_plain || !has_bound || state.needs.code || !opaque_depth_is_cleared_ || extent_ == Extent::frame ||
-        frame_.effects == Effects::all || &list != frame_.transparent)
+    if (!is_plain || !has_bound || wraps_depths() || state.needs.code || !opaque_depth_is_cleared_ ||
+        extent_ == Extent::frame || frame_.effects == Effects::all || &list != frame_.transparent)
         return DepthOutcome::open;
     const double bound = depth_bound(list.geometry, list.geometry.bin(tile_));
     const auto code = [&](float z) { return to_depth_code(z, depth.format, profile().raster.depth_rounding); };

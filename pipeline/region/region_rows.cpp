@@ -79,7 +79,8 @@ bool Region::sums_suit_rows(const PassState& state) {
     };
     return is_tested && !state.color[2].exists() && is_one_sample(state.depth_target) &&
            (are_sums(Format::rgba32f, Format::r32f) ||
-            (are_sums(Format::rgba16f, Format::r16f) && profile().half_rounding == HalfRounding::nearest_even)) &&
+            (are_sums(Format::rgba16f, Format::r16f) && profile().half_rounding == HalfRounding::nearest_even &&
+             profile().blend_storage == BlendStorage::target)) &&
            profile().raster.color == rasterizer::ColorInterpolation::exact_plane && may_walk_rows(list) &&
            draws_rows(state, list) && list.needs.shadow == 0 && !needs_of_tile(list).texcoord;
 }

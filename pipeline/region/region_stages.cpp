@@ -8,6 +8,7 @@
 #include "pipeline/formats/narrow.h"
 #include "pipeline/formats/unorm8.h"
 #include "pipeline/formats/unorm8_product.h"
+#include "pipeline/fragments/tile_cache.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/check_pass.h"
@@ -213,7 +214,8 @@ void Region::finish_sample(const PassState& state, const FragmentBatch& batch, c
         is_tested ? test_depth_and_stencil(state, batch, sample, alive) : count_lanes(alive, batch.count);
     drawn.passed.own_ += passed;
     show(Stage::tests, state, batch, out, alive, sample);
-    if (passed == 0) return;
+    // Without a test, fragments that a program discards fetch tiles, too (fragment-stages.md 9.5).
+    if (passed == 0 && (cache_ == nullptr || is_tested)) return;
     if (kind_ == PassKind::geometry && sample == 0) record().counters.blended += passed;
     write_colors(state, batch, out, sample, alive, passed);
     show(Stage::written, state, batch, out, alive, sample);
@@ -266,6 +268,10 @@ std::uint64_t Region::test_depth_and_stencil(const PassState& state, const Fragm
         if (depth != nullptr && state.depth.write)
             scatter_codes(codes_in(depth->depth_plane(sample)), lanes_of(batch), alive.data(), 1, &batch.code);
     }
+    // What is compared may be wider than what is kept (depth.md 2.9).
+    if (wraps_depths() && depth != nullptr && state.depth.write && depth->format() != Format::d32f)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+            depth->depth_plane(sample).words[batch.pixel[i]] &= rasterizer::max_code(depth_format(depth->format()));
     counters.stencil_killed += stencil_killed;
     if (depth != nullptr)
         counters +=
@@ -313,6 +319,20 @@ void Region::report_saturation(std::uint32_t pixel) {
     report(Fault::stencil_saturated, 1, pixel, saturated_stencil);
 }
 
+void Region::open_tile_cache(const PassState& state) {
+    if (cache_ == nullptr) cache_ = std::make_unique<TileCache>(rect_, frame_.rect());
+    for (std::size_t k = 0; k < state.color.size(); ++k) {
+        if (!state.color[k].exists()) continue;
+        const TargetStorage& target = at(state.color[k]);
+        if (!TileCache::knows(state.blend[k], target.format())) continue;
+        CachedPlanes planes{target.format(), target.pixels(), {}};
+        for (int sample = 0; sample < target.samples(); ++sample) planes.samples.push_back(target.texels(sample));
+        cache_->hold(k, profile(), state.blend[k], std::move(planes));
+    }
+}
+
+void Region::close_tile_cache() { cache_->close(); }
+
 // Sums into halves have a kernel that adds in place; on sets that do not convert halves it answers false, and the
 // general way below, its definition, runs. Stored values are fetched only where blending or a partial write mask looks
 // at them.
@@ -324,6 +344,12 @@ void Region::write_colors(const PassState& state, const FragmentBatch& batch, co
         TargetStorage& target = at(state.color[k]);
         const FormatInfo format = info(target.format());
         if (kind_ == PassKind::geometry) count_color_bytes(blending, target, passed);
+        if (cache_ != nullptr && cache_->holds(k)) {
+            const auto& fetched = state.depth.enabled || state.stencil.enabled ? alive : every_lane;
+            if (idles(Effect::blending, true)) idle_blend(blending, batch, out.color[k], target, sample);
+            cache_->blend(k, {batch, out.color[k], alive, fetched, sample});
+            continue;
+        }
         const bool is_idle = idles(Effect::blending, blending.enabled);
         const bool keeps_source =
             is_idle && !blending.enabled && format.type == ChannelType::unorm8;  // ONE and ZERO do

@@ -4,7 +4,8 @@
 //          D32F: the float itself, clamped to [0,1] and -0 made +0; so the codes of one format order like unsigned
 //          integers. D16F: depth 1 is its greatest value, 511.9375; the depth cut to 12 bits of mantissa, an exponent
 //          field of 0 flushed to 0, whatever the rule. D24F: depth 1 is 1e30; binary32 without its sign, its mantissa
-//          cut to 16 bits, what is below 2^-126 flushed to 0. The text of it all is depth_text-inl.h's.
+//          cut to 16 bits, what is below 2^-126 flushed to 0. The text of it all is depth_text-inl.h's. Under
+//          DepthLimits::wrap nothing is clamped (depth.md 2.9).
 // Source   depth.md 2 (D3D 11.3 17.10-17.11, GL 2.1 2.11.1, ARB_depth_buffer_float); floor is GeForce3's. D16F and D24F:
 //          chip-float-depth.md 3.
 // Numbers  Scaling in binary64: 24 by 24 bits are exact, while binary32 has no half left above z = 0.5.
@@ -39,6 +40,7 @@ struct DepthConversion {
     CodeKind kind;
     Limit least, greatest;  // the depth range, in the values' unit
     double scale, half;     // the buffer's units in one of the values', and what rounding adds before the cut
+    bool wraps = false;     // DepthLimits::wrap: the range limits nothing; to_wrapped_code
     [[nodiscard]] constexpr bool is_fixed() const noexcept {
         return kind == CodeKind::fixed || kind == CodeKind::fixed_product || kind == CodeKind::fixed_cut_product;
     }
@@ -164,6 +166,27 @@ template <class Value>
         case CodeKind::d24f: return depth_code<CodeKind::d24f>(OneLane<Value>{}, z, to);
     }
     return 0;  // unreachable: the enum is closed
+}
+
+// The code under DepthLimits::wrap of a value, where depth 1 is 1: D32F keeps it; in fixed point it is scaled, rounded as ever, cut toward
+// zero to an integer with a sign, and that integer's lowest 32 bits are compared, of which the target keeps its own (depth.md 2.9).
+[[nodiscard]] constexpr std::uint32_t to_wrapped_code(float z, const DepthConversion<float>& to) noexcept {
+    constexpr double most = 0x1p62;  // its lowest 32 bits are 0
+    if (to.kind == CodeKind::binary32) return std::bit_cast<std::uint32_t>(z);
+    const double exact = double{z} * to.scale;
+    const bool is_product = to.kind == CodeKind::fixed_product || to.kind == CodeKind::fixed_cut_product;
+    const double scaled = is_product ? double{static_cast<float>(exact)} : exact;
+    const double bounded = scaled > -most && scaled < most ? scaled : 0.0;  // NaN is 0, too
+    const auto whole = static_cast<std::int64_t>(bounded + (bounded < 0 ? -to.half : to.half));
+    if (to.kind != CodeKind::fixed_product) return static_cast<std::uint32_t>(whole);
+    const double rest = bounded - static_cast<double>(whole), distance = rest < 0 ? -rest : rest;
+    const bool goes_on = distance > 0.5 || (distance == 0.5 && (whole & 1) != 0);
+    return static_cast<std::uint32_t>(whole + (goes_on ? (rest < 0 ? -1 : 1) : 0));
+}
+
+// Whether a code lies beyond the depth range: only DepthLimits::wrap makes such.
+[[nodiscard]] constexpr bool is_beyond_range(std::uint32_t code, DepthFormat format) noexcept {
+    return code > max_code(format);
 }
 
 // A limit of the depth range, within [0,1] as glDepthRange clamps it; -0 and NaN become 0.

@@ -42,9 +42,11 @@ enum class PlaneOrigin : std::uint8_t { snapped, unsnapped };
 enum class WindowZ : std::uint8_t { unit_interval, buffer_units };
 // Vertex colours by the exact perspective plane, or by the chip's 8-bit weights (attributes.md 2.1).
 enum class ColorInterpolation : std::uint8_t { exact_plane, weights_8bit };
-// Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), 2^(e - 23) always, or
-// 1 in the depth buffer's own units, whatever its format.
-enum class OffsetUnit : std::uint8_t { format, float_exponent, buffer };
+// Depths outside of the depth range become its ends; or a D32F target keeps them, and fixed-point codes wrap around (depth.md 2.9).
+enum class DepthLimits : std::uint8_t { clamp, wrap };
+// Unit r of polygon offset: one code of the fixed-point format (D32F: 2^(e - 23) of the primitive), 2^(e - 23) always,
+// 1 in the depth buffer's own units, whatever its format, or as format with two codes for one.
+enum class OffsetUnit : std::uint8_t { format, float_exponent, buffer, two_codes };
 // Where polygon offset is added: to z of the corners, or by the chip to the value of every fragment (window_z.h).
 enum class OffsetRule : std::uint8_t { corners, fragments };
 
@@ -80,6 +82,7 @@ struct RasterRules {
     WindowZ window_z = WindowZ::unit_interval;
     DepthPath depth_path = DepthPath::float32;  // the device's own
     DepthRounding depth_rounding = DepthRounding::nearest;
+    DepthLimits depth_limits = DepthLimits::clamp;  // of path float32
     OffsetUnit offset_unit = OffsetUnit::format;
     OffsetRule offset_rule = OffsetRule::corners;  // of paths window_z and w_buffer
     ColorInterpolation color = ColorInterpolation::exact_plane;

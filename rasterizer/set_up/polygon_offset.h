@@ -1,8 +1,9 @@
 // rasterizer/set_up/polygon_offset.h - what glPolygonOffset adds to the window z of a triangle's corners.
 //
 // Rule     o = m * factor + r * units, m = max(|dz/dx|, |dz/dy|) per pixel of the snapped triangle; no slope term if
-//          factor is 0 (0 * infinity). r: one code of a fixed-point format, or 2^(e - 23) with e the exponent of the
-//          largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in buffer units (OffsetUnit::buffer). The chip's
+//          factor is 0 (0 * infinity). r: one code of a fixed-point format (OffsetUnit::two_codes: two), or 2^(e - 23) with e
+//          the exponent of the largest |z| (a float format, or OffsetUnit::float_exponent), or 1 in buffer units
+//          (OffsetUnit::buffer). The chip's
 //          own sum is offset_value.h. z and o are in vertex z units; |o| <= 2^64,
 //          further out nothing changes.
 // Source   coverage.md 9 (GL 2.1 3.5.5, GL 3.3 3.6.5, D3D 11.3 15.10; NV2A takes that max).
@@ -33,7 +34,8 @@ inline namespace strict {
     if (rules.offset_unit == OffsetUnit::buffer) return z_units(state, rules) / buffer_units(state.depth_format);
     if (rules.offset_unit == OffsetUnit::float_exponent || state.depth_format == DepthFormat::d32f)
         return float_offset_unit(z);
-    return z_units(state, rules) / max_code(state.depth_format);
+    const double codes = rules.offset_unit == OffsetUnit::two_codes ? 2.0 : 1.0;
+    return codes * z_units(state, rules) / max_code(state.depth_format);
 }
 
 // The steeper of |dz/dx| and |dz/dy|, per pixel; `p` has an area.

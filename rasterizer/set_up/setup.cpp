@@ -7,6 +7,7 @@
 #include "rasterizer/coverage/coverage.h"
 #include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/set_up/polygon_offset.h"
+#include "rasterizer/set_up/stepped_offset.h"
 
 namespace strata::rasterizer {
 namespace {
@@ -124,7 +125,6 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
                                              SetupChunk& out) const {
     const auto& [a, b, c] = piece.corner;
     if ((piece.marks & marks_window) != 0) return Fate::non_finite;
-    const std::array p{a->p, b->p, c->p};
     const PieceShape shape = shape_of({a, b, c}, rules_);
     const bool front = is_front(shape.area_sign, triangle.run->mirrored);
     if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
@@ -136,12 +136,26 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     if (box.area() == 0 || negative == all_corners || is_out_of_range(piece.corner)) return Fate::outside;
     out.triangles.push_back(
         {piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front, negative});
-    if (state_.polygon_offset.enabled) {
-        const std::array z{a->z, b->z, c->z};
-        const double offset = polygon_offset(p, z, state_, rules_);
-        out.offset_z.push_back({z[0] + offset, z[1] + offset, z[2] + offset});
-    }
+    if (state_.polygon_offset.enabled) out.offset_z.push_back(with_offset(piece.corner));
     return Fate::kept;
+}
+
+// Window z of the corners and polygon offset: an exact sum, or the roundings of planes that are stepped (coverage.md 9.4).
+std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept {
+    const auto& [a, b, c] = corner;
+    const std::array p{a->p, b->p, c->p};
+    const std::array z{a->z, b->z, c->z};
+    if (rules_.plane_rule == PlaneRule::exact) {
+        const double offset = polygon_offset(p, z, state_, rules_);
+        return {z[0] + offset, z[1] + offset, z[2] + offset};
+    }
+    const float offset = stepped_offset(corner, state_, rules_);
+    std::array<double, 3> moved{};
+    for (std::size_t i = 0; i < 3; ++i)
+        moved[i] = offsets_planes(state_, rules_)
+                       ? double{z[i]} + double{offset}
+                       : std::clamp(z[i] + offset, 0.0f, static_cast<float>(z_units(state_, rules_)));
+    return moved;
 }
 
 // Bit i: corner i has a negative w. In clip space none is left (clip.h).

@@ -85,6 +85,7 @@ class TriangleSetup {
     static void count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept;
     [[nodiscard]] bool is_front(std::int64_t area, bool mirrored) const noexcept;
     [[nodiscard]] bool is_culled(bool front) const noexcept;
+    [[nodiscard]] std::array<double, 3> with_offset(const std::array<const WindowCorner*, 3>& corner) const noexcept;
     [[nodiscard]] std::uint8_t negative_w(const std::array<const WindowCorner*, 3>& corner) const noexcept;
     [[nodiscard]] bool is_out_of_range(const std::array<const WindowCorner*, 3>& corner) const noexcept;
 

@@ -1,5 +1,6 @@
 // rasterizer/values/float_values.cpp - depth and attributes of a batch by the binary32 planes of float_planes.h.
 // Tests: tests/rasterizer/values/float_planes_test.cpp
+#include "rasterizer/set_up/stepped_offset.h"
 #include "rasterizer/values/float_planes.h"
 #include "rasterizer/values/fragment_values.h"
 
@@ -13,10 +14,19 @@ void FragmentValues::fill_plane(const FloatPlane& plane, int first, const Fragme
 
 void FragmentValues::fill_float_z(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                   FragmentBatch& batch) const noexcept {
+    const bool adds_offset = offsets_planes(triangle.geometry.state, rules_);
+    const auto units = static_cast<float>(z_units_);
     std::array<float, 3> z;
-    for (std::size_t i = 0; i < 3; ++i) z[i] = static_cast<float>(t.z[i]) / static_cast<float>(z_units_);
+    for (std::size_t i = 0; i < 3; ++i) z[i] = static_cast<float>(adds_offset ? t.given_z[i] : t.z[i]) / units;
     const FloatPlanes planes = float_planes(triangle.geometry, triangle.record);
-    fill_plane(planes.plane(z), first, batch, &batch.shader_z[static_cast<std::size_t>(first)]);
+    float* const out = &batch.shader_z[static_cast<std::size_t>(first)];
+    fill_plane(planes.plane(z), first, batch, out);
+    if (!adds_offset) return;
+    const auto& corners = triangle.geometry.corners;
+    const auto& [a, b, c] = triangle.record.vertex;
+    const float offset =
+        stepped_offset({&corners[a], &corners[b], &corners[c]}, triangle.geometry.state, rules_) / units;
+    for (int i = 0; i < batch.count - first; ++i) out[i] = out[i] + offset;
 }
 
 void FragmentValues::fill_float_attributes(const DrawnTriangle& triangle, int first,

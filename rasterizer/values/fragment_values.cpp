@@ -25,6 +25,11 @@ void to_codes_of(const Value* __restrict z, int count, const DepthConversion<Val
 
 template <class Value>
 void to_codes(const Value* z, int count, const DepthConversion<Value>& to, std::uint32_t* out) noexcept {
+    if constexpr (std::is_same_v<Value, float>)
+        if (to.wraps) {
+            for (int i = 0; i < count; ++i) out[i] = to_wrapped_code(z[i], to);
+            return;
+        }
     switch (to.kind) {
         case CodeKind::fixed: return to_codes_of<CodeKind::fixed>(z, count, to, out);
         case CodeKind::fixed_product: return to_codes_of<CodeKind::fixed_product>(z, count, to, out);
@@ -47,7 +52,7 @@ void to_codes(const Value* z, int count, const DepthConversion<Value>& to, std::
 
 // The conversions that the kernels know.
 [[nodiscard]] bool has_vector_codes(const DepthConversion<float>& to) noexcept {
-    return to.kind == CodeKind::fixed || to.kind == CodeKind::binary32;
+    return !to.wraps && (to.kind == CodeKind::fixed || to.kind == CodeKind::binary32);
 }
 
 }  // namespace
@@ -82,6 +87,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
                      (needs.exact_code && is_float) || needs.reference;
     needs_attributes_ = needs.color || needs.texcoord || needs.units != 0;
     is_reversed_ = geometry.state.depth_order == DepthOrder::greater;
+    // Keys of reversed depth are those of the range (depth.md 2.9); the formats without a sign have no other codes.
+    to_code_.wraps = rules_.depth_limits == DepthLimits::wrap && depth.path == DepthPath::float32 && !is_reversed_ &&
+                     !geometry.state.depth_clamp && (to_code_.is_fixed() || is_float);
     assert((!is_reversed_ || is_float) && "reversed depth has keys for codes of D32F alone");
     is_plain_ = kernels_.depth != nullptr && rules_.plane_rule == PlaneRule::exact && !clips_fragments_ &&
                 !needs.exact_code && !needs.reference && !rejects_ &&
@@ -174,7 +182,12 @@ int FragmentValues::fill_rounded_codes(const SetupTriangle& t, const TriangleLan
 int FragmentValues::fill_exact_codes(const SetupTriangle& t, const TriangleLanes& lanes, const float* shader_z,
                                      std::uint32_t* out) const noexcept {
     switch (to_code_.kind) {
-        case CodeKind::binary32: to_codes(shader_z, padded(lanes.count), to_code_, out); return 0;
+        case CodeKind::binary32: {
+            DepthConversion<float> in_range = to_code_;
+            in_range.wraps = false;  // exact codes are what an audit sorts by
+            to_codes(shader_z, padded(lanes.count), in_range, out);
+            return 0;
+        }
         case CodeKind::d16f:
         case CodeKind::d24f: return fill_rounded_codes(t, lanes, out);
         case CodeKind::fixed:

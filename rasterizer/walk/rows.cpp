@@ -24,6 +24,7 @@ bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const R
     // Of binary32, D16F and D24F have no vector conversion, and codes of a binary32 product have none either.
     const bool has_conversion = depth.format != DepthFormat::d16f && depth.format != DepthFormat::d24f;
     return can_walk(geometry, region) && depth.path == DepthPath::float32 && has_conversion && !clips_fragments &&
+           geometry.rules.depth_limits == DepthLimits::clamp &&
            depth_conversion(depth.format, geometry.rules.depth_rounding, 1.0f).kind == code_kind(depth.format);
 }
 

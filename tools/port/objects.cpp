@@ -10,6 +10,17 @@ namespace strata::port {
 
 namespace {
 
+// `as_written` before a variable: its sum is what the text says, not an interpolation that rounds otherwise, as softpipe makes of
+// x (1 - t) + y t. Without the extension drivers do as they like.
+constexpr auto as_written = R"(#version 330 core
+#extension GL_ARB_gpu_shader5 : enable
+#ifdef GL_ARB_gpu_shader5
+#define as_written precise
+#else
+#define as_written
+#endif
+)";
+
 // A shader of this kind. Throws std::runtime_error with the compiler's log and the text.
 Handle compile(GLenum kind, const std::string& text) {
     const GLuint shader = glCreateShader(kind);
@@ -103,7 +114,7 @@ Handle make_stencil_framebuffer(GLuint depth_stencil) {
 }
 
 Handle make_program(const ProgramText& text) {
-    const std::string head = "#version 330 core\n" + text.head;
+    const std::string head = as_written + text.head;
     const Handle stages[] = {compile(GL_VERTEX_SHADER, head + text.vertex),
                              compile(GL_FRAGMENT_SHADER, head + text.fragment)};
     const GLuint name = glCreateProgram();

@@ -77,6 +77,8 @@ const ProfileField& field(std::string_view key) {
 }
 
 bool matters(std::string_view key, const DeviceProfile& profile) {
+    // Tiles in binary32 round no blend.
+    if (key == "blend_rounding" && profile.blend_storage != pipeline::BlendStorage::target) return false;
     const auto* const found = std::ranges::find(dependences, key, &Dependence::key);
     return found == std::end(dependences) || found->matters(profile.raster);
 }
@@ -96,14 +98,16 @@ bool can_change(std::string_view key, const Item& item) {
                    return !(std::abs(v.x) <= v.w && std::abs(v.y) <= v.w && std::abs(v.z) <= v.w && v.w > 0);
                }) ||
                (key == "raster.z_clip" && has_offset);
-    if (is_one_of({"raster.depth_path", "raster.window_z", "raster.depth_rounding", "raster.window_z_rule",
-                   "raster.plane_anchor", "raster.sum_bits", "raster.interpolant_bits", "raster.divide"}))
+    if (is_one_of({"raster.depth_path", "raster.window_z", "raster.depth_rounding", "raster.depth_limits",
+                   "raster.window_z_rule", "raster.plane_anchor", "raster.sum_bits", "raster.interpolant_bits",
+                   "raster.divide"}))
         return item.depth.has_value();
     if (is_one_of({"raster.offset_unit", "raster.offset_rule"})) return item.depth && has_offset;
     if (key == "alpha_test") return any_draw([](const Draw& draw) { return draw.alpha_above.has_value(); });
     const bool blends = any_draw([](const Draw& draw) { return draw.blend.has_value(); });
     const bool is_unorm = item.color == pipeline::Format::rgba8;
     if (key == "blend_rounding") return blends && is_unorm;
+    if (key == "blend_storage") return blends && item.color != pipeline::Format::rgba32f;
     if (key == "min_max_nan" || key == "denormals") return blends && !is_unorm;
     if (key == "half_rounding") return item.color == pipeline::Format::rgba16f;
     if (key == "unorm_rounding") return is_unorm;
@@ -174,11 +178,11 @@ const std::vector<FieldGroup>& field_groups() {
         {"clip",
          Part::both,
          {"clip.guard-band", "clip.", "positions."},
-         {"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport"},
+         {"raster.clip", "raster.z_clip", "raster.w_clip", "raster.viewport", "raster.depth_limits"},
          {"raster.window_z_rule", "raster.weights", "raster.sum_bits", "raster.reciprocal_bits",
           "raster.reciprocal_deficit"}},
         {"offset", Part::depth, {"offset."}, {"raster.offset_unit", "raster.offset_rule"}},
-        {"blending", Part::color, {"blend.products", "blend.over"}, {"blend_rounding"}},
+        {"blending", Part::color, {"blend.products", "blend.over"}, {"blend_rounding", "blend_storage"}},
         {"halves", Part::color, {"color.halves"}, {"half_rounding"}},
         {"extremes", Part::color, {"blend.max", "blend.min"}, {"min_max_nan"}},
         {"denormals", Part::color, {"blend.small"}, {"denormals"}},

@@ -41,6 +41,21 @@ Item crossed_item(Format format, const BlendTerm& term, const std::vector<float>
     return item;
 }
 
+// Boxes over one another in one draw, each of a few thirds of what the format tells apart: what rounds every blend loses other
+// parts of the sum than what rounds it once. Some lie across tiles of 64 pixels.
+Item overlaps_item(Format format, float step, const std::string& name) {
+    Item item{.name = name, .decides = {"blend_storage"}, .width = 144, .height = 80, .color = format};
+    Dice dice{71};
+    Draw sums{.blend = BlendTerm{BlendEquation::add, BlendFactor::one, BlendFactor::one}};
+    for (int k = 0; k < 60; ++k) {
+        const auto x = static_cast<float>(dice.below(120)), y = static_cast<float>(dice.below(60));
+        const float value = step * static_cast<float>(dice.below(9)) / 3.0f;
+        add_box(item, sums, x, y, x + 24, y + 20, {value, 0.5f * value, value, 2.0f * value});
+    }
+    item.draws = {sums};
+    return item;
+}
+
 // A NaN that the blender makes itself, for one in a vertex drops its triangle: 3e38 twice is an infinity, and that times 0 a NaN.
 // Numbers meet it from both sides.
 Item nan_item(BlendEquation equation, const std::string& name) {
@@ -89,6 +104,8 @@ void add_blending(std::vector<Item>& items) {
     items.push_back(pairs_item({BlendEquation::add, BlendFactor::dst_color, BlendFactor::zero}, "blend.products"));
     items.push_back(
         pairs_item({BlendEquation::add, BlendFactor::src_alpha, BlendFactor::one_minus_src_alpha}, "blend.over"));
+    items.push_back(overlaps_item(Format::rgba8, 1.0f / 255.0f, "blend.overlaps"));
+    items.push_back(overlaps_item(Format::rgba16f, 0x1.8p-3f, "blend.overlaps-half"));
     items.push_back(nan_item(BlendEquation::max, "blend.max"));
     items.push_back(nan_item(BlendEquation::min, "blend.min"));
     items.push_back(crossed_item(Format::rgba32f, {BlendEquation::add, BlendFactor::one, BlendFactor::one},

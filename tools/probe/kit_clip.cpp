@@ -52,8 +52,8 @@ Item corners_item(Beyond beyond, std::uint64_t seed, const std::string& name) {
 
 // Slopes of a few codes that cross the near or the far plane: whether a fragment is outside is a matter of the last bit.
 Item skimming_item(DepthFormat format, std::uint64_t seed, const std::string& name) {
-    Item item = plain_item(name, {"raster.z_clip", "raster.window_z_rule", "raster.weights", "raster.sum_bits",
-                                  "raster.reciprocal_bits", "raster.reciprocal_deficit"});
+    Item item = plain_item(name, {"raster.z_clip", "raster.depth_limits", "raster.window_z_rule", "raster.weights",
+                                  "raster.sum_bits", "raster.reciprocal_bits", "raster.reciprocal_deficit"});
     item.depth = format;
     Draw draw;
     Dice dice{seed};

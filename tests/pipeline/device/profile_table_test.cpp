@@ -45,7 +45,8 @@ constexpr FieldOfDevices device_table[] = {
     {"raster.depth_path", {"window_z", "float32", "float32", "exact", "float32", "float32", "float32"}},
     {"raster.depth_rounding",
      {"floor", "nearest", "nearest", "nearest", "product_even", "product_even", "product_floor"}},
-    {"raster.offset_unit", {"buffer", "format", "format", "format", "format", "format", "format"}},
+    {"raster.depth_limits", {"clamp", "clamp", "clamp", "clamp", "clamp", "clamp", "wrap"}},
+    {"raster.offset_unit", {"buffer", "format", "format", "format", "two_codes", "two_codes", "two_codes"}},
     {"raster.offset_rule", {"fragments", "corners", "corners", "corners", "corners", "corners", "corners"}},
     {"raster.color",
      {"weights_8bit", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
@@ -71,6 +72,7 @@ constexpr FieldOfDevices device_table[] = {
      {"cut_products", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane", "exact_plane"}},
     {"alpha_test", {"unorm8", "by_target", "by_target", "by_target", "by_target", "by_target", "by_target"}},
     {"blend_rounding", {"nearest", "nearest", "nearest", "nearest", "each_product", "each_product", "nearest"}},
+    {"blend_storage", {"target", "target", "target", "target", "target", "target", "cached_tiles"}},
     {"half_rounding",
      {"nearest_even", "nearest_even", "nearest_even", "nearest_even", "toward_zero", "toward_zero", "toward_zero"}},
     {"unorm_rounding", {"half_up", "half_up", "half_up", "half_up", "product_even", "product_even", "product_even"}},
@@ -125,7 +127,8 @@ const std::vector<NamesOfField> choice_names{
     {"raster.depth_path",
      {"window_z", "perspective_rq", "depth_replace", "float32", "float32_plane", "exact", "w_buffer"}},
     {"raster.depth_rounding", {"floor", "nearest", "product_even", "product_floor"}},
-    {"raster.offset_unit", {"format", "float_exponent", "buffer"}},
+    {"raster.depth_limits", {"clamp", "wrap"}},
+    {"raster.offset_unit", {"format", "float_exponent", "buffer", "two_codes"}},
     {"raster.offset_rule", {"corners", "fragments"}},
     {"raster.color", {"exact_plane", "weights_8bit"}},
     {"raster.interpolant_bits", {"16", "17", "18", "19", "20", "21", "22", "23", "24", "double"}},
@@ -139,6 +142,7 @@ const std::vector<NamesOfField> choice_names{
     {"raster.perspective_coordinates", {"exact_plane", "cut_products"}},
     {"alpha_test", {"unorm8", "by_target"}},
     {"blend_rounding", {"nearest", "truncate", "each_product"}},
+    {"blend_storage", {"target", "cached_tiles"}},
     {"half_rounding", {"nearest_even", "toward_zero"}},
     {"unorm_rounding", {"half_up", "product_even"}},
     {"min_max_nan", {"other_operand", "propagate"}},
@@ -219,6 +223,7 @@ TEST_CASE("setting a choice sets the member that its key names, to the enumerato
     CHECK((set("raster.window_z", "buffer_units") && p.raster.window_z == WindowZ::buffer_units));
     CHECK((set("raster.depth_path", "depth_replace") && p.raster.depth_path == DepthPath::depth_replace));
     CHECK((set("raster.depth_rounding", "floor") && p.raster.depth_rounding == DepthRounding::floor));
+    CHECK((set("raster.depth_limits", "wrap") && p.raster.depth_limits == DepthLimits::wrap));
     CHECK((set("raster.offset_unit", "float_exponent") && p.raster.offset_unit == OffsetUnit::float_exponent));
     CHECK((set("raster.color", "weights_8bit") && p.raster.color == ColorInterpolation::weights_8bit));
     CHECK((set("raster.interpolant_bits", "double") && p.raster.hypothesis.interpolant_bits == full_double));
@@ -237,6 +242,7 @@ TEST_CASE("setting a choice sets the member that its key names, to the enumerato
            p.raster.interpolation.texture_coordinates == CoordinateRule::cut_weights));
     CHECK((set("alpha_test", "unorm8") && p.alpha_test == AlphaTestPrecision::unorm8));
     CHECK((set("blend_rounding", "truncate") && p.blend_rounding == BlendRounding::truncate));
+    CHECK((set("blend_storage", "cached_tiles") && p.blend_storage == BlendStorage::cached_tiles));
     CHECK((set("half_rounding", "toward_zero") && p.half_rounding == HalfRounding::toward_zero));
     CHECK((set("min_max_nan", "propagate") && p.min_max_nan == MinMaxNan::propagate));
     CHECK((set("denormals", "keep") && p.denormals == DenormalRule::keep));

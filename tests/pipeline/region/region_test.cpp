@@ -277,6 +277,26 @@ TEST_CASE("a full-screen program that replaces depths has them compared and writ
         CHECK(m.region.storage(depth).depth(0)[p] == std::bit_cast<std::uint32_t>(p == 3 ? 0.75f : 0.5f));
 }
 
+TEST_CASE("a depth beyond the range is compared with all its bits and stored with the format's") {
+    TestFrame test{stacks({}), "softpipe"};
+    test.frame.depth.format = DepthFormat::d24;
+    RegionBooks books;
+    Region region{test.frame, {test.frame.rect()}, books};
+    const Target depth = region.make(Format::d24);
+    for (const auto& [func, stored] : {std::pair{CompareFunc::less, 0x800000u}, {CompareFunc::greater, 0xffffffu}}) {
+        region.clear(depth, {.depth = 0.50000003f});
+        PassState state;
+        state.depth = {.enabled = true, .func = func, .write = true};
+        state.depth_target = depth;
+        const Drawn drawn = region.full_screen(state, [](const FragmentBatch&, const Loads&, Outputs& out) {
+            out.replaces_depth = true;
+            out.depth.fill(0xffffffffu);  // one code below 0
+        });
+        CHECK(region.any(drawn.passed, Idle::no) == (func == CompareFunc::greater));
+        CHECK(region.storage(depth).depth(0)[5] == stored);
+    }
+}
+
 TEST_CASE("a stencil count that stops by design is no fault") {
     Machine m{stacks({300}), "geforce8"};
     PassState state;

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 
+#include "rasterizer/base/enum_values.h"
 #include "rasterizer/base/parallel.h"
 #include "tests/rasterizer/rational.h"
 
@@ -102,6 +103,50 @@ TEST_CASE("product_floor cuts the binary32 product of 16 bits, and the exact one
     CHECK(to_depth_code(std::bit_cast<float>(0x7fc00000u), DepthFormat::d16, DepthRounding::product_floor) == 0);
     CHECK((cuts(DepthRounding::floor) && cuts(DepthRounding::product_floor)));
     CHECK((!cuts(DepthRounding::nearest) && !cuts(DepthRounding::product_even)));
+}
+
+TEST_CASE(
+    "under DepthLimits::wrap a code is the scaled depth's integer with its sign, in 32 bits; D32F keeps the depth") {
+    const auto code = [](float z, DepthFormat format, DepthRounding rounding) {
+        return to_wrapped_code(z, depth_conversion(format, rounding, 1.0f));
+    };
+    // What a driver drew, and what it read back of the low bits.
+    CHECK(code(-1e-9f, DepthFormat::d24, DepthRounding::floor) == 0);
+    CHECK(code(-1e-7f, DepthFormat::d24, DepthRounding::floor) == 0xffffffffu);
+    CHECK((code(-1e-5f, DepthFormat::d24, DepthRounding::floor) & 0xffffffu) == 0xffff59u);
+    CHECK((code(-0.5f, DepthFormat::d16, DepthRounding::product_floor) & 0xffffu) == 0x8001u);
+    CHECK(code(1.00000012f, DepthFormat::d24, DepthRounding::floor) == 0x1000000u);
+    CHECK((code(1.5f, DepthFormat::d24, DepthRounding::floor) & 0xffffffu) == 0x7ffffeu);
+    CHECK((code(1.5f, DepthFormat::d16, DepthRounding::product_floor) & 0xffffu) == 0x7ffeu);
+    std::uint64_t wrong = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        const float z = -2.0f + 0.00024931f * static_cast<float>(trial);
+        wrong += code(z, DepthFormat::d32f, DepthRounding::nearest) == std::bit_cast<std::uint32_t>(z) ? 0 : 1;
+        for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24})
+            for (const DepthRounding rounding : strata::enum_values<DepthRounding>) {
+                const std::uint32_t found = code(z, format, rounding), max = max_code(format);
+                if (z >= 0.0f && z < 1.0f) {
+                    wrong += found == to_depth_code(z, format, rounding) ? 0 : 1;
+                    continue;
+                }
+                wrong += is_beyond_range(found, format) || found == 0 || found == max ? 0 : 1;
+                // The magnitude by rational arithmetic, then its sign.
+                const bool is_product = rounding == DepthRounding::product_even ||
+                                        (rounding == DepthRounding::product_floor && format == DepthFormat::d16);
+                const float size = z < 0 ? -z : z;
+                const Rational exact = is_product ? float_product(size, max) : Rational{size} * Rational{max};
+                Integer whole = floor(exact);
+                const Rational rest = exact - Rational{whole}, half{1, 2};
+                if (rounding == DepthRounding::nearest && rest >= half) ++whole;
+                if (rounding == DepthRounding::product_even && (rest > half || (rest == half && (whole & 1) != 0)))
+                    ++whole;
+                const auto magnitude = whole.convert_to<std::uint32_t>();
+                wrong += found == (z < 0 ? 0u - magnitude : magnitude) ? 0 : 1;
+            }
+    }
+    CHECK(wrong == 0);
+    CHECK(code(std::bit_cast<float>(0x7fc00000u), DepthFormat::d24, DepthRounding::floor) == 0);
+    CHECK(code(1e30f, DepthFormat::d24, DepthRounding::floor) == 0);
 }
 
 TEST_CASE("sampled floats of all kinds become the D16 and D24 codes of the rule, and a half goes up") {

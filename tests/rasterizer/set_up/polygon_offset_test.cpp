@@ -2,7 +2,9 @@
 #include "rasterizer/set_up/polygon_offset.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
+#include "rasterizer/walk/tile_rasterizer.h"
 #include "tests/rasterizer/rational.h"
 #include "tests/rasterizer/scene.h"
 
@@ -63,9 +65,11 @@ TEST_CASE("a unit is one code of a fixed-point format and 2^(e - 23) of a float 
     state.depth_format = DepthFormat::d24;
     CHECK(only_offset(state, {}, {0, .5f, 1}) == 3 * (1.0 / 16777215));
     CHECK(only_offset(state, {.window_z = WindowZ::buffer_units}, {0, 5, 1000}) == 3.0);
+    CHECK(only_offset(state, {.offset_unit = OffsetUnit::two_codes}, {0, .5f, 1}) == 3 * (2.0 / 16777215));
     state.depth_format = DepthFormat::d32f;
     CHECK(only_offset(state, {}, {0, .5f, .25f}) == 3 * 0x1p-24);
     CHECK(only_offset(state, {}, {0, -.5f, .25f}) == 3 * 0x1p-24);
+    CHECK(only_offset(state, {.offset_unit = OffsetUnit::two_codes}, {0, -.5f, .25f}) == 3 * 0x1p-24);
     CHECK(only_offset(state, {}, {0, .5f, 1}) == 3 * 0x1p-23);
     CHECK(only_offset(state, {}, {0, 0x1p-149f, 0}) == 3 * 0x1p-149);
     CHECK(only_offset(state, {}, {0, 0, 0}) == 3 * 0x1p-149);
@@ -166,4 +170,82 @@ TEST_CASE("set-up adds a triangle's offset to the depth of its three corners, an
         }
     }
     CHECK(wrong == 0);
+}
+
+namespace {
+
+// A triangle in clip space (w is 1) and its offset in a frame of 64 x 64 pixels, a pixel, and the bits of the depths that softpipe,
+// llvmpipe and llvmpipe without fused multiply-add stored there in D32F.
+struct DrawnOffset {
+    std::array<std::array<float, 3>, 3> corner;
+    PolygonOffset offset;
+    int x, y;
+    std::array<std::uint32_t, 3> bits;
+};
+constexpr std::array<std::array<float, 3>, 3> nearer{{{-0.153320312f, -0.798828125f, 0.593171656f},
+                                                      {0.684570312f, -0.025390625f, -0.218021035f},
+                                                      {0.390625f, -0.928710938f, -0.0185421109f}}};
+constexpr std::array<std::array<float, 3>, 3> farther{{{0.725585938f, 0.935546875f, 0.42545253f},
+                                                       {-0.390625f, -0.345703125f, -0.021379292f},
+                                                       {0.506835938f, -0.80078125f, -0.499646097f}}};
+constexpr std::array<std::array<float, 3>, 3> both{{{0.426757812f, 0.975585938f, 0.381504476f},
+                                                    {-0.973632812f, 0.04296875f, -0.411935419f},
+                                                    {0.698242188f, 0.0634765625f, 0.607899249f}}};
+constexpr std::array<std::array<float, 3>, 3> steep{{{0.875976562f, -0.794921875f, -0.776670873f},
+                                                     {0.140625f, -0.048828125f, -0.394258887f},
+                                                     {0.806640625f, -0.25f, 0.53358835f}}};
+constexpr DrawnOffset drawn_offsets[]{
+    {nearer, {true, 0, -96}, 50, 38, {0x3edfd362u, 0x3edfd361u, 0x3edfd362u}},
+    {nearer, {true, 0, -96}, 47, 39, {0x3ef8f786u, 0x3ef8f783u, 0x3ef8f783u}},
+    {farther, {true, 1.84968996f, 0}, 52, 10, {0x3f2a48bdu, 0x3f2a48bdu, 0x3f2a48bdu}},
+    {farther, {true, 1.84968996f, 0}, 49, 11, {0x3f2afdfeu, 0x3f2afdfeu, 0x3f2afdffu}},
+    {both, {true, -2.33459544f, -96}, 46, 12, {0x3f304d29u, 0x3f304d29u, 0x3f304d29u}},
+    {both, {true, -2.33459544f, -96}, 43, 13, {0x3f293cc1u, 0x3f293cc1u, 0x3f293cc2u}},
+    {steep, {true, -2.13501453f, 0}, 50, 38, {0x3efa0478u, 0x3efa047bu, 0x3efa047bu}},
+    {steep, {true, -2.13501453f, 0}, 47, 39, {0x3eafa38du, 0x3eafa38fu, 0x3eafa38fu}}};
+
+[[nodiscard]] RasterRules mesa_rules(PlaneRule rule) {
+    RasterRules rules;
+    rules.clip = ClipVolume::view_volume;
+    rules.w_divide = WDivide::reciprocal;
+    rules.plane_origin = PlaneOrigin::unsnapped;
+    rules.plane_rule = rule;
+    rules.offset_unit = OffsetUnit::two_codes;
+    if (rule == PlaneRule::least_corner) rules.coverage = CoverageRule::float_spans;
+    return rules;
+}
+
+// The depth that the rasterizer hands out at one pixel; NaN where it draws nothing.
+[[nodiscard]] float depth_at(const DrawnOffset& drawn, const RasterRules& rules) {
+    TriangleSoup soup;
+    for (const auto& [x, y, z] : drawn.corner) {
+        ClipVertex v{};
+        v.x = x, v.y = y, v.z = z, v.w = 1;
+        soup.vertices.push_back(v);
+        soup.indices.push_back(static_cast<std::uint32_t>(soup.indices.size()));
+    }
+    soup.runs.push_back({.first_index = 0, .index_count = 3});
+    RasterState state = scene_state(64, 64);
+    state.polygon_offset = drawn.offset;
+    const Geometry geometry = set_up(soup, state, rules, 1);
+    float found = std::numeric_limits<float>::quiet_NaN();
+    auto look = [&](const FragmentBatch& batch) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+            if (batch.pixel[i] == static_cast<std::uint32_t>(drawn.y * 64 + drawn.x)) found = batch.shader_z[i];
+    };
+    TileRasterizer(state.viewport)
+        .draw(geometry, geometry.all_triangles, {}, {.shader_z = true, .code = false, .color = false}, BatchSink{look});
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("under stepped planes the offset has the roundings of the drivers: what they stored, bit for bit") {
+    for (const DrawnOffset& drawn : drawn_offsets) {
+        INFO("pixel " << drawn.x << ", " << drawn.y << ", factor " << drawn.offset.factor);
+        CHECK(std::bit_cast<std::uint32_t>(depth_at(drawn, mesa_rules(PlaneRule::least_corner))) == drawn.bits[0]);
+        CHECK(std::bit_cast<std::uint32_t>(depth_at(drawn, mesa_rules(PlaneRule::reciprocal_area_fused))) ==
+              drawn.bits[1]);
+        CHECK(std::bit_cast<std::uint32_t>(depth_at(drawn, mesa_rules(PlaneRule::reciprocal_area))) == drawn.bits[2]);
+    }
 }

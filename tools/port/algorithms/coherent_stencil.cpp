@@ -194,6 +194,7 @@ void composite(const CoherentTargets& t, Record* record) {
     glBlendFuncSeparate(factors[0], factors[1], factors[2], factors[3]);
     const std::uint64_t run = draw(t, t.composite_run, t.nearest.texture.name(), t.reached.name());
     show(t, "geometry", t.breaker, run, record);
+    glFlush();  // ends the pass: softpipe would blend on in the same tiles, unrounded (fragment-stages.md 9.5)
     glBindFramebuffer(GL_FRAMEBUFFER, t.composite.name());
     const std::uint64_t end = draw(t, t.composite_end, t.reached.name(), 0);
     show(t, "geometry", t.breaker, end, record);

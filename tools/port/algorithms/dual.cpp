@@ -44,9 +44,9 @@ void main() {{
     }}
     vec4 color = shade();
     if (z == near) {{
-        float transmitted = 1.0 - front.a;
-        front.rgb += transmitted * (color.a * color.rgb);
-        front.a = 1.0 - transmitted * (1.0 - color.a);
+        as_written float transmitted = 1.0 - front.a;
+        as_written vec4 sum = vec4(front.rgb + transmitted * (color.a * color.rgb), 1.0 - transmitted * (1.0 - color.a));
+        front = sum;
     }} else {{
         back = {};
     }}

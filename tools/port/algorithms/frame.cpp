@@ -82,7 +82,8 @@ void main() {{
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 front = texelFetch(front_target, pixel, 0);
     vec3 behind = {};
-    result = vec4(front.rgb + ({}) * behind, 1.0);
+    as_written vec3 mixed = front.rgb + ({}) * behind;
+    result = vec4(mixed, 1.0);
 }}
 )",
                       input.way.background_used ? "texelFetch(behind_target, pixel, 0).rgb" : "vec3(0.0)", through),

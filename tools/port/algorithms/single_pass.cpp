@@ -42,8 +42,9 @@ void main() {{
     vec3 behind = {};
     result = vec4(behind, 1.0);
     if (!(n > 0.0 && sum.a > 0.0)) return;
-    float transmitted = {}(1.0 - sum.a / n, n);
-    result.rgb = (sum.rgb / sum.a) * (1.0 - transmitted) + behind * transmitted;
+    as_written float transmitted = {}(1.0 - sum.a / n, n);
+    as_written vec3 mixed = (sum.rgb / sum.a) * (1.0 - transmitted) + behind * transmitted;
+    result.rgb = mixed;
 }}
 )";
 

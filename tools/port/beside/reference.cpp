@@ -8,6 +8,8 @@
 #include "peeling/registry.h"
 #include "peeling/render.h"
 #include "pipeline/formats/convert.h"
+#include "pipeline/fragments/tile_cache.h"
+#include "pipeline/region/target_storage.h"
 #include "pipeline/stages/blend.h"
 #include "pipeline/vertices/prepare.h"
 #include "rasterizer/base/input_error.h"
@@ -89,30 +91,62 @@ FragmentCounts count_fragments(const rasterizer::TriangleSoup& soup, const pipel
 
 namespace {
 
-// Premultiplied colours added up as a blend on the target would, in submission order.
+// A target that one pass adds to: by the blender, or by the tiles that a profile keeps in binary32 (fragment-stages.md 9.5).
+class Sums {
+  public:
+    Sums(const rasterizer::Rect& frame, const pipeline::DeviceProfile& profile, pipeline::Format format)
+        : profile_{profile},
+          size_{frame.width(), frame.height()},
+          target_{format, 1, frame.area()},
+          cache_{frame, frame} {
+        alive_.fill(~0u);
+        if (profile.blend_storage != pipeline::BlendStorage::target &&
+            pipeline::TileCache::knows(pipeline::blend_mode::sum, format))
+            cache_.hold(0, profile, pipeline::blend_mode::sum, {format, target_.pixels(), {target_.texels(0)}});
+    }
+
+    void add(const rasterizer::FragmentBatch& batch) {
+        for (std::size_t c = 0; c < 4; ++c)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
+                source_[c][i] = c == 3 ? batch.color[3][i] : batch.color[c][i] * batch.color[3][i];
+        if (cache_.holds(0)) return cache_.blend(0, {batch, source_, alive_, alive_, 0});
+        target_.gather(batch.pixel, batch.count, 0, codes_);
+        const pipeline::ChannelType type = pipeline::info(target_.format()).type;
+        pipeline::blend(pipeline::blend_mode::sum, type, profile_, 4, source_, codes_, batch.count);
+        target_.scatter(batch.pixel, alive_, batch.count, 0, 0xfu, codes_);
+    }
+
+    [[nodiscard]] pipeline::Image image() {
+        cache_.close();
+        pipeline::Image image(target_.format(), size_.width, size_.height);
+        for (std::size_t i = 0; i < image.codes.size(); ++i)
+            image.codes[i] = target_.code(i / 4, static_cast<int>(i % 4), 0);
+        return image;
+    }
+
+  private:
+    const pipeline::DeviceProfile& profile_;
+    Size size_;
+    pipeline::TargetStorage target_;
+    pipeline::TileCache cache_;
+    pipeline::ColorLanes source_{};
+    rasterizer::Lanes<std::uint32_t> alive_{};
+    pipeline::ColorCodes codes_{};
+};
+
+// Premultiplied colours added up by blends of one pass, in submission order.
 Rendered sums(const Subject& subject, const pipeline::DeviceProfile& profile, pipeline::Format format) {
+    const rasterizer::Rect frame{0, 0, subject.size.width, subject.size.height};
+    Sums adding{frame, profile, format};
     rasterizer::RasterState state;
-    state.viewport = {0, 0, subject.size.width, subject.size.height};
+    state.viewport = frame;
     const rasterizer::Geometry geometry = rasterizer::set_up(clip_vertices(subject), state, profile.raster, 0);
     std::vector<std::uint32_t> triangles(geometry.triangles.size());
     std::iota(triangles.begin(), triangles.end(), 0u);
-    pipeline::Image image(format, subject.size.width, subject.size.height);
-    std::array<rasterizer::Lanes<float>, 4> source;
-    std::array<rasterizer::Lanes<std::uint32_t>, 4> codes;
-    auto add = [&](const rasterizer::FragmentBatch& batch) {
-        const auto count = static_cast<std::size_t>(batch.count);
-        for (std::size_t c = 0; c < 4; ++c)
-            for (std::size_t i = 0; i < count; ++i) {
-                source[c][i] = c == 3 ? batch.color[3][i] : batch.color[c][i] * batch.color[3][i];
-                codes[c][i] = image.codes[4 * std::size_t{batch.pixel[i]} + c];
-            }
-        pipeline::blend(pipeline::blend_mode::sum, pipeline::info(format).type, profile, 4, source, codes, batch.count);
-        for (std::size_t c = 0; c < 4; ++c)
-            for (std::size_t i = 0; i < count; ++i) image.codes[4 * std::size_t{batch.pixel[i]} + c] = codes[c][i];
-    };
-    rasterizer::TileRasterizer(state.viewport)
-        .draw(geometry, triangles, {}, {.shader_z = false, .code = false}, rasterizer::BatchSink{add});
-    return {std::move(image), 1};
+    auto add = [&](const rasterizer::FragmentBatch& batch) { adding.add(batch); };
+    rasterizer::TileRasterizer(frame).draw(geometry, triangles, {}, {.shader_z = false, .code = false},
+                                           rasterizer::BatchSink{add});
+    return {adding.image(), 1};
 }
 
 // The average that ends in the driver's pow: the sums as they are stored, the count as an exact number, over black.
