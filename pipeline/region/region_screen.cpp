@@ -18,34 +18,41 @@ namespace strata::pipeline {
 
 namespace {
 
-// Whether a blend with (0, 0, 0, 0) may change a channel of the word. Halves are no denormals any more once they are widened.
+// ~0 where a blend with (0, 0, 0, 0) may change a channel of the word; `flushed`: ~0 if denormals become 0. Widened halves are none.
 template <ChannelType type>
-[[nodiscard]] Word is_odd(Word word) noexcept {
+[[nodiscard]] Word is_odd(Word word, Word flushed) noexcept {
     if constexpr (type == ChannelType::unorm8) return 0;
     if constexpr (type == ChannelType::half)
         return mask((word & 0x7c00u) == 0x7c00u) | mask((word & 0xffffu) == 0x8000u) |
                mask((word & 0x7c000000u) == 0x7c000000u) | mask((word & 0xffff0000u) == 0x80000000u);
     const Word exponent = word & 0x7f800000u;
-    return mask(exponent == 0x7f800000u) | (mask(exponent == 0) & mask(word != 0));
+    return mask(exponent == 0x7f800000u) | mask(word == 0x80000000u) |
+           (flushed & mask(exponent == 0) & mask(word != 0));
 }
 
+// A sample of a colour target, and what blending does to denormals.
+struct Blended {
+    Texels color;
+    Word flushed;
+};
+
 template <ChannelType type>
-[[nodiscard]] bool has_odd(const Texels& color, std::size_t first, std::size_t count) noexcept {
+[[nodiscard]] bool has_odd(const Blended& to, std::size_t first, std::size_t count) noexcept {
     Word odd = 0;
-    for (std::size_t word = 0; type != ChannelType::unorm8 && word < color.words(); ++word) {
-        const Word* const words = color.plane(word).words + first;
-        for (std::size_t i = 0; i < count; ++i) odd |= is_odd<type>(words[i]);
+    for (std::size_t word = 0; type != ChannelType::unorm8 && word < to.color.words(); ++word) {
+        const Word* const words = to.color.plane(word).words + first;
+        for (std::size_t i = 0; i < count; ++i) odd |= is_odd<type>(words[i], to.flushed);
     }
     return odd != 0;
 }
 
 // The pixels to visit, ascending, into `pixels`; how many they are. An odd value is seldom: a batch with one is visited whole.
 template <ChannelType type>
-std::size_t find_pixels(const Word* depth, const Word* surface, const Texels& color, std::size_t area, Word* pixels) {
+std::size_t find_pixels(const Word* depth, const Word* surface, const Blended& to, std::size_t area, Word* pixels) {
     std::size_t found = 0;
     for (std::size_t first = 0; first < area; first += batch_capacity) {
         const std::size_t count = std::min<std::size_t>(area - first, batch_capacity);
-        const Word everywhere = mask(has_odd<type>(color, first, count));
+        const Word everywhere = mask(has_odd<type>(to, first, count));
         Word some = everywhere;
         for (std::size_t i = 0; i < count; ++i) some |= depth[first + i] ^ surface[first + i];
         for (std::size_t i = 0; some != 0 && i < count; ++i) {
@@ -84,17 +91,18 @@ std::optional<std::span<const Word>> Region::pixels_of_layer(const PassState& st
         return {};
     const Word *const depth = codes_of(state.layer.depth), *const surface = codes_of(state.layer.surface);
     const TargetStorage& color = at(state.color[0]);
+    const Blended to{color.texels(0), mask(profile().denormals == DenormalRule::flush)};
     UninitializedVector<Word>& pixels = scratch_->layer_pixels;
     if (pixels.size() < rect_.area()) pixels.resize(rect_.area());
     const auto find = [&]<ChannelType type>(std::integral_constant<ChannelType, type>) {
-        return find_pixels<type>(depth, surface, color.texels(0), rect_.area(), pixels.data());
+        return find_pixels<type>(depth, surface, to, rect_.area(), pixels.data());
     };
     const std::size_t found = with_color_type(info(color.format()).type, find);
     for (const auto& targets : {std::span<const Target>{state.textures}, std::span<const Target>{state.reads}})
         for (const Target t : targets)
             if (t.exists())
-                record().counters += of_loads(static_cast<std::uint64_t>(info(at(t).format()).bytes_per_pixel),
-                                              rect_.area() - found);
+                record().counters +=
+                    of_loads(static_cast<std::uint64_t>(info(at(t).format()).bytes_per_pixel), rect_.area() - found);
     return std::span<const Word>{pixels.data(), found};
 }
 

@@ -89,9 +89,7 @@ Outcome outcome_of(const Quad& quad, Effects effects = Effects::needed, const In
     test.frame.replay = {std::uint64_t{1} << 20, {}};
     test.frame.effects = effects;
     Outcome found;
-    const auto body = [&](std::uint64_t& visited) {
-        return [&](Region& region) { draw_quad(region, quad, visited); };
-    };
+    const auto body = [&](std::uint64_t& visited) { return [&](Region& region) { draw_quad(region, quad, visited); }; };
     const WhatIsLeft literal = run_one_way(test.frame, body(found.literal), Execution::literal, {});
     const WhatIsLeft tiled = run_one_way(test.frame, body(found.tiled), Execution::replay, instruments);
     found.difference = difference_of(literal, tiled);
@@ -100,7 +98,8 @@ Outcome outcome_of(const Quad& quad, Effects effects = Effects::needed, const In
 
 }  // namespace
 
-TEST_CASE("a quad over a layer leaves and counts what it does at every pixel, whatever the target holds, and visits fewer") {
+TEST_CASE(
+    "a quad over a layer leaves and counts what it does at every pixel, whatever the target holds, and visits fewer") {
     for (const char* profile : {"ideal", "geforce8_dx101", "llvmpipe"})
         for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
             for (Blend blend : {blend_mode::under, blend_mode::over})
@@ -152,8 +151,7 @@ Body ends_with(unsigned neutral, bool has_selection) {
         state.blend = {blend_mode::max, blend_mode::max};
         state.reads[0] = region.opaque_depth();
         if (has_selection)
-            state.selection = {
-                .keeps = Keeps::ends, .outside = Outside::nothing_new, .before = region.opaque_depth()};
+            state.selection = {.keeps = Keeps::ends, .outside = Outside::nothing_new, .before = region.opaque_depth()};
         static_cast<void>(region.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
                 const bool is_visible = in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i]);
@@ -177,7 +175,9 @@ std::string difference_with(const Body& body, const Instruments& instruments = {
 
 }  // namespace
 
-TEST_CASE("a target for which a batch is neutral keeps its bits and counts its bytes; a promise that does not hold is found") {
+TEST_CASE(
+    "a target for which a batch is neutral keeps its bits and counts its bytes; a promise that does not hold is "
+    "found") {
     CHECK(difference_with(ends_with(2, true)).empty());
     CHECK(difference_with(ends_with(2, true), {.check_selections = true}).empty());
     CHECK(difference_with(ends_with(1, true)) == "codes");
@@ -198,7 +198,8 @@ TEST_CASE("a buffer that is handed over is a copy, counted as one, and what it h
     TestFrame test{sparse_scene(), "ideal"};
     static_cast<void>(run_one_way(test.frame,
                                   [](Region& region) {
-                                      const Target from = region.make(Format::rgba32f), to = region.make(Format::rgba32f);
+                                      const Target from = region.make(Format::rgba32f),
+                                                   to = region.make(Format::rgba32f);
                                       put_odd_values(region, from);
                                       region.copy_and_leave(from, to);
                                       CHECK(region.image(from) == region.image(to));
