@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "peeling/stopwatch.h"
+#include "pipeline/vertices/check_list.h"
 #include "pipeline/vertices/other_splits.h"
+#include "rasterizer/set_up/check_input.h"
 
 namespace strata::peeling {
 
@@ -25,8 +27,12 @@ bool takes_quotient(const rasterizer::DepthRequest& depth) noexcept {
 }
 
 PreparedLists::PreparedLists(Settings settings) : s_{std::move(settings)} {
-    // The list as given is prepared at once: it is the one that most algorithms draw.
-    static_cast<void>(transparent(ListOrder::given));
+    // What cannot be prepared is refused now. Transparent lists wait until an algorithm draws them, in its own order and with what it
+    // compares.
+    check(s_.profile);
+    rasterizer::check(s_.raster);
+    check(s_.list);
+    check(s_.view);
     // With --alpha all surfaces are transparent and there is no opaque list.
     const bool has_opaque =
         !s_.options.alpha && std::any_of(s_.list.materials.begin(), s_.list.materials.end(),

@@ -128,9 +128,15 @@ struct Renderer::State {
     }
 
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
-    // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that.
+    // other vertices, it may find the same fragments for ever: twice as many passes are enough to see that. A replaced depth is the
+    // quotient that is compared: that peel ends by itself, and the triangles, a fragment of the pixel each at most, bound it for nothing.
     [[nodiscard]] int pass_limit(const Frame& f) {
         if (limits_passes() || f.is_invariant()) return options.max_passes;
+        constexpr std::size_t most = 1u << 30;
+        if (f.second == nullptr && f.depth_compare().compares_codes() &&
+            f.depth.path == rasterizer::DepthPath::depth_replace &&
+            f.depth.reference == rasterizer::DepthPath::perspective_rq)
+            return static_cast<int>(2 * std::min(f.transparent->geometry.triangles.size(), most - 1) + 2);
         if (!deepest) deepest = static_cast<int>(deepest_pixel(*f.transparent));
         return 2 * *deepest + 2;
     }
@@ -281,13 +287,15 @@ struct Renderer::State {
             } catch (const Refused& refused) {
                 result.refusal = refused.refusal;
             }
-        result.seconds.geometry = lists.seconds();
+        result.seconds.geometry = lists.seconds() + (quotient_lists ? quotient_lists->seconds() : 0.0);
         if (result.refusal) {
             result.outcome = Outcome::refused;
             return result;
         }
         show_depths(result.frame);
-        note_set_up(lists.transparent(ListOrder::given).geometry.counters, result.frame.diagnostics);
+        // By the numbers of the list as given, which is prepared for them alone where it was not drawn.
+        if (lists_for(algorithm).transparent(algorithm.order).geometry.counters.non_finite > 0)
+            note_set_up(lists.transparent(ListOrder::given).geometry.counters, result.frame.diagnostics);
         note_machine(algorithm, depth.format, quantizes(), result.frame.diagnostics);
         if (options.audit && traces == nullptr)
             add_audit_diagnostics(algorithm, options, {was_invariant, flushes_depths(profile, options.raster)},
@@ -386,8 +394,5 @@ FrameFragments Renderer::fragments(const Algorithm& algorithm) {
 
 DepthFormat Renderer::depth_format() const noexcept { return state_->depth.format; }
 Format Renderer::color_format() const noexcept { return state_->color_format; }
-const rasterizer::SetupCounters& Renderer::setup_counters() const noexcept {
-    return state_->lists.transparent(ListOrder::given).geometry.counters;
-}
 
 }  // namespace strata::peeling

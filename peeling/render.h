@@ -61,6 +61,8 @@ class Renderer {
     // together. `list` must outlive the renderer.
     Renderer(const pipeline::DrawList& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
              const RenderOptions& options);
+    Renderer(pipeline::DrawList&& list, const pipeline::View& view, const pipeline::DeviceProfile& profile,
+             const RenderOptions& options) = delete;  // nobody would hold the list
     ~Renderer();
 
     // A combination that the profile cannot run is refused: an outcome, not an exception. Throws InputError if the fragments of
@@ -81,7 +83,6 @@ class Renderer {
 
     [[nodiscard]] pipeline::DepthFormat depth_format() const noexcept;
     [[nodiscard]] pipeline::Format color_format() const noexcept;
-    [[nodiscard]] const rasterizer::SetupCounters& setup_counters() const noexcept;  // of the transparent list
 
   private:
     struct State;

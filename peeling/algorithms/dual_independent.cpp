@@ -5,6 +5,7 @@
 // Passes     ceil(N/2) + 2: the last peel finds nothing. No layer is lost on ties.
 // Invariant  before a peel, min_max = (-near, far) of what is left, front = what lies before near (alpha = transmittance),
 //            back = what lies behind far, over the background. Neither is cleared between passes.
+#include <algorithm>
 #include <utility>
 
 #include "peeling/algorithms/runs.h"
@@ -15,6 +16,37 @@ namespace strata::peeling {
 using namespace pipeline;
 
 namespace {
+
+// Whether a batch has lanes of a kind.
+struct Has {
+    bool near, far, between;
+    Has(const PeelLanes& side, std::size_t count) noexcept
+        : near{any(side.is_near, count)}, far{any(side.is_far, count)}, between{any(side.is_between, count)} {}
+
+  private:
+    [[nodiscard]] static bool any(const Lanes<std::uint32_t>& mask, std::size_t count) noexcept {
+        std::uint32_t some = 0;
+        for (std::size_t i = 0; i < count; ++i) some |= mask[i];
+        return some != 0;
+    }
+};
+
+// The targets that the batch has nothing for. min_max was cleared to what is written there. Of codes UNDER and OVER leave (0, 0, 0, 0)
+// out; of floats they make 0 of -0 and flush denormals, but only once: what lies between leaves that to the ends of its pixel.
+unsigned neutral_targets(const Has& has, bool stores_codes) noexcept {
+    const bool keeps_colors = stores_codes || (!has.near && !has.far);
+    return (has.between ? 0u : 1u) | (keeps_colors && !has.near ? 2u : 0u) | (keeps_colors && !has.far ? 4u : 0u);
+}
+
+// (0, 0, 0, 0), which is neutral in both blends, where a lane is none of `chosen`; everywhere if none is.
+void choose(bool some, const Lanes<std::uint32_t>& chosen, const ColorLanes& from, ColorLanes& to,
+            std::size_t count) noexcept {
+    for (std::size_t c = 0; c < 4; ++c)
+        if (some)
+            for (std::size_t i = 0; i < count; ++i) to[c][i] = select(chosen[i], from[c][i], 0.0f);
+        else
+            std::fill_n(to[c].begin(), count, 0.0f);
+}
 
 // Fragments outside the range are discarded; the others write all three targets, a neutral value where they do not
 // count.
@@ -28,21 +60,25 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
-    if (compare.is_plain()) state.selection = {.keeps = Keeps::ends, .before = region.opaque_depth(), .range = min_max};
-    return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    if (compare.is_plain())
+        state.selection = {
+            .keeps = Keeps::ends, .before = region.opaque_depth(), .range = min_max, .has_plain_inside = true};
+    const bool stores_codes = info(region.frame().color_format).type == ChannelType::unorm8;
+    const bool is_traced = region.frame().trace;
+    return region.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes side;
         classify(compare, in, own.color(0), own.depth(1), side);
         write_min_max(in, side.is_between, out.color[0]);
-        premultiply(in.color, out.color[1], lanes(in));
-        for (std::size_t c = 0; c < 4; ++c)  // (0, 0, 0, 0) is neutral in both blends
-            for (std::size_t i = 0; i < lanes(in); ++i) {
-                out.color[1][c][i] = select(side.is_near[i], out.color[1][c][i], 0.0f);
-                out.color[2][c][i] = select(side.is_far[i], in.color[c][i], 0.0f);
-            }
-        out.traced = true;
-        for (std::size_t i = 0; i < lanes(in); ++i) {
+        const Has has{side, lanes(in)};
+        if (has.near) premultiply(in.color, out.color[1], lanes(in));
+        choose(has.near, side.is_near, out.color[1], out.color[1], lanes(in));
+        choose(has.far, side.is_far, in.color, out.color[2], lanes(in));
+        for (std::size_t i = 0; i < lanes(in); ++i)
+            out.alive[i] &= side.is_near[i] | side.is_far[i] | side.is_between[i];
+        out.neutral = neutral_targets(has, stores_codes);
+        out.traced = is_traced;
+        for (std::size_t i = 0; is_traced && i < lanes(in); ++i) {
             const std::uint32_t is_near = side.is_near[i], is_far = side.is_far[i];
-            out.alive[i] &= is_near | is_far | side.is_between[i];
             out.side[i] = is_near != 0 ? Side::front : is_far != 0 ? Side::back : Side::none;
             out.key[i] = ordered_code(in.shader_z[i]);
         }

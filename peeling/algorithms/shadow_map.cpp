@@ -35,20 +35,23 @@ Drawn peel(Region& region, const Buffers& to) {
     state.needs.shader_z = false;
     state.needs.reference = !first;
     state.selection = nearest_behind(compare, to.map, Outside::alpha_test);
-    state.selection.by_reference = !first;
+    state.selection.by_reference = true;  // the first pass, too: of one sorting it finds what it would of another
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;
         if (first) return;
         Lanes<float>& alpha = out.color[0][3];
-        for (std::size_t i = 0; i < lanes(in); ++i)
+        const bool by_codes = compare.compares_codes() && compare.epsilon.ulps == 0;
+        for (std::size_t i = 0; by_codes && i < lanes(in); ++i)
+            alpha[i] = select(mask(in.reference_code[i] > own.depth(0)[i]), alpha[i], 0.0f);
+        for (std::size_t i = 0; !by_codes && i < lanes(in); ++i)
             alpha[i] = select(mask(compare.is_behind(in, i, own.depth(0)[i])), alpha[i], 0.0f);
     });
 }
 
-// glCopyTexSubImage2D of the whole buffer.
+// glCopyTexSubImage2D of the whole buffer, which the next pass begins with a clear or a copy over all of it.
 [[nodiscard]] Target copied(Region& region, Target from, Target to) {
-    region.copy(from, to);
+    region.copy_and_leave(from, to);
     return to;
 }
 

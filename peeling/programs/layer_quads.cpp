@@ -17,6 +17,7 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
         state.blend[0].write_mask = 0x7;  // the final alpha stays 1
         const bool is_traced = region.frame().trace;
         state.reads[0] = layers.color[layer];
+        state.layer = {.depth = layers.depth[layer], .surface = region.opaque_depth()};
         (is_traced ? state.reads[1] : state.textures[0]) = layers.depth[layer];
         (is_traced ? state.reads[2] : state.textures[1]) = region.opaque_depth();
         static_cast<void>(

@@ -63,6 +63,7 @@ void FragmentStore::start(const FragmentNeeds& needs, std::uint64_t limit) {
     forget();
     needs_ = recalled_ = needs;
     limit_ = limit;
+    references_apart_ = 0;
     state_ = State::filling;
 }
 
@@ -93,10 +94,16 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
         used_bytes_ = 0;
     }
     std::byte* at = chunks_[used_chunks_ - 1].data() + used_bytes_;
-    const bool has_dead =
-        std::any_of(alive.begin(), alive.begin() + batch.count, [](std::uint32_t a) { return a == 0; });
-    const auto [least, greatest] = std::minmax_element(batch.primitive.begin(), batch.primitive.begin() + batch.count);
-    batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead, {*least, *greatest + 1}});
+    std::uint32_t living = ~0u, least = ~0u, greatest = 0;  // loops that become vectors
+    for (std::size_t i = 0; i < count; ++i) {
+        living &= alive[i];
+        least = std::min(least, batch.primitive[i]);
+        greatest = std::max(greatest, batch.primitive[i]);
+    }
+    const bool has_dead = living == 0;
+    for (std::size_t i = 0; needs_.reference && needs_.code && i < count; ++i)
+        references_apart_ |= batch.reference_code[i] ^ batch.code[i];
+    batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead, {least, greatest + 1}});
     const auto pack = [&](const auto& array) {
         std::memcpy(at, array.data(), count * sizeof(array[0]));
         at += count * sizeof(array[0]);

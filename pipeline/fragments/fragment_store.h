@@ -48,6 +48,8 @@ class FragmentStore {
         return batches_[number].primitives;
     }
     [[nodiscard]] const rasterizer::FragmentNeeds& needs() const noexcept { return needs_; }
+    // Whether fragments are compared by another code than they store.
+    [[nodiscard]] bool has_references_apart() const noexcept { return references_apart_ != 0; }
     // What `needs` names, and `primitive` where it is asked for, of the fragments at `places` to the first lanes of a batch, in
     // this order. Pixels and their positions are the caller's: it knows them.
     enum class Numbers : std::uint8_t { no, yes };
@@ -75,6 +77,7 @@ class FragmentStore {
     State state_ = State::empty;
     rasterizer::FragmentNeeds needs_, recalled_;
     std::uint64_t limit_ = 0;
+    std::uint32_t references_apart_ = 0;  // bits in which any reference code differs from its fragment's stored one
     std::vector<UninitializedVector<std::byte>> chunks_;  // kept from region to region: memory is asked for once
     std::size_t used_chunks_ = 0, used_bytes_ = 0;        // the latter of the last chunk in use
     std::vector<Packed> batches_;

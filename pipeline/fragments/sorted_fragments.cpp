@@ -72,7 +72,6 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
 bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface) {
     rasterized_ = masked_ = alpha_killed_ = hidden_ = 0;
     has_plain_colors_.reset();
-    stores_reference_ = store.needs().reference;
     size_ = 0;
     if (store.batches() >= std::size_t{1} << 24) return false;
     const auto batch = std::make_unique<FragmentBatch>();
@@ -110,8 +109,6 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
             hidden_ += lost.hidden;
             alpha_killed_ += lost.alpha_killed;
             for (std::size_t i = 0; i < count; ++i) columns_[batch->pixel[i]].size += is_alive[i] & 1u;
-            for (std::size_t i = 0; i < count && stores_reference_; ++i)
-                stores_reference_ = batch->reference_code[i] == batch->code[i];
             return has_sortable_keys(*batch);
         });
     if (!sortable) return false;
@@ -121,14 +118,15 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
     for (const std::uint32_t begin : begin_) words_[begin - 1] = ~std::uint64_t{0};
     return for_each_alive(
         [&](std::size_t number, std::size_t count, const Lanes<std::uint32_t>& is_alive, const Fates&) {
+            const bool is_value = !request_.by_reference && request_.key == DepthKey::shader_z;
+            Lanes<std::uint32_t>& key = request_.by_reference ? batch->reference_code : batch->code;
+            for (std::size_t i = 0; is_value && i < count; ++i) key[i] = rasterizer::ordered_code(batch->shader_z[i]);
+            Column* const columns = columns_.data();
+            std::uint64_t* const words = words_.data();
             for (std::size_t i = 0; i < count; ++i) {
                 if (is_alive[i] == 0) continue;
-                const std::uint32_t key = request_.by_reference ? batch->reference_code[i]
-                                          : request_.key == DepthKey::shader_z
-                                              ? rasterizer::ordered_code(batch->shader_z[i])
-                                              : batch->code[i];
-                Column& column = columns_[batch->pixel[i]];
-                words_[column.begin + column.size++] = std::uint64_t{key} << 32 | FragmentStore::place(number, i);
+                Column& column = columns[batch->pixel[i]];
+                words[column.begin + column.size++] = std::uint64_t{key[i]} << 32 | FragmentStore::place(number, i);
             }
             return true;
         });

@@ -59,8 +59,6 @@ class SortedFragments {
     // is sorted; looked at once.
     [[nodiscard]] bool has_plain_colors(const FragmentStore& store);
     [[nodiscard]] bool is_by_reference() const noexcept { return request_.by_reference; }
-    // Whether the reference code is every fragment's stored one.
-    [[nodiscard]] bool stores_reference() const noexcept { return stores_reference_; }
 
     [[nodiscard]] std::size_t pixels() const noexcept { return columns_.size(); }
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
@@ -155,7 +153,6 @@ class SortedFragments {
     SortRequest request_;
     std::uint64_t rasterized_ = 0, masked_ = 0, alpha_killed_ = 0, hidden_ = 0;
     std::optional<bool> has_plain_colors_;
-    bool stores_reference_ = false;
     UninitializedVector<std::uint64_t> words_;
     std::uint64_t size_ = 0;
     std::vector<std::uint32_t> occupied_;

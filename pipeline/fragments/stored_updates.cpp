@@ -33,6 +33,21 @@ class PrefixMaximum {
     std::size_t size_;
 };
 
+// The rule itself, quicker than what follows for columns of few.
+constexpr std::uint32_t few = 8;
+void put_few(std::span<const std::uint64_t> stored, std::uint32_t surface, std::uint32_t* updates) noexcept {
+    const auto blocks = [](std::uint64_t g, std::uint64_t f) {  // words of (code, place)
+        return g < f && static_cast<std::uint32_t>(g) < static_cast<std::uint32_t>(f);
+    };
+    std::fill_n(updates, stored.size(), 0u);
+    for (std::size_t k = 0; k < stored.size(); ++k) {
+        if (stored[k] >> 32 >= surface) continue;
+        std::size_t from = stored.size();
+        while (from > 0 && !blocks(stored[from - 1], stored[k])) --from;
+        for (; from <= k; ++from) ++updates[from];
+    }
+}
+
 void sort_if_needed(std::vector<std::uint64_t>& words) {
     if (!std::ranges::is_sorted(words)) std::ranges::sort(words);
 }
@@ -78,6 +93,8 @@ void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surf
     by_place_.clear();
     std::uint64_t least = ~std::uint64_t{0};
     for (std::uint32_t k = size; k-- > 0;) least_stored_[begin + k] = least = std::min(least, stored[k]);
+    columns_[pixel].updates_end = surface;
+    if (size <= few) return put_few({stored, size}, surface, updates);
     for (std::uint32_t k = 0; k < size; ++k) {
         updates[k] = 0;
         if (stored[k] >> 32 >= surface) continue;
@@ -98,7 +115,6 @@ void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surf
         if (k + 1 < size) --updates[k + 1];
     }
     for (std::uint32_t k = 1; k < size; ++k) updates[k] += updates[k - 1];
-    columns_[pixel].updates_end = surface;
 }
 
 }  // namespace strata::pipeline

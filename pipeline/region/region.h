@@ -77,6 +77,8 @@ class Region {
     // Clears fill the region: scissor and write masks belong to passes.
     void clear(Target target, const ClearValue& value, std::uint8_t sample_mask = 0xff);
     void copy(Target from, Target to);  // same format and samples: a bit copy
+    // The same of a target that is written whole before anybody looks at it again: a tile exchanges the two.
+    void copy_and_leave(Target from, Target to);
     // glCopyTexSubImage2D from a depth or colour buffer to a texture of the frame's size and of the same format, one sample
     // each: the rectangle `from_rect` of the frame to the same rectangle moved by (dx, dy); y down, as in memory. Throws
     // NeedsFrame where a region would have to look beyond itself.
@@ -166,6 +168,7 @@ class Region {
     friend class RegionShortcuts;
 
     [[nodiscard]] Trace& traced() noexcept;  // in the scratch
+    void count_copy(Target from, Target to);
 
     // Null where the next step is to be taken as it is.
     [[nodiscard]] const Alteration* alteration() const noexcept {
@@ -310,6 +313,8 @@ class Region {
     [[nodiscard]] const Loads& loads() const noexcept;
     [[nodiscard]] FragmentBatch& screen_batch() noexcept;
     bool next_screen_batch(FragmentBatch& batch, std::size_t& next) const;
+    [[nodiscard]] std::optional<std::span<const std::uint32_t>> pixels_of_layer(const PassState& state);
+    bool next_layer_batch(std::span<const std::uint32_t> pixels, FragmentBatch& batch, std::size_t& next) const;
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
     [[nodiscard]] IterationRecord& record() noexcept { return books_.record(); }
 

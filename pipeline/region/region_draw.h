@@ -27,6 +27,7 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
         show(Stage::shaded, state, batch, out, out.alive);
         load(state, batch);
         run_program(state, program, batch, out);
+        out.neutral = 0;  // everything is visited, and everything blended
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     };
@@ -80,7 +81,11 @@ Drawn Region::draw_screen(const PassState& state, P& program) {
     open_cache(state);
     Drawn drawn;
     FragmentBatch& batch = screen_batch();
-    for (std::size_t next = 0; next_screen_batch(batch, next);) {
+    const auto pixels = pixels_of_layer(state);
+    const auto next_batch = [&](std::size_t& next) {
+        return pixels ? next_layer_batch(*pixels, batch, next) : next_screen_batch(batch, next);
+    };
+    for (std::size_t next = 0; next_batch(next);) {
         Outputs& out = start_batch(batch);
         load(state, batch);
         run_program(state, program, batch, out);

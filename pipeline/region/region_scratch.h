@@ -11,6 +11,7 @@
 #include "pipeline/fragments/sorted_sets.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
+#include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {
 
@@ -32,6 +33,7 @@ struct alignas(64) RegionScratch {
     FragmentStore store;
     SortedSets sorted;  // of the store
     SelectedFragments selected;
+    UninitializedVector<std::uint32_t> layer_pixels;  // that a quad visits
     Trace trace;
     Arena arena;
 };

@@ -256,6 +256,11 @@ namespace {
 
 constexpr std::span<const std::uint32_t> no_numbers;
 
+// The ranks of Keeps::ends are places in the window: nearest, the next two inwards from either end, farthest. What is tied with an end
+// has ranks behind them. So a batch of the inner ones holds nothing else.
+constexpr std::size_t end_ranks = 4;
+constexpr bool is_inner(std::size_t rank) noexcept { return rank == 1 || rank == 2; }
+
 void put_range(const Texels& range, std::span<const std::uint32_t> pixels, WindowEnds& ends) {
     ends.low.assign(pixels.size(), 0);
     ends.high.assign(pixels.size(), std::uint64_t{1} << 32);
@@ -273,8 +278,7 @@ void Region::select_ends(const PassState& state) {
     if (selection.range.exists()) put_range(at(selection.range).texels(0), sorted.occupied(), selected.windows);
     const auto near = selection.range.exists() ? sorted.numbers_below(selected.windows.low, Cursor::low) : no_numbers;
     const auto far = selection.range.exists() ? sorted.numbers_below(selected.windows.high, Cursor::high) : no_numbers;
-    // Most windows have two fragments at either end.
-    std::array<SelectedFragments::Filling, 4> first_ranks = selected.begin_ranks<4>();
+    auto [nearest, after_nearest, before_farthest, farthest] = selected.begin_ranks<end_ranks>();
     for (std::size_t column = 0; column < sorted.occupied().size(); ++column) {
         const std::uint32_t p = sorted.occupied()[column];
         const auto words = sorted.column(column);
@@ -283,23 +287,21 @@ void Region::select_ends(const PassState& state) {
         const std::uint32_t first = near.empty() ? 0 : near[column];
         const std::uint32_t last = std::max(first, far.empty() ? surface : std::min(surface, far[column]));
         selected.inside += last - first;
-        std::size_t rank = 0;
-        const auto add = [&](std::uint32_t k) {
-            rank < first_ranks.size() ? first_ranks[rank].add(p, words[k]) : selected.add(p, words[k], rank);
-            ++rank;
-        };
+        std::size_t rank = end_ranks;  // of what is tied with an end
         const auto key = [&](std::uint32_t k) { return words[k] >> 32; };
         std::uint32_t near_end = first, far_begin = last;
-        while (near_end < last && key(near_end) == key(first)) add(near_end++);
+        if (first < last) nearest.add(p, words[near_end++]);
+        while (near_end < last && key(near_end) == key(first)) selected.add(p, words[near_end++], rank++);
         while (far_begin > near_end && key(far_begin - 1) == key(last - 1)) --far_begin;
-        if (near_end < far_begin) add(near_end);
-        if (near_end + 1 < far_begin) add(far_begin - 1);
-        for (std::uint32_t k = far_begin; k < last; ++k) add(k);
+        if (near_end < far_begin) after_nearest.add(p, words[near_end]);
+        if (near_end + 1 < far_begin) before_farthest.add(p, words[far_begin - 1]);
+        if (far_begin < last) farthest.add(p, words[far_begin]);
+        for (std::uint32_t k = far_begin + 1; k < last; ++k) selected.add(p, words[k], rank++);
         // Only where the window writes nothing but its first key does the value of those outside come from outside.
         if (selection.outside == Outside::one_value && near_end == last && last - first < size)
-            add(first > 0 ? 0 : last);
+            after_nearest.add(p, words[first > 0 ? 0 : last]);
     }
-    selected.end_ranks(first_ranks);
+    selected.end_ranks<end_ranks>({nearest, after_nearest, before_farthest, farthest});
 }
 
 // The samples that the present batch is drawn to.
@@ -339,6 +341,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     batch.count = static_cast<int>(count);
     batch.material = 0;
     FragmentNeeds fetched = state.needs;
+    fetched.color &= !(state.selection.has_plain_inside && is_inner(selected.rank));
     fetched.reference &= !is_reference_key;  // a program that asks by_reference looks at no other depth
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it

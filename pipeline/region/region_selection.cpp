@@ -132,14 +132,12 @@ bool Region::sort_for(const PassState& state) {
         const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
         request.eight_bit_alpha = is_eight_bit_alpha(profile().alpha_test, type);
     }
-    if (!find_or_sort(state, request)) return false;
-    if (!selection.by_reference || scratch_->sorted.present().stores_reference()) return true;
+    if (!selection.by_reference || !store().has_references_apart()) return find_or_sort(state, request);
     const bool is_bounded = selection.before.exists() || selection.also_before.exists() || selection.up_to.exists() ||
                             selection.most != ~0u;
-    if (selection.keeps != Keeps::nearest || state.stencil.enabled || is_bounded || frame_.key != DepthKey::stored_code)
-        return false;
     request.by_reference = true;
-    return find_or_sort(state, request);
+    return selection.keeps == Keeps::nearest && !state.stencil.enabled && !is_bounded &&
+           frame_.key == DepthKey::stored_code && find_or_sort(state, request);
 }
 
 bool Region::find_or_sort(const PassState& state, const SortRequest& request) {

@@ -61,12 +61,17 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       clipper_{state, rules},
       window_{state, rules},
       plain_rules_{window_.plain_rules(state.clip_depth)},
-      set_up_plain_{clipper_.holds_view_volume() && extras.stride == 0 && plain_rules_ ? rasterizer::set_up_plain()
-                                                                                       : nullptr},
+      set_up_plain_{clipper_.holds_view_volume() && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
       vertices_{vertices},
       extras_{extras},
       corners_(vertices.size()),
       marks_(vertices.size()) {}
+
+bool TriangleSetup::extras_finite(const float* extras, float inverse_w) const noexcept {
+    for (std::size_t e = 0; e < extras_.stride; ++e)
+        if (!products_finite(std::array{extras[e]}, inverse_w)) return false;
+    return true;
+}
 
 // The corner of a vertex that lies inside all planes, and its marks. A position that overflows drops its triangles; a
 // colour that does drops those alone that show its side.
@@ -75,8 +80,7 @@ VertexMarks TriangleSetup::project(const ClipVertex& v, const float* extras, Ver
     const WindowVertex w = window_.project(v, origin);
     if (!all_finite(std::array{w.x, w.y, w.z, w.inverse_w}) || !products_finite(v.texcoord, w.inverse_w))
         return marks_window;
-    for (std::size_t e = 0; e < extras_.stride; ++e)
-        if (!products_finite(std::array{extras[e]}, w.inverse_w)) return marks_window;
+    if (!extras_finite(extras, w.inverse_w)) return marks_window;
     corner = {window_.snapped(w), {w.x, w.y}, w.z, w.inverse_w};
     return (products_finite(v.front, w.inverse_w) ? 0u : marks_front) |
            (products_finite(v.back, w.inverse_w) ? 0u : marks_back);
@@ -86,7 +90,7 @@ void TriangleSetup::set_up_vertex(std::size_t i) noexcept {
     const ClipVertex& v = vertices_[i];
     corners_[i] = {};
     VertexMarks marks = is_finite(v) ? clipper_.outside(v) : marks_input;
-    if (marks == 0) marks = project(v, extras_.stride == 0 ? nullptr : extras_.of(i), VertexOrigin::given, corners_[i]);
+    if (marks == 0) marks = project(v, extras_of(i), VertexOrigin::given, corners_[i]);
     marks_[i] = marks;
 }
 
@@ -96,7 +100,7 @@ void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept
     for (; set_up_plain_ != nullptr && i + plain_vertex_count <= end; i += plain_vertex_count) {
         const std::uint32_t plain = set_up_plain_(*plain_rules_, &vertices_[i], &corners_[i]);
         for (std::size_t k = 0; k < plain_vertex_count; ++k)
-            if ((plain >> k & 1u) != 0)
+            if ((plain >> k & 1u) != 0 && extras_finite(extras_of(i + k), corners_[i + k].inverse_w))
                 marks_[i + k] = 0;
             else
                 set_up_vertex(i + k);

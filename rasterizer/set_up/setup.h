@@ -73,6 +73,10 @@ class TriangleSetup {
         std::array<const WindowCorner*, 3> corner;
         VertexMarks marks;
     };
+    [[nodiscard]] const float* extras_of(std::size_t i) const noexcept {
+        return extras_.stride == 0 ? nullptr : extras_.of(i);
+    }
+    [[nodiscard]] bool extras_finite(const float* extras, float inverse_w) const noexcept;
     void set_up_vertex(std::size_t i) noexcept;
     [[nodiscard]] VertexMarks project(const ClipVertex& v, const float* extras, VertexOrigin origin,
                                       WindowCorner& corner) const noexcept;

@@ -39,7 +39,8 @@ TEST_CASE("what an algorithm copies into the opaque depth hides what lies behind
         RenderOptions options = options_for(scene);
         running.apply(options);
         options.audit = false;
-        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const auto list = draw_list(scene);
+        strata::peeling::Renderer renderer{list, {}, *strata::pipeline::find_profile("geforce8"), options};
         const RenderResult result = renderer.render(algorithm, {}, {});
         for (std::size_t p = 0; p < scene.pixels.size(); ++p)
             CHECK(result.frame.color.codes[4 * p] == (p % 2 == 0 ? 255u : 0u));
@@ -85,7 +86,8 @@ TEST_CASE("a program sees the same window position in a pass that visits what it
         options.tile_size = 8;
         options.audit = false;
         options.color_format = strata::pipeline::Format::rgba8;
-        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const auto list = draw_list(scene);
+        strata::peeling::Renderer renderer{list, {}, *strata::pipeline::find_profile("geforce8"), options};
         const RenderResult result = renderer.render(algorithm, {}, {});
         for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
             CHECK(result.frame.color.codes[4 * p] == p % 20);
@@ -123,7 +125,8 @@ TEST_CASE("nothing passes LESS against a depth below 0, in a pass that visits wh
         running.apply(options);
         options.audit = false;
         options.raster.depth_clamp = false;
-        strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+        const auto list = draw_list(scene);
+        strata::peeling::Renderer renderer{list, {}, *strata::pipeline::find_profile("geforce8"), options};
         const RenderResult result = renderer.render(algorithm, {}, {});
         CHECK(std::ranges::count(result.frame.color.codes, 0u) == std::ssize(result.frame.color.codes));
     }

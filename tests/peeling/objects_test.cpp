@@ -78,11 +78,18 @@ TEST_CASE("progress comes to the whole where most tiles are copies of an empty o
     RenderOptions options = options_for(scene);
     options.tile_size = 8;
     double most = 0.0;
-    strata::peeling::Renderer renderer{draw_list(scene), {}, *strata::pipeline::find_profile("geforce8"), options};
+    const auto list = draw_list(scene);
+    strata::peeling::Renderer renderer{list, {}, *strata::pipeline::find_profile("geforce8"), options};
     static_cast<void>(renderer.render(*strata::peeling::find_algorithm("front_to_back"),
                                       [&](double share) { most = std::max(most, share); }));
     CHECK(most == 1.0);
 }
+
+// A renderer prepares what an algorithm draws when it is drawn.
+static_assert(!std::is_constructible_v<strata::peeling::Renderer, strata::pipeline::DrawList, strata::pipeline::View,
+                                       strata::pipeline::DeviceProfile, RenderOptions>);
+static_assert(std::is_constructible_v<strata::peeling::Renderer, strata::pipeline::DrawList&, strata::pipeline::View,
+                                      strata::pipeline::DeviceProfile, RenderOptions>);
 
 // Its bounds are one number, and a bound that is no interval is a bound.
 TEST_CASE("an object that lies flat on the near plane is drawn in its batch") {

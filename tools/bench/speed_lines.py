@@ -17,7 +17,8 @@ GROUPS = {
         "pipeline/fragments/sorted_*", "pipeline/fragments/stored_updates.cpp", "pipeline/fragments/selected_fragments.h",
         "pipeline/fragments/earliest_index.h", "pipeline/fragments/cursor_steps*", "pipeline/fragments/sort_arrivals.h",
         "pipeline/region/region_select_runs.cpp", "pipeline/fragments/key_windows.h",
-        "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp"],
+        "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp",
+        "pipeline/region/region_screen.cpp"],
     "rows: passes without batches": [
         "rasterizer/walk/*rows*", "rasterizer/walk/row_walk*", "pipeline/region/region_rows.cpp", "pipeline/stages/sum_rows*"],
     "words: targets without gathers": [

@@ -296,10 +296,11 @@ TEST_CASE("a part of the primitives is sorted as if there were no others") {
 }
 
 TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffer tests them one by one") {
-    for (const int codes : {3, 40, 1'000'000}) {
+    using Case = std::pair<int, int>;  // batches and codes; columns of few are counted by the rule itself
+    for (const auto& [batches, codes] : {Case{6, 5}, Case{60, 3}, Case{60, 40}, Case{60, 1'000'000}}) {
         Random random{22};
         StoredColumns given;
-        fill_columns(random, 60, codes, given);
+        fill_columns(random, batches, codes, given);
         auto one = std::make_unique<strata::rasterizer::FragmentBatch>();
         int wrong = 0;
         SortedFragments sorted;
@@ -334,7 +335,7 @@ TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffe
                 if (passed > 0) wrong += found.word == (std::uint64_t{stored} << 32 | last_place) ? 0 : 1;
             }
         }
-        INFO(codes << " codes");
+        INFO(batches << " batches, " << codes << " codes");
         CHECK(wrong == 0);
     }
 }

@@ -182,6 +182,26 @@ TEST_CASE("SRC_ALPHA_SATURATE is min(As, 1 - Ad) for the colours and 1 for alpha
           std::array{100, 100, 100, 100});
 }
 
+TEST_CASE("zeros UNDER and OVER leave every code, by every rounding") {
+    static Colors src;
+    static Codes codes;
+    int wrong = 0;
+    DeviceProfile profile;
+    for (const BlendRounding rounding : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product})
+        for (const Blend& state : {blend_mode::under, blend_mode::over})
+            for (std::uint32_t stored = 0; stored < 256 * 256; ++stored) {
+                profile.blend_rounding = rounding;
+                for (std::size_t c = 0; c < 4; ++c) {
+                    src[c][0] = 0.0f;
+                    codes[c][0] = c == 3 ? stored >> 8 : stored & 0xff;
+                }
+                blend(state, ChannelType::unorm8, profile, 4, src, codes, 1);
+                for (std::size_t c = 0; c < 4; ++c)
+                    wrong += codes[c][0] == (c == 3 ? stored >> 8 : stored & 0xff) ? 0 : 1;
+            }
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("under-blending on 8 bits multiplies the transmittance and adds what it lets through") {
     std::array<int, 4> stored{0, 0, 0, 255};
     stored = blended(blend_mode::under, {128, 0, 0, 128}, stored);
