@@ -71,6 +71,7 @@ std::uint64_t pixel_bytes(const TargetStorage& s) {
 }  // namespace
 
 const Loads& Region::loads() const noexcept { return scratch_->loads; }
+FragmentBatch& Region::screen_batch() noexcept { return scratch_->screen; }
 std::uint64_t Region::alive_count(const Outputs& out, int count) noexcept { return count_lanes(out.alive, count); }
 
 // Checks a pass, and books all of it that does not depend on its fragments. Fragments bring one code each, so a depth
@@ -101,6 +102,25 @@ void Region::begin_pass(const PassState& state, PassKind kind) {
 
 void Region::count_color_bytes(const Blend& blending, const TargetStorage& target, std::uint64_t pixels) {
     record().counters += of_color(pixel_bytes(target), pixels, blending.enabled);
+}
+
+// The pixels of a full-screen pass, row by row. Window positions fit 16 bits: a frame has at most 16,384 pixels a side.
+bool Region::next_screen_batch(FragmentBatch& batch, std::size_t& next) const {
+    const std::size_t left = rect_.area() - next;
+    const std::size_t count = std::min<std::size_t>(left, batch_capacity);
+    const auto width = static_cast<std::size_t>(rect_.width());
+    std::iota(batch.pixel.begin(), batch.pixel.begin() + static_cast<std::ptrdiff_t>(count), static_cast<Word>(next));
+    for (std::size_t i = 0; i < count;) {
+        const std::size_t x = (next + i) % width, y = (next + i) / width, end = std::min(count, i + width - x);
+        const auto first_x = static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.x0) + x);
+        for (std::size_t k = i; k < end; ++k) batch.x[k] = static_cast<std::uint16_t>(first_x + (k - i));
+        std::fill(batch.y.begin() + static_cast<std::ptrdiff_t>(i), batch.y.begin() + static_cast<std::ptrdiff_t>(end),
+                  static_cast<std::uint16_t>(static_cast<std::size_t>(rect_.y0) + y));
+        i = end;
+    }
+    next += count;
+    batch.count = static_cast<int>(count);
+    return count > 0;
 }
 
 // Colours are not cleared: a program writes the outputs that its pass has targets for.

@@ -18,7 +18,7 @@ GROUPS = {
         "pipeline/fragments/earliest_index.h", "pipeline/fragments/cursor_steps*", "pipeline/fragments/sort_arrivals.h",
         "pipeline/region/region_select_runs.cpp", "pipeline/fragments/key_windows.h",
         "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp",
-        "pipeline/region/region_screen.cpp"],
+        "pipeline/stages/layer_pixels.h"],
     "rows: passes without batches": [
         "rasterizer/walk/*rows*", "rasterizer/walk/row_walk*", "pipeline/region/region_rows.cpp", "pipeline/stages/sum_rows*"],
     "words: targets without gathers": [

@@ -30,17 +30,17 @@ const FragmentScene& sparse_scene() {
     return scene;
 }
 
-// Values that a blend with zeros changes, and others: one of them a tile, in a channel or another.
-void put_odd_values(Region& region, Target target) {
+// Values that a blend with zeros changes, and others: one of them a tile, in every second pixel's channel of this number.
+void put_odd_values(Region& region, Target target, std::size_t channel) {
     PassState state;
     state.color[0] = target;
-    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads&, Outputs& out) {
+    static_cast<void>(region.full_screen(state, [=](const FragmentBatch& in, const Loads&, Outputs& out) {
         constexpr std::array values{0.5f,     -0.0f,    0.0f,      not_a_number, infinity, 0x1p-140f,
                                     0x1p-20f, 0x1p-16f, -0x1p-25f, 1.0f,         -3.0f,    -infinity};
         for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
             for (std::size_t c = 0; c < 4; ++c) {
                 const std::size_t number = in.x[i] / 8 + std::size_t{4} * (in.y[i] / 8);
-                out.color[0][c][i] = c == (in.x[i] + in.y[i]) % 7 ? values[number] : 0.25f;
+                out.color[0][c][i] = c == channel && (in.x[i] + in.y[i]) % 2 == 0 ? values[number] : 0.25f;
             }
     }));
 }
@@ -50,12 +50,13 @@ struct Quad {
     Format format;
     Blend blend;
     void (*change)(PassState&, Region&) = [](PassState&, Region&) {};
+    std::size_t odd_channel = 0;
 };
 
 // Draws the layer and blends it; `visited` += the pixels that the quad's program sees.
 void draw_quad(Region& region, const Quad& quad, std::uint64_t& visited) {
     const Target color = region.make(quad.format), layer = region.make(quad.format), depth = region.make_depth();
-    put_odd_values(region, color);
+    put_odd_values(region, color, quad.odd_channel);
     region.clear(layer, {.color = {0, 0, 0, 0}});
     region.copy(region.opaque_depth(), depth);
     PassState nearest;
@@ -105,10 +106,15 @@ TEST_CASE(
             for (Blend blend : {blend_mode::under, blend_mode::over})
                 for (const std::uint8_t mask : {0xf, 0x7}) {
                     blend.write_mask = mask;
-                    const Outcome found = outcome_of({profile, format, blend});
-                    INFO(profile << ", format " << static_cast<int>(format) << ", mask " << int{mask});
-                    CHECK(found.difference.empty());
-                    CHECK(found.tiled < (format == Format::rgba8 ? found.literal / 2 : found.literal));
+                    for (std::size_t channel = 0; channel < 4; ++channel) {
+                        Quad quad{profile, format, blend};
+                        quad.odd_channel = channel;
+                        const Outcome found = outcome_of(quad);
+                        INFO(profile << ", format " << static_cast<int>(format) << ", mask " << int{mask}
+                                     << ", channel " << channel);
+                        CHECK(found.difference.empty());
+                        CHECK(found.tiled < (format == Format::rgba8 ? found.literal / 2 : found.literal));
+                    }
                 }
 }
 
@@ -189,7 +195,7 @@ TEST_CASE(
 TEST_CASE("a buffer that is handed over is a copy, counted as one, and what it held is not looked at") {
     CHECK(difference_with([](Region& region) {
               const Target from = region.make(Format::rgba32f), to = region.make(Format::rgba32f);
-              put_odd_values(region, from);
+              put_odd_values(region, from, 1);
               region.copy_and_leave(from, to);
               region.clear(from, {.color = {0.5f, 0.25f, 0, 1}});
               region.publish(region.opaque_color());
@@ -200,7 +206,7 @@ TEST_CASE("a buffer that is handed over is a copy, counted as one, and what it h
                                   [](Region& region) {
                                       const Target from = region.make(Format::rgba32f),
                                                    to = region.make(Format::rgba32f);
-                                      put_odd_values(region, from);
+                                      put_odd_values(region, from, 1);
                                       region.copy_and_leave(from, to);
                                       CHECK(region.image(from) == region.image(to));
                                       region.publish(region.opaque_color());
