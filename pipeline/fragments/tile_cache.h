@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipeline/device/profile.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/stages/lane_words.h"
 #include "rasterizer/rules/raster_state.h"
