@@ -153,6 +153,8 @@ std::array<double, 3> TriangleSetup::with_offset(const std::array<const WindowCo
         const double offset = polygon_offset(p, z, state_, rules_);
         return {z[0] + offset, z[1] + offset, z[2] + offset};
     }
+    // An offset of nothing limits nothing.
+    if (state_.polygon_offset.factor == 0.0f && state_.polygon_offset.units == 0.0f) return {z[0], z[1], z[2]};
     const float offset = stepped_offset(corner, state_, rules_);
     std::array<double, 3> moved{};
     for (std::size_t i = 0; i < 3; ++i)

@@ -84,6 +84,9 @@ bool has_order_by_depth(const FrameCase& frame) {
     const peeling::RenderOptions& o = frame.options;
     if (std::find(by_depth.begin(), by_depth.end(), frame.algorithm) == by_depth.end()) return false;
     if (frame.algorithm == "depth_pass") return true;
+    // A run is blended in one pass, and how a list falls into runs is a matter of its order: where a pass rounds once, so are colours.
+    const bool rounds_passes = pipeline::find_profile(frame.profile)->blend_storage != pipeline::BlendStorage::target;
+    if (rounds_passes && frame.algorithm.starts_with("coherent_")) return false;
     if (o.termination.rule != pipeline::TerminationRule::exact || o.max_passes != 0 ||
         o.formulation != pipeline::Formulation::resolved || !compares_what_it_stores(o))
         return false;
