@@ -76,7 +76,7 @@ struct Outputs {
     std::uint64_t tally = 0;     // counts whatever the program calls an event
 
     // A bit a colour target: what this batch writes there leaves it as it is, or as others of the same pixel's fragments leave it
-    // in this pass. A promise about the outputs, which are written all the same: selections and quads blend only what needs it.
+    // in this pass. A promise about the outputs, which are written all the same: a selection blends only what needs it.
     unsigned neutral = 0;
 
     // For the audit: lane i composites depth key `key[i]` on `side[i]`, if it survives the tests. Used when `traced` is set.

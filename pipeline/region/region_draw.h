@@ -89,6 +89,7 @@ Drawn Region::draw_screen(const PassState& state, P& program) {
         Outputs& out = start_batch(batch);
         load(state, batch);
         run_program(state, program, batch, out);
+        out.neutral = 0;
         show(Stage::program, state, batch, out, out.alive);
         finish(state, batch, out, drawn);
     }

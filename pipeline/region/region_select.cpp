@@ -322,7 +322,22 @@ void Region::find_positions(FragmentBatch& batch, std::size_t count) const {
     }
 }
 
-// Keys that are stored codes need no fetching. No program that selects looks at a primitive's number: the trace does.
+namespace {
+
+// The depths that ordered codes stand for, which is exact but for -0. True if there is a 0.
+bool put_depths(const Lanes<std::uint32_t>& code, std::size_t count, Lanes<float>& z) noexcept {
+    constexpr std::uint32_t zero = rasterizer::ordered_code(0.0f);
+    std::uint32_t has_zero = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        z[i] = std::bit_cast<float>(select(mask(code[i] >= zero), code[i] ^ zero, ~code[i]));
+        has_zero |= mask(code[i] == zero);
+    }
+    return has_zero != 0;
+}
+
+}  // namespace
+
+// Keys that are stored codes or depths need no fetching. No program that selects looks at a primitive's number: the trace does.
 FragmentBatch* Region::next_selected(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     while (selected.rank < selected.ranks && selected.next == selected.of_rank[selected.rank].count)
@@ -341,6 +356,8 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     batch.count = static_cast<int>(count);
     batch.material = 0;
     FragmentNeeds fetched = state.needs;
+    if (frame_.key == DepthKey::shader_z && fetched.shader_z)
+        fetched.shader_z = put_depths(batch.code, count, batch.shader_z);
     fetched.color &= !(state.selection.has_plain_inside && is_inner(selected.rank));
     fetched.reference &= !is_reference_key;  // a program that asks by_reference looks at no other depth
     fetched.code =
