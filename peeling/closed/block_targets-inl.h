@@ -90,6 +90,28 @@ class VectorTarget<Unorm8Rules<blend, to_code>> {
     }
 };
 
+template <pipeline::UnormRounding to_code>
+class VectorTarget<CachedRules<to_code>> {
+  public:
+    using Held = WordVec;
+    static constexpr bool is_float = false;
+
+    HWY_INLINE explicit VectorTarget(const BlockRules&) {}
+    HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, 1.0f); }
+    HWY_INLINE static Held held(WordVec codes) { return codes; }
+    HWY_INLINE static WordVec codes(Held x) { return x; }
+    HWY_INLINE static FloatVec value(Held x) { return AsCodes::value(x); }
+    HWY_INLINE static Held stored(FloatVec x) { return AsCodes::stored(x); }
+    HWY_INLINE static FloatVec operand(Held x) { return value(x); }
+    HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
+    HWY_INLINE static Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
+        return stored(hn::Add(hn::Mul(s, s_factor), hn::Mul(d, d_factor)));
+    }
+
+  private:
+    using AsCodes = VectorTarget<Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;
+};
+
 template <pipeline::ChannelType type, pipeline::HalfRounding half>
 class VectorTarget<FloatRules<type, half>> {
   public:

@@ -2,13 +2,15 @@
 //
 // Rule     A channel is kept as a code. A program reads its value, and what it writes is converted once. A blend takes
 //          operands, codes of 8 bits as whole numbers and floats without denormals, and rounds its sum once, or each
-//          product, as blend_unorm8.h and blend_float.h say.
+//          product, as blend_unorm8.h and blend_float.h say. No pass blends a pixel twice: of BlendStorage::cached_tiles
+//          there remains that codes of 8 bits are blended as the values that they stand for, in binary32.
 // Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
 // Tests    tests/peeling/closed/block_passes_test.cpp
 #pragma once
 #include <bit>
 #include <cstdint>
 
+#include "pipeline/device/profile.h"
 #include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/format.h"
 #include "pipeline/formats/unorm8_product.h"
@@ -22,7 +24,8 @@ struct BlockRules {
     pipeline::ChannelType type = pipeline::ChannelType::unorm8;
     pipeline::ColorRounding rounding = pipeline::HalfRounding::nearest_even;
     pipeline::BlendRounding blend = pipeline::BlendRounding::nearest;
-    bool flushes = true;              // denormals, in blends of floats
+    bool flushes = true;  // denormals, in blends of floats
+    pipeline::BlendStorage storage = pipeline::BlendStorage::target;
     std::uint32_t most_passes = ~0u;  // that peel, where a frame ends sooner
 };
 
@@ -32,6 +35,8 @@ inline constexpr float most_plain_color = 1024.0f;
 // The rules as types, for loops that are compiled for them.
 template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code>
 struct Unorm8Rules {};
+template <pipeline::UnormRounding to_code>
+struct CachedRules {};
 template <pipeline::ChannelType type, pipeline::HalfRounding half>
 struct FloatRules {};
 
@@ -54,6 +59,9 @@ void with_rules(const BlockRules& rules, const Body& body) {
     if (rules.type == single) return body(FloatRules<single, nearest_even>{});
     if (rules.type == half && rules.rounding.half == nearest_even) return body(FloatRules<half, nearest_even>{});
     if (rules.type == half) return body(FloatRules<half, toward_zero>{});
+    const bool is_cached = rules.storage == pipeline::BlendStorage::cached_tiles;
+    if (is_cached && rules.rounding.unorm == half_up) return body(CachedRules<half_up>{});
+    if (is_cached) return body(CachedRules<product_even>{});
     if (rules.rounding.unorm == half_up) return with_blend<half_up>(rules.blend, body);
     with_blend<product_even>(rules.blend, body);
 }
@@ -86,6 +94,23 @@ struct Target<Unorm8Rules<blend, to_code>> {
         using Arithmetic = pipeline::Unorm8Arithmetic<blend>;
         return static_cast<std::uint32_t>(
             Arithmetic::template combine<pipeline::BlendEquation::add>(s, s_factor, d, d_factor));
+    }
+};
+
+// Values of codes are multiples of about 2^-8: no product of them is a denormal.
+template <pipeline::UnormRounding to_code>
+struct Target<CachedRules<to_code>> {
+    static constexpr float one = 1.0f;
+
+    explicit Target(const BlockRules&) noexcept {}
+    [[nodiscard]] static float value(std::uint32_t code) noexcept { return code_value<to_code>(code); }
+    [[nodiscard]] static std::uint32_t code(float x) noexcept { return pipeline::to_unorm8<to_code>(x); }
+    [[nodiscard]] static std::uint32_t max_code(float x) noexcept { return code(x); }
+    [[nodiscard]] static float operand(std::uint32_t code) noexcept { return value(code); }
+    [[nodiscard]] static float rest(float x) noexcept { return one - x; }
+    [[nodiscard]] static std::uint32_t add(float s, float s_factor, float d, float d_factor) noexcept {
+        const float source = s * s_factor, destination = d * d_factor;
+        return code(source + destination);
     }
 };
 

@@ -26,7 +26,8 @@ namespace strata::peeling {
     BlockRules rules{.type = pipeline::info(frame.color_format).type,
                      .rounding = profile.color_rounding(),
                      .blend = profile.blend_rounding,
-                     .flushes = profile.denormals == pipeline::DenormalRule::flush};
+                     .flushes = profile.denormals == pipeline::DenormalRule::flush,
+                     .storage = profile.blend_storage};
     const int fixed = frame.termination.rule == pipeline::TerminationRule::fixed ? frame.termination.passes : 0;
     for (const int limit : {frame.max_passes, fixed})
         if (limit > 0) rules.most_passes = std::min(rules.most_passes, static_cast<std::uint32_t>(limit - others));
@@ -40,12 +41,7 @@ namespace strata::peeling {
     using enum pipeline::TerminationRule;
     const auto rule = frame.termination.rule;
     const bool is_known = frame.color_format == pipeline::Format::rgba8 || has_float_blocks(frame);
-    // No block blends codes in binary32 (fragment-stages.md 9.5), and no column sorts depths beyond the range (depth.md 2.9).
-    const pipeline::DeviceProfile& profile = *frame.profile;
-    const bool is_ordinary =
-        profile.raster.depth_limits == rasterizer::DepthLimits::clamp &&
-        (frame.color_format != pipeline::Format::rgba8 || profile.blend_storage == pipeline::BlendStorage::target);
-    return is_known && is_ordinary && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() &&
+    return is_known && (rule == exact || rule == any || rule == fixed) && frame.is_invariant() &&
            frame.replay.bytes > 0 && !frame.keep_layers;
 }
 

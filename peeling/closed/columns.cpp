@@ -2,17 +2,20 @@
 //
 // Rule     Arrivals are put down band by band, a band being whole rows of the region whose fragments fit into a
 //          second-level cache. First the whole region is tried as one band, which most tiles are; a region that does not
-//          fit is counted and cut. One row that exceeds the fragment memory makes the closed form decline.
+//          fit is counted and cut. One row that exceeds the fragment memory makes the closed form decline, and so does a
+//          depth beyond the range.
 // Numbers  At most 2^24 - 1 fragments at a pixel, or the form declines, too. A place has 32 bits. Every column takes a
 //          word of 8 bytes for each fragment of the tallest one, and every place 16 bytes of colour: Band::bytes.
 #include "peeling/closed/columns.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "peeling/closed/arrival_rows.h"
 #include "peeling/closed/arrivals.h"
 #include "pipeline/fragments/arena.h"
 #include "pipeline/region/region_shortcuts.h"
+#include "rasterizer/rules/depth_code.h"
 #include "rasterizer/walk/rows.h"
 
 namespace strata::peeling {
@@ -48,6 +51,7 @@ class RegionColumns {
           visit_{visit},
           bytes_{region.frame().replay.bytes},
           by_shader_z_{region.frame().key == DepthKey::shader_z},
+          may_leave_range_{region.frame().profile->raster.depth_limits == rasterizer::DepthLimits::wrap},
           shortcuts_{region},
           rows_of_{shortcuts_.row_source()} {
         const std::size_t pixels =
@@ -164,9 +168,21 @@ class RegionColumns {
         return fits;
     }
 
+    // No column sorts depths beyond the range (depth.md 2.9): the form declines.
+    [[nodiscard]] bool leaves_range(const FragmentBatch& in) const {
+        const auto is_beyond = [&](std::size_t i) {
+            return by_shader_z_ ? std::bit_cast<std::uint32_t>(in.shader_z[i]) > std::bit_cast<std::uint32_t>(1.0f)
+                                : rasterizer::is_beyond_range(in.code[i], region_.frame().key_request().format);
+        };
+        bool any = false;
+        for (std::size_t i = 0; i < lanes(in); ++i) any |= is_beyond(i);
+        return any;
+    }
+
     // The way of batches: after texture and MASK, whose victims are counted, as `alpha_killed` wants it.
     [[nodiscard]] bool place_batches(const Band& band) {
         return shortcuts_.look(needs(), band.rect, [&](const FragmentBatch& in, const Outputs& out) {
+            if (may_leave_range_ && leaves_range(in)) return false;
             fragments_.rasterized += lanes(in);
             fragments_.masked += lanes(in) - RegionShortcuts::alive_count(out, in.count);
             return append(arrivals_, in, out.alive.data());
@@ -209,7 +225,7 @@ class RegionColumns {
     Region& region_;
     const std::function<void(const ColumnBlock&)>& visit_;
     std::uint64_t bytes_;  // the region's share of memory
-    bool by_shader_z_;
+    bool by_shader_z_, may_leave_range_;
     RegionShortcuts shortcuts_;
     std::optional<RowSource> rows_of_;  // empty: batches
     RegionFragments fragments_;

@@ -16,6 +16,7 @@ namespace strata::peeling::block_passes_model {
 namespace {
 
 using pipeline::BlendRounding;
+using pipeline::BlendStorage;
 using pipeline::ChannelType;
 using pipeline::HalfRounding;
 using pipeline::UnormRounding;
@@ -29,6 +30,12 @@ std::vector<BlockRules> all_rules() {
     for (const auto by : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product})
         for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
             rules.push_back({ChannelType::unorm8, {HalfRounding::nearest_even, unorm}, by, true});
+    for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
+        rules.push_back({ChannelType::unorm8,
+                         {HalfRounding::nearest_even, unorm},
+                         BlendRounding::nearest,
+                         true,
+                         BlendStorage::cached_tiles});
     for (const bool flushes : {false, true}) {
         rules.push_back({ChannelType::single, HalfRounding::nearest_even, BlendRounding::nearest, flushes});
         for (const auto half : {HalfRounding::nearest_even, HalfRounding::toward_zero})
@@ -57,6 +64,8 @@ struct Machine {
     BlockRules rules;
 
     [[nodiscard]] bool is_unorm8() const { return rules.type == ChannelType::unorm8; }
+    // Codes are blended as numbers, and not as the values that they stand for.
+    [[nodiscard]] bool blends_codes() const { return is_unorm8() && rules.storage == BlendStorage::target; }
     [[nodiscard]] float flushed(float x) const {
         return rules.flushes && std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0f, x) : x;
     }
@@ -92,16 +101,16 @@ struct Machine {
         return write(std::isnan(result) ? std::bit_cast<float>(0x7fffffffu) : result);
     }
     [[nodiscard]] std::uint32_t over(std::uint32_t s, std::uint32_t alpha, std::uint32_t d) const {
-        if (is_unorm8()) return integers(s, alpha, d, 255 - alpha);
+        if (blends_codes()) return integers(s, alpha, d, 255 - alpha);
         const float a = flushed(read(alpha));
         return floats(flushed(read(s)), a, flushed(read(d)), flushed(sum(1, -a)));
     }
     [[nodiscard]] std::uint32_t under(std::uint32_t s, std::uint32_t d, std::uint32_t transmittance) const {
-        if (is_unorm8()) return integers(s, transmittance, d, 255);
+        if (blends_codes()) return integers(s, transmittance, d, 255);
         return floats(flushed(read(s)), flushed(read(transmittance)), flushed(read(d)), 1);
     }
     [[nodiscard]] std::uint32_t through(std::uint32_t alpha, std::uint32_t transmittance) const {
-        if (is_unorm8()) return integers(alpha, 0, transmittance, 255 - alpha);
+        if (blends_codes()) return integers(alpha, 0, transmittance, 255 - alpha);
         const float a = flushed(read(alpha));
         return floats(a, 0, flushed(read(transmittance)), flushed(sum(1, -a)));
     }

@@ -188,9 +188,9 @@ constexpr std::array<std::array<float, 3>, 3> nearer{{{-0.153320312f, -0.7988281
 constexpr std::array<std::array<float, 3>, 3> farther{{{0.725585938f, 0.935546875f, 0.42545253f},
                                                        {-0.390625f, -0.345703125f, -0.021379292f},
                                                        {0.506835938f, -0.80078125f, -0.499646097f}}};
-constexpr std::array<std::array<float, 3>, 3> both{{{0.426757812f, 0.975585938f, 0.381504476f},
-                                                    {-0.973632812f, 0.04296875f, -0.411935419f},
-                                                    {0.698242188f, 0.0634765625f, 0.607899249f}}};
+constexpr std::array<std::array<float, 3>, 3> drawn_by_both{{{0.426757812f, 0.975585938f, 0.381504476f},
+                                                             {-0.973632812f, 0.04296875f, -0.411935419f},
+                                                             {0.698242188f, 0.0634765625f, 0.607899249f}}};
 constexpr std::array<std::array<float, 3>, 3> steep{{{0.875976562f, -0.794921875f, -0.776670873f},
                                                      {0.140625f, -0.048828125f, -0.394258887f},
                                                      {0.806640625f, -0.25f, 0.53358835f}}};
@@ -199,8 +199,8 @@ constexpr DrawnOffset drawn_offsets[]{
     {nearer, {true, 0, -96}, 47, 39, {0x3ef8f786u, 0x3ef8f783u, 0x3ef8f783u}},
     {farther, {true, 1.84968996f, 0}, 52, 10, {0x3f2a48bdu, 0x3f2a48bdu, 0x3f2a48bdu}},
     {farther, {true, 1.84968996f, 0}, 49, 11, {0x3f2afdfeu, 0x3f2afdfeu, 0x3f2afdffu}},
-    {both, {true, -2.33459544f, -96}, 46, 12, {0x3f304d29u, 0x3f304d29u, 0x3f304d29u}},
-    {both, {true, -2.33459544f, -96}, 43, 13, {0x3f293cc1u, 0x3f293cc1u, 0x3f293cc2u}},
+    {drawn_by_both, {true, -2.33459544f, -96}, 46, 12, {0x3f304d29u, 0x3f304d29u, 0x3f304d29u}},
+    {drawn_by_both, {true, -2.33459544f, -96}, 43, 13, {0x3f293cc1u, 0x3f293cc1u, 0x3f293cc2u}},
     {steep, {true, -2.13501453f, 0}, 50, 38, {0x3efa0478u, 0x3efa047bu, 0x3efa047bu}},
     {steep, {true, -2.13501453f, 0}, 47, 39, {0x3eafa38du, 0x3eafa38fu, 0x3eafa38fu}}};
 
