@@ -104,7 +104,8 @@ void CachedTarget::put_back(std::uint32_t tile) {
 }
 
 void CachedTarget::write(const std::uint32_t* pixels, int count, int sample) {
-    Lanes<std::uint32_t> all{};
+    Lanes<std::uint32_t> all{}, places{};  // of a vector's length, which a kernel reads whole
+    std::copy_n(pixels, count, places.begin());
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         const std::size_t at = word(pixels[i], sample);
         held_[at] = 0;
@@ -113,7 +114,7 @@ void CachedTarget::write(const std::uint32_t* pixels, int count, int sample) {
             codes_[c][i] = clamps_ ? to_unorm8(values_[at][c], profile_.unorm_rounding)
                                    : to_half(values_[at][c], profile_.half_rounding);
     }
-    scatter_codes(texels(sample), {pixels, static_cast<std::size_t>(count)}, all.data(), blending_.write_mask,
+    scatter_codes(texels(sample), {places.data(), static_cast<std::size_t>(count)}, all.data(), blending_.write_mask,
                   codes_.data());
 }
 
