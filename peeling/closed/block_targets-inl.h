@@ -49,23 +49,22 @@ HWY_INLINE FloatVec greater(FloatVec a, FloatVec b) {
 template <class Rules>
 class VectorTarget;
 
-template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code>
-class VectorTarget<Unorm8Rules<blend, to_code>> {
+template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code, pipeline::BlendStorage storage>
+class VectorTarget<Unorm8Rules<blend, to_code, storage>> {
   public:
     using Held = WordVec;
     static constexpr bool is_float = false;
 
     HWY_INLINE explicit VectorTarget(const BlockRules&) {}
-    HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, 255.0f); }
+    HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, blends_values ? 1.0f : 255.0f); }
     HWY_INLINE static Held held(WordVec codes) { return codes; }
     HWY_INLINE static WordVec codes(Held x) { return x; }
     HWY_INLINE static FloatVec value(Held x) {
         if constexpr (to_code == pipeline::UnormRounding::half_up) return formats::unorm8_values(Words{}, x);
-        return hn::Mul(operand(x), hn::Set(Floats{}, 1.0f / 255.0f));
+        return hn::Mul(number(x), hn::Set(Floats{}, 1.0f / 255.0f));
     }
     HWY_INLINE static Held stored(FloatVec x) { return formats::unorm8_codes<to_code>(Words{}, x); }
-    // Codes are at most 255: exact in binary32, and positive as signed words.
-    HWY_INLINE static FloatVec operand(Held x) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, x)); }
+    HWY_INLINE static FloatVec operand(Held x) { return blends_values ? value(x) : number(x); }
     HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
 
     // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut to
@@ -74,6 +73,7 @@ class VectorTarget<Unorm8Rules<blend, to_code>> {
         using enum pipeline::BlendRounding;
         const Signed di;
         const FloatVec source = hn::Mul(s, s_factor), destination = hn::Mul(d, d_factor);
+        if constexpr (blends_values) return stored(hn::Add(source, destination));
         if constexpr (blend == each_product)
             return hn::BitCast(Words{}, hn::Min(hn::Add(product(source), product(destination)), hn::Set(di, 255)));
         const auto sum = hn::Min(hn::ConvertTo(di, hn::Add(source, destination)), hn::Set(di, 65025));
@@ -82,34 +82,16 @@ class VectorTarget<Unorm8Rules<blend, to_code>> {
     }
 
   private:
+    static constexpr bool blends_values = storage == pipeline::BlendStorage::cached_tiles;
+
+    // Codes are at most 255: exact in binary32, and positive as signed words.
+    HWY_INLINE static FloatVec number(Held x) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, x)); }
     // Unorm8Arithmetic::product.
     HWY_INLINE static hn::Vec<Signed> product(FloatVec ab) {
         const Signed di;
         const auto whole = hn::ConvertTo(di, ab);
         return hn::ShiftRight<8>(hn::Add(hn::Add(whole, hn::ShiftRight<8>(whole)), hn::Set(di, 128)));
     }
-};
-
-template <pipeline::UnormRounding to_code>
-class VectorTarget<CachedRules<to_code>> {
-  public:
-    using Held = WordVec;
-    static constexpr bool is_float = false;
-
-    HWY_INLINE explicit VectorTarget(const BlockRules&) {}
-    HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, 1.0f); }
-    HWY_INLINE static Held held(WordVec codes) { return codes; }
-    HWY_INLINE static WordVec codes(Held x) { return x; }
-    HWY_INLINE static FloatVec value(Held x) { return AsCodes::value(x); }
-    HWY_INLINE static Held stored(FloatVec x) { return AsCodes::stored(x); }
-    HWY_INLINE static FloatVec operand(Held x) { return value(x); }
-    HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
-    HWY_INLINE static Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
-        return stored(hn::Add(hn::Mul(s, s_factor), hn::Mul(d, d_factor)));
-    }
-
-  private:
-    using AsCodes = VectorTarget<Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;
 };
 
 template <pipeline::ChannelType type, pipeline::HalfRounding half>

@@ -33,17 +33,18 @@ struct BlockRules {
 inline constexpr float most_plain_color = 1024.0f;
 
 // The rules as types, for loops that are compiled for them.
-template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code>
+template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code,
+          pipeline::BlendStorage storage = pipeline::BlendStorage::target>
 struct Unorm8Rules {};
-template <pipeline::UnormRounding to_code>
-struct CachedRules {};
 template <pipeline::ChannelType type, pipeline::HalfRounding half>
 struct FloatRules {};
 
 template <pipeline::UnormRounding to_code, class Body>
-void with_blend(pipeline::BlendRounding blend, const Body& body) {
+void with_blend(const BlockRules& rules, const Body& body) {
     using enum pipeline::BlendRounding;
-    switch (blend) {
+    using enum pipeline::BlendStorage;
+    if (rules.storage == cached_tiles) return body(Unorm8Rules<nearest, to_code, cached_tiles>{});
+    switch (rules.blend) {
         case nearest: return body(Unorm8Rules<nearest, to_code>{});
         case truncate: return body(Unorm8Rules<truncate, to_code>{});
         case each_product: return body(Unorm8Rules<each_product, to_code>{});
@@ -59,11 +60,8 @@ void with_rules(const BlockRules& rules, const Body& body) {
     if (rules.type == single) return body(FloatRules<single, nearest_even>{});
     if (rules.type == half && rules.rounding.half == nearest_even) return body(FloatRules<half, nearest_even>{});
     if (rules.type == half) return body(FloatRules<half, toward_zero>{});
-    const bool is_cached = rules.storage == pipeline::BlendStorage::cached_tiles;
-    if (is_cached && rules.rounding.unorm == half_up) return body(CachedRules<half_up>{});
-    if (is_cached) return body(CachedRules<product_even>{});
-    if (rules.rounding.unorm == half_up) return with_blend<half_up>(rules.blend, body);
-    with_blend<product_even>(rules.blend, body);
+    if (rules.rounding.unorm == half_up) return with_blend<half_up>(rules, body);
+    with_blend<product_even>(rules, body);
 }
 
 inline namespace strict {
@@ -79,38 +77,29 @@ namespace scalar {
 template <class Rules>
 struct Target;
 
-template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code>
-struct Target<Unorm8Rules<blend, to_code>> {
-    static constexpr float one = 255.0f;
+// Values of codes are multiples of about 2^-8: no product of them is a denormal.
+template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code, pipeline::BlendStorage storage>
+struct Target<Unorm8Rules<blend, to_code, storage>> {
+    static constexpr bool blends_values = storage == pipeline::BlendStorage::cached_tiles;
+    static constexpr float one = blends_values ? 1.0f : 255.0f;
 
     explicit Target(const BlockRules&) noexcept {}
     [[nodiscard]] static float value(std::uint32_t code) noexcept { return code_value<to_code>(code); }
     [[nodiscard]] static std::uint32_t code(float x) noexcept { return pipeline::to_unorm8<to_code>(x); }
     // What MAX leaves of x, above 0.
     [[nodiscard]] static std::uint32_t max_code(float x) noexcept { return code(x); }
-    [[nodiscard]] static float operand(std::uint32_t code) noexcept { return static_cast<float>(code); }
+    [[nodiscard]] static float operand(std::uint32_t code) noexcept {
+        return blends_values ? value(code) : static_cast<float>(code);
+    }
     [[nodiscard]] static float rest(float x) noexcept { return one - x; }
     [[nodiscard]] static std::uint32_t add(float s, float s_factor, float d, float d_factor) noexcept {
+        if constexpr (blends_values) {
+            const float source = s * s_factor, destination = d * d_factor;
+            return code(source + destination);
+        }
         using Arithmetic = pipeline::Unorm8Arithmetic<blend>;
         return static_cast<std::uint32_t>(
             Arithmetic::template combine<pipeline::BlendEquation::add>(s, s_factor, d, d_factor));
-    }
-};
-
-// Values of codes are multiples of about 2^-8: no product of them is a denormal.
-template <pipeline::UnormRounding to_code>
-struct Target<CachedRules<to_code>> {
-    static constexpr float one = 1.0f;
-
-    explicit Target(const BlockRules&) noexcept {}
-    [[nodiscard]] static float value(std::uint32_t code) noexcept { return code_value<to_code>(code); }
-    [[nodiscard]] static std::uint32_t code(float x) noexcept { return pipeline::to_unorm8<to_code>(x); }
-    [[nodiscard]] static std::uint32_t max_code(float x) noexcept { return code(x); }
-    [[nodiscard]] static float operand(std::uint32_t code) noexcept { return value(code); }
-    [[nodiscard]] static float rest(float x) noexcept { return one - x; }
-    [[nodiscard]] static std::uint32_t add(float s, float s_factor, float d, float d_factor) noexcept {
-        const float source = s * s_factor, destination = d * d_factor;
-        return code(source + destination);
     }
 };
 

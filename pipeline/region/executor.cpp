@@ -331,15 +331,16 @@ class FrameRun {
         for (std::size_t layer = 0; layer < layer_count; ++layer) {
             KeptLayer kept;
             for (std::size_t r = 0; r < regions_.size(); ++r) {
-                const std::vector<KeptLayer>& layers = regions_[r].books.layers;
+                std::vector<KeptLayer>& layers = regions_[r].books.layers;
                 if (layer + regions_[r].books.idle_layers < layers.size()) kept.side = layers[layer].side;
                 const KeptLayer& part = layers[std::min(layer, layers.size() - 1)];
                 if (kept.color.codes.empty()) {
-                    kept.color = Image{part.color.format, whole.width(), whole.height()};
-                    kept.depth = Image{part.depth.format, whole.width(), whole.height()};
+                    kept.color = Image::for_overwrite(part.color.format, whole.width(), whole.height());
+                    kept.depth = Image::for_overwrite(part.depth.format, whole.width(), whole.height());
                 }
                 copy_into(part.color, rect(r), kept.color);
                 copy_into(part.depth, rect(r), kept.depth);
+                if (layer + 1 < layers.size()) layers[layer] = {};  // what is left of the memory serves the next
             }
             result_.layers.push_back(std::move(kept));
         }

@@ -47,8 +47,8 @@ struct PartHeader {
 }
 
 // `rows(first, last)` gives the bytes of the rows from `first` to `last` - 1: pixel by pixel (deep: sample by sample), the
-// channels one after the other, each in its own type. They stay until the next call. The writer asks for every row
-// once, from the top.
+// channels one after the other, each in its own type. They stay until the next call, of another part, too. The writer asks for
+// every row once, from the top, part after part.
 struct PartSource {
     PartHeader header;
     std::function<const std::byte*(int first, int last)> rows;

@@ -52,25 +52,36 @@ PartHeader header_of(const OutputColor& image) {
     return header;
 }
 
+// What all parts of a file are encoded into, one after the other.
+using RowBytes = std::shared_ptr<std::vector<std::byte>>;
+
 // Rows of pixels as PartSource gives them: the channels of one pixel after the other, each in its own type.
 class Rows {
   public:
     // The image must outlive the rows.
-    explicit Rows(const OutputColor& image) : image_{image}, type_{pipeline::info(image.color.format).type} {}
+    Rows(const OutputColor& image, const PartHeader& header, RowBytes bytes)
+        : image_{image},
+          type_{pipeline::info(image.color.format).type},
+          pixel_bytes_{pixel_bytes(header)},
+          bytes_{std::move(bytes)} {}
 
     // Rows `first` to `last` - 1, in a buffer that the next call overwrites.
     [[nodiscard]] const std::byte* encode(int first, int last) {
-        bytes_.clear();
+        const std::size_t needed =
+            static_cast<std::size_t>(last - first) * static_cast<std::size_t>(image_.color.width) * pixel_bytes_;
+        if (bytes_->size() < needed) bytes_->resize(needed);
+        next_ = bytes_->data();
         for (int y = first; y < last; ++y)
             for (int x = 0; x < image_.color.width; ++x) append_pixel(x, y);
-        return bytes_.data();
+        assert(next_ == bytes_->data() + needed);
+        return bytes_->data();
     }
 
   private:
     template <class T>
-    void append(T word) {
-        const auto bytes = std::bit_cast<std::array<std::byte, sizeof(T)>>(word);
-        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    void append(T word) noexcept {
+        std::memcpy(next_, &word, sizeof word);
+        next_ += sizeof word;
     }
 
     void append_pixel(int x, int y) {
@@ -101,13 +112,19 @@ class Rows {
 
     const OutputColor& image_;
     ChannelType type_;
-    std::vector<std::byte> bytes_;
+    std::size_t pixel_bytes_;
+    RowBytes bytes_;
+    std::byte* next_ = nullptr;
 };
 
 // The source keeps its rows alive: it is copied into the writer's list.
-PartSource source_of(const OutputColor& image) {
-    const auto rows = std::make_shared<Rows>(image);
-    return {.header = header_of(image), .rows = [rows](int first, int last) { return rows->encode(first, last); }};
+PartSource source_of(const OutputColor& image, const RowBytes& bytes) {
+    PartSource part;
+    part.header = header_of(image);
+    part.rows = [rows = std::make_shared<Rows>(image, part.header, bytes)](int first, int last) {
+        return rows->encode(first, last);
+    };
+    return part;
 }
 
 // A format's name as an attribute says it; nothing for any other text.
@@ -192,7 +209,7 @@ class PartReader {
 }  // namespace
 
 void write_exr(const std::string& path, const OutputColor& image) {
-    const PartSource part = source_of(image);
+    const PartSource part = source_of(image, std::make_shared<std::vector<std::byte>>());
     write_exr_parts(path, {&part, 1});
 }
 
@@ -201,9 +218,10 @@ void write_layers(const std::string& path, std::span<const OutputColor> layers) 
     if (!is_standard_output(path) && image_file(path) != ImageFile::exr)
         throw InputError(path, "name", "a file name that ends in .exr", "another ending");
     const FloatEnvironment environment;
+    const auto bytes = std::make_shared<std::vector<std::byte>>();
     std::vector<PartSource> parts;
     for (const OutputColor& layer : layers) {
-        parts.push_back(source_of(layer));
+        parts.push_back(source_of(layer, bytes));
         // Three digits sort up to a thousand layers; beyond that the number grows.
         parts.back().header.name = layer.part.empty() ? fmt::format("layer.{:03}", parts.size() - 1) : layer.part;
     }

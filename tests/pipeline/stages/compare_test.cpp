@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "pipeline/device/state.h"
+#include "pipeline/formats/format.h"
 #include "pipeline/stages/depth_compare.h"
 #include "tests/pipeline/stage_values.h"
 
@@ -34,7 +35,7 @@ template <class T>
 TEST_CASE("a state that nobody set is OpenGL's initial one") {
     const Blend blend;
     CHECK_FALSE(blend.enabled);
-    CHECK(blend.constant == Rgba{0, 0, 0, 0});
+    CHECK(blend.constant == strata::Rgba{0, 0, 0, 0});
     CHECK(blend.write_mask == 0xf);
     for (const BlendTerm& term : {blend.color, blend.alpha}) {
         CHECK(term.equation == BlendEquation::add);

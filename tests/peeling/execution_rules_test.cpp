@@ -1,0 +1,152 @@
+// Frames of other formats and of devices whose rules are mixed: every way of running them is literal execution.
+#include <catch2/catch.hpp>
+
+#include "peeling/registry.h"
+#include "tests/peeling/execution_ways.h"
+#include "tests/support/random_numbers.h"
+
+namespace {
+
+using namespace strata::testing;
+using strata::peeling::RenderOptions;
+using strata::peeling::RenderResult;
+using strata::pipeline::Execution;
+
+}  // namespace
+
+TEST_CASE("alpha for everything, other formats and the whole state of the rasterizer execute alike", "[slow]") {
+    const TriangleScene scene = random_triangles(77, 30);
+    RenderOptions options = small_frame();
+    options.alpha = 0.375f;
+    options.color_format = strata::pipeline::Format::rgba16f;
+    options.depth = strata::pipeline::DepthFormat::d24;
+    options.raster.scissor = strata::rasterizer::Rect{5, 9, 70, 33};
+    options.raster.polygon_offset = {true, 1.5f, 2.0f};
+    for (const char* algorithm : {"front_to_back", "dual", "dual_independent", "depth_units", "weighted_average"})
+        check_all_ways(scene, {"geforce8_dx101", algorithm}, options);
+}
+
+// With alphas of 3e-38 many products of colour and alpha are denormal, which the GeForce8 adds as 0: over black that shows.
+TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
+    const TriangleScene scene = random_triangles(79, 12);
+    RenderOptions options = small_frame();
+    options.width = 40;
+    options.height = 28;
+    options.background = {0, 0, 0, 1};
+    const std::array<Way, 2> chosen{ways[7], ways[8]};
+    for (const auto format : {strata::pipeline::Format::rgba8, strata::pipeline::Format::rgba32f})
+        for (const float alpha : {0.375f, 3e-38f})
+            for (const char* profile : {"geforce8_dx101", "ideal"})
+                for (const char* algorithm : {"weighted_average", "weighted_sum"}) {
+                    options.color_format = format;
+                    options.alpha = alpha;
+                    check_all_ways(scene, {profile, algorithm}, options, chosen);
+                }
+}
+
+// An offset moves most fragments below 0: in fixed point they wrap around and are farther than all others, in D32F nearer.
+TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole, and no tile trusts a bound") {
+    using namespace strata::pipeline;
+    const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
+    DeviceProfile wraps = *find_profile("llvmpipe"), clamps = wraps;
+    wraps.raster.depth_limits = strata::rasterizer::DepthLimits::wrap;
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
+        for (const char* algorithm : {"front_to_back", "unsorted", "weighted_average", "depth_units"}) {
+            const TriangleScene scene = random_triangles(84, 20);
+            RenderOptions options = small_frame();
+            options.depth = format;
+            options.alpha = 0.4f;
+            // A unit is two codes, and in D32F a small power of two.
+            const float units = format == DepthFormat::d16 ? -2e4f : format == DepthFormat::d24 ? -5e6f : -1e7f;
+            options.raster.polygon_offset = {true, 0, units};
+            options.execution = Execution::literal;
+            options.max_passes = 12;
+            const RenderResult expected = drawn_on(wraps, scene, algorithm, options);
+            REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+            INFO(algorithm << ", format " << static_cast<int>(format));
+            if (format != DepthFormat::d32f)
+                CHECK(difference(drawn_on(clamps, scene, algorithm, options), expected) != "");
+            for (const Way& way : few)
+                CHECK(difference(drawn_on(wraps, scene, algorithm, with(options, way)), expected) == "");
+        }
+}
+
+// Tiles of 64 pixels that share a place in the cache: (5, 0) and (0, 1). Passes that blend a pixel several times.
+TEST_CASE("blends in cached tiles execute alike, in frames whose tiles throw one another out and in small ones") {
+    using namespace strata::pipeline;
+    const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
+    for (const int width : {40, 330})
+        for (const auto format : {Format::rgba8, Format::rgba16f})
+            for (const char* algorithm : {"unsorted", "painter", "weighted_average", "weighted_sum", "coherent_stencil",
+                                          "coherent_blend", "front_to_back"}) {
+                const TriangleScene scene = random_triangles(83, 14);
+                RenderOptions options = small_frame();
+                options.width = width;
+                options.height = 70;
+                options.color_format = format;
+                options.alpha = 0.3f;
+                check_all_ways(scene, {"softpipe", algorithm}, options, few);
+            }
+}
+
+// Mesa's drivers round each product of a blend and convert by binary32 products; other profiles may mix the rules. Random ones.
+TEST_CASE(
+    "peels execute alike on devices that blend and convert by every rule, in every format, with ties and under "
+    "limits") {
+    Random random{81};
+    const std::array<Way, 2> chosen{ways[7], ways[10]};
+    using namespace strata::pipeline;
+    for (const char* base : {"llvmpipe", "llvmpipe_sse", "softpipe", "geforce8_dx101"})
+        for (const auto format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
+            for (const char* algorithm : {"front_to_back", "dual"})
+                for (int trial = 0; trial < 3; ++trial) {
+                    TriangleScene scene = random_triangles(82, 12);
+                    scene.list.instances.push_back(scene.list.instances[0]);  // every depth twice
+                    DeviceProfile profile = *find_profile(base);
+                    if (trial > 0) {
+                        profile.blend_rounding = static_cast<BlendRounding>(random_int(random, 0, 2));
+                        profile.unorm_rounding = static_cast<UnormRounding>(random_int(random, 0, 1));
+                        profile.half_rounding = static_cast<HalfRounding>(random_int(random, 0, 1));
+                        profile.denormals = static_cast<DenormalRule>(random_int(random, 0, 1));
+                        profile.min_max_nan = static_cast<MinMaxNan>(random_int(random, 0, 1));
+                        profile.blend_storage = static_cast<BlendStorage>(random_int(random, 0, 1));
+                    }
+                    RenderOptions options = small_frame();
+                    options.width = 40;
+                    options.height = 28;
+                    options.color_format = format;
+                    options.alpha = random_channel(random);
+                    options.background = random_color(random);
+                    options.execution = Execution::literal;
+                    const auto drawn = [&](const RenderOptions& how) {
+                        return drawn_on(profile, scene, algorithm, how);
+                    };
+                    const RenderResult expected = drawn(options);
+                    REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+                    INFO(algorithm << " on " << base << ", format " << static_cast<int>(format) << ", trial " << trial);
+                    for (const Way& way : chosen) {
+                        const RenderResult found = drawn(with(options, way));
+                        CHECK(difference(found, expected) == "");
+                        CHECK(found.frame.work.visited == 0);  // no pass has run
+                    }
+                }
+}
+
+// Rows and closed forms know colours by exact planes alone, even where depth is theirs.
+TEST_CASE("colours by the chip's weights execute alike on a device whose depth is an exact plane") {
+    strata::pipeline::DeviceProfile profile = *strata::pipeline::find_profile("ideal");
+    profile.raster.color = strata::rasterizer::ColorInterpolation::weights_8bit;
+    const TriangleScene scene = random_triangles(80, 8);
+    for (const char* algorithm : {"weighted_average", "weighted_sum", "front_to_back", "dual"})
+        for (const auto format : {strata::pipeline::Format::rgba8, strata::pipeline::Format::rgba32f}) {
+            RenderOptions options = small_frame();
+            options.color_format = format;
+            options.execution = Execution::literal;
+            const auto drawn = [&](const RenderOptions& how) { return drawn_on(profile, scene, algorithm, how); };
+            const RenderResult expected = drawn(options);
+            REQUIRE(expected.outcome == strata::peeling::Outcome::done);
+            options.execution = Execution::replay;
+            INFO(algorithm);
+            CHECK(difference(drawn(options), expected) == "");
+        }
+}
