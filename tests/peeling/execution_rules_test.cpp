@@ -44,6 +44,22 @@ TEST_CASE("sums execute alike in halves and in binary32, denormal ones too") {
                 }
 }
 
+// OVER and UNDER by (0, 0, 0, 0) flush a denormal that a float target holds and make 0 of -0, so that even they are not left out.
+TEST_CASE("both ends peeled over a background of denormals and -0 execute alike in floats") {
+    const TriangleScene scene = random_triangles(85, 5);  // in many pixels one fragment
+    const std::array<Way, 2> chosen{ways[7], ways[8]};
+    for (const auto format : {strata::pipeline::Format::rgba16f, strata::pipeline::Format::rgba32f})
+        for (const char* profile : {"geforce8_dx101", "ideal"}) {
+            RenderOptions options = small_frame();
+            options.background = {1e-40f, -0.0f, -1e-40f, 1};
+            options.color_format = format;
+            options.alpha = 1;
+            check_all_ways(scene, {profile, "dual_independent"}, options, chosen);
+            CHECK_NOTHROW(
+                render(scene.list, scene.view, {profile, "dual_independent"}, options, {.check_selections = true}));
+        }
+}
+
 // An offset moves most fragments below 0: in fixed point they wrap around and are farther than all others, in D32F nearer.
 TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole, and no tile trusts a bound") {
     using namespace strata::pipeline;
