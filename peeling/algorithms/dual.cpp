@@ -38,9 +38,7 @@ Drawn peel(Region& region, const DualTargets& t) {
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
-    if (compare.is_plain())
-        state.selection = {
-            .keeps = Keeps::ends, .outside = Outside::one_value, .before = region.opaque_depth(), .range = t.min_max};
+    state.selection = ends_between(compare, t.min_max, region.opaque_depth(), Outside::one_value);
     return region.draw(state, List::second, [compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes side;
         classify(compare, in, own.color(0), own.depth(2), side);

@@ -32,9 +32,10 @@ struct Has {
 };
 
 // The targets that the batch has nothing for. min_max was cleared to what is written there. Of codes UNDER and OVER leave (0, 0, 0, 0)
-// out; of floats they make 0 of -0 and flush denormals, but only once: what lies between leaves that to the ends of its pixel.
-unsigned neutral_targets(const Has& has, bool stores_codes) noexcept {
-    const bool keeps_colors = stores_codes || (!has.near && !has.far);
+// out; of floats they make 0 of -0 and flush denormals, but only once: what lies between leaves that to the ends of its pixel, where
+// it has them.
+unsigned neutral_targets(const Has& has, bool stores_codes, bool has_ends) noexcept {
+    const bool keeps_colors = stores_codes || (has_ends && !has.near && !has.far);
     return (has.between ? 0u : 1u) | (keeps_colors && !has.near ? 2u : 0u) | (keeps_colors && !has.far ? 4u : 0u);
 }
 
@@ -60,10 +61,10 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     const DepthCompare compare = region.frame().depth_compare();
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
-    if (compare.is_plain())
-        state.selection = {
-            .keeps = Keeps::ends, .before = region.opaque_depth(), .range = min_max, .has_plain_inside = true};
+    state.selection = ends_between(compare, min_max, region.opaque_depth(), Outside::discarded);
+    state.selection.has_plain_inside = compare.is_plain();
     const bool stores_codes = info(region.frame().color_format).type == ChannelType::unorm8;
+    const bool has_ends = compare.is_plain();  // wherever something lies between
     const bool is_traced = region.frame().trace;
     return region.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
         PeelLanes side;
@@ -75,7 +76,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
         choose(has.far, side.is_far, in.color, out.color[2], lanes(in));
         for (std::size_t i = 0; i < lanes(in); ++i)
             out.alive[i] &= side.is_near[i] | side.is_far[i] | side.is_between[i];
-        out.neutral = neutral_targets(has, stores_codes);
+        out.neutral = neutral_targets(has, stores_codes, has_ends);
         out.traced = is_traced;
         for (std::size_t i = 0; is_traced && i < lanes(in); ++i) {
             const std::uint32_t is_near = side.is_near[i], is_far = side.is_far[i];

@@ -27,7 +27,7 @@ inline void classify(const pipeline::DepthCompare& compare, const pipeline::Frag
     using pipeline::mask;
     if (compare.is_plain()) return classify(in, min_max, opaque, side);
     for (std::size_t i = 0; i < lanes(in); ++i) {
-        const double z = compare.quantizes ? double{static_cast<float>(in.reference_z[i])} : in.reference_z[i];
+        const double z = compare.own(in.reference_z[i]);
         const double near = double{-min_max[0][i]}, far = double{min_max[1][i]};
         const auto reaches = [&](double least, double greatest) { return !compare.exceeds(least, greatest); };
         const bool left = near <= far && in.shader_z[i] < std::bit_cast<float>(opaque[i]);
@@ -111,6 +111,16 @@ inline void initialize(pipeline::Region& region, pipeline::Target min_max) {
             visible[i] = mask(in.shader_z[i] < std::bit_cast<float>(own.depth(0)[i]));
         write_min_max(in, visible, out.color[0]);
     }));
+}
+
+// What a peel looks at between the ends that `min_max` holds: fragments before the surface.
+[[nodiscard]] inline pipeline::FragmentSelection ends_between(const pipeline::DepthCompare& compare,
+                                                              pipeline::Target min_max, pipeline::Target surface,
+                                                              pipeline::Outside outside) {
+    pipeline::FragmentSelection selection{
+        .keeps = pipeline::Keeps::ends, .outside = outside, .before = surface, .range = min_max};
+    if (!compare.is_plain()) selection.compared = compare;
+    return selection;
 }
 
 // The layers that a dual peel composites on the fly, as images of their own, where the frame keeps layers. After a peel its fragments are

@@ -5,12 +5,12 @@
 #include "pipeline/region/region.h"
 
 namespace strata::peeling {
-// The window of a peel that keeps the nearest fragment behind `peeled`: by stored codes, or by compared ones. Nothing, if
-// the comparison is of more than codes.
+// The window of a peel that keeps the nearest fragment behind `peeled`: by stored codes, by compared ones, or by compared depths.
 [[nodiscard]] inline pipeline::FragmentSelection nearest_behind(const pipeline::DepthCompare& compare,
                                                                 pipeline::Target peeled, pipeline::Outside outside) {
     if (!peeled.exists()) return {.keeps = pipeline::Keeps::nearest, .outside = outside};
-    if (!compare.compares_codes()) return {};
+    if (!compare.compares_codes())
+        return {.keeps = pipeline::Keeps::nearest, .outside = outside, .behind = peeled, .compared = compare};
     return {.keeps = pipeline::Keeps::nearest,
             .outside = outside,
             .behind = peeled,

@@ -58,9 +58,11 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
     earliest_.forget();
     for (const std::uint32_t p : occupied_) {
         Column& column = columns_[p];
-        if (!request.by_arrival) column.arrival = sort_arrivals({words_.data() + column.begin, column.size});
+        if (!request.by_arrival && !request.compared)
+            column.arrival = sort_arrivals({words_.data() + column.begin, column.size});
     }
     if (request.by_reference) take_stored(store);
+    if (request.compared && !sort_compared(store, surface)) return false;
     updates_.resize(words_.size());
     for (auto& cursors : cursors_) cursors.assign(occupied_.size(), 0);
     state_ = State::sorted;
@@ -157,7 +159,8 @@ bool SortedFragments::has_sortable_keys(const FragmentBatch& batch) const noexce
 }
 
 std::uint64_t SortedFragments::needed_bytes() const noexcept {
-    return size() * (bytes_per_fragment + (request_.by_reference ? more_by_reference : 0)) + pixels() * bytes_per_pixel;
+    return size() * (bytes_per_fragment + (request_.by_reference || request_.compared ? more_by_reference : 0)) +
+           pixels() * bytes_per_pixel;
 }
 
 bool SortedFragments::has_plain_colors(const FragmentStore& store) {
@@ -188,22 +191,10 @@ std::span<const std::uint32_t> SortedFragments::numbers_below(std::span<const st
     return cursors;
 }
 
-// Of neighbouring passes bounds are the same or a few words apart: steps that double, from where the last one was.
 std::uint32_t SortedFragments::first_from(std::span<const std::uint64_t> words, std::uint64_t word,
                                           std::uint32_t hint) noexcept {
-    const auto size = static_cast<std::uint32_t>(words.size());
-    std::uint32_t low = 0, high = size, step = 1;  // the answer lies in [low, high]
-    if (hint < size && words[hint] < word) {
-        low = hint + 1;
-        while (low + step <= size && words[low + step - 1] < word) low += step, step *= 2;
-        high = std::min(size, low + step - 1);
-    } else {
-        high = hint;
-        while (high >= step && words[high - step] >= word) high -= step, step *= 2;
-        low = high >= step ? high - step + 1 : 0;
-    }
-    const auto found = std::lower_bound(words.begin() + low, words.begin() + high, word);
-    return static_cast<std::uint32_t>(found - words.begin());
+    return first_that(static_cast<std::uint32_t>(words.size()), hint,
+                      [&](std::uint32_t k) { return words[k] >= word; });
 }
 
 // A fragment passes if every fragment of the range that arrived before it is farther. Fragments nearer than the first

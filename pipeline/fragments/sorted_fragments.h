@@ -6,7 +6,7 @@
 //          alpha test kills.
 // Layout   Pixel after pixel, in one piece, a word of ones before the first and behind each that has fragments. Cursors remember where
 //          bounds were: those of successive passes move by a few words, so finding the next takes a few comparisons.
-// Numbers  17 bytes a fragment (33 by reference) and 72 a pixel. No key is a NaN, and no stored code of a float buffer negative: else nothing is sorted.
+// Numbers  17 bytes a fragment (33 by reference or by a compared depth) and 72 a pixel. No key is a NaN, and no stored code of a float buffer negative: else nothing is sorted.
 // Source   execution.md 7.1.
 // Tests    tests/pipeline/fragments/sorted_fragments_test.cpp
 #pragma once
@@ -18,9 +18,11 @@
 
 #include "pipeline/device/state.h"
 #include "pipeline/fragments/earliest_index.h"
+#include "pipeline/fragments/first_that.h"
 #include "pipeline/fragments/fragment_store.h"
 #include "pipeline/fragments/sort_arrivals.h"
 #include "pipeline/frame/run_settings.h"
+#include "pipeline/stages/depth_compare.h"
 #include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {
@@ -33,6 +35,8 @@ struct SortRequest {
     bool eight_bit_alpha = true;
     bool by_arrival = false;    // not sorted by key, and without those that do not lie before `surface`
     bool by_reference = false;  // sorted by the code that is compared; each has its stored code beside it
+    std::optional<DepthCompare>
+        compared{};  // sorted by the depth that this compares; what is not before `surface` comes last
     std::vector<PrimitiveRange> primitives{};  // these alone, ascending and disjoint; empty: all
     friend bool operator==(const SortRequest&, const SortRequest&) = default;
 };
@@ -124,10 +128,26 @@ class SortedFragments {
     [[nodiscard]] std::uint32_t passing_without(std::size_t pixel, std::uint32_t first, std::uint32_t last,
                                                 std::span<const std::uint32_t> dead);
 
+    // Of a request by compared depth: a column's depths, rising; infinity for what is not before the surface.
+    [[nodiscard]] std::span<const double> compared(std::size_t number) const noexcept {
+        return {compared_.data() + begin_[number], begin_[number + 1] - begin_[number] - 1};
+    }
+    // The first number of a column whose depth `holds`, which is true from some depth on. Cursors tell such questions apart.
+    template <class Holds>
+    [[nodiscard]] std::uint32_t first_compared(std::size_t number, std::size_t cursor, const Holds& holds) {
+        const auto depths = compared(number);
+        std::uint32_t& at = compared_cursors_[cursor][number];
+        return at = first_that(static_cast<std::uint32_t>(depths.size()), at,
+                               [&](std::uint32_t k) { return holds(depths[k]); });
+    }
+    // Of the column's fragments [first, last), none of them hidden, the words of the least and of the greatest key.
+    [[nodiscard]] std::array<std::uint64_t, 2> extremes(std::size_t number, std::uint32_t first,
+                                                        std::uint32_t last) const noexcept;
+
     // Bytes that the present sorting takes.
     [[nodiscard]] std::uint64_t bytes() const noexcept { return state_ == State::sorted ? needed_bytes() : 0; }
 
-    // Of a request by reference: the fragments from number `first` on, before `surface`, under the same test of their stored
+    // Of a request by reference or by a compared depth: the fragments from number `first` on, before `surface`, under the same test of their stored
     // codes. `word` is (stored code, place) of the last that passes; without one nothing passes.
     struct Passing {
         std::uint64_t word = 0;
@@ -144,6 +164,9 @@ class SortedFragments {
     [[nodiscard]] bool take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface);
     void place_columns();
     void take_stored(const FragmentStore& store);
+    [[nodiscard]] bool sort_compared(const FragmentStore& store, const std::uint32_t* surface);
+    [[nodiscard]] bool take_compared(const FragmentStore& store);
+    void take_extremes();
     [[nodiscard]] bool has_sortable_keys(const rasterizer::FragmentBatch& batch) const noexcept;
     void count_updates(std::size_t pixel, std::uint32_t last);
     void count_later(std::size_t pixel, std::uint32_t last);
@@ -177,6 +200,11 @@ class SortedFragments {
     UninitializedVector<std::uint32_t> later_;  // by word: how many behind it arrived after it, up to `later_end`
     EarliestIndex earliest_;                    // built for the first pass that asks
     std::vector<std::uint32_t> next_nearer_;    // of one column, while it is counted
+    // Of a request by compared depth, by word: what is compared; where keys are values, the least of it and those behind, and the
+    // greatest of it and those before. Cursors are by column.
+    UninitializedVector<double> compared_;
+    UninitializedVector<std::uint32_t> least_key_, greatest_key_;
+    std::array<std::vector<std::uint32_t>, 4> compared_cursors_;
     // Of a request by reference, by word: the fragment's own (stored code, place), and the least of it and those behind.
     UninitializedVector<std::uint64_t> stored_, least_stored_;
     std::vector<std::uint64_t> by_code_, by_place_;  // of one column, while it is counted

@@ -87,7 +87,7 @@ SortedFragments::Passing SortedFragments::passing_stored(std::size_t pixel, std:
 void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surface) {
     const std::uint32_t begin = columns_[pixel].begin;
     const auto size = static_cast<std::uint32_t>(of(pixel).size());
-    const std::uint64_t* const stored = stored_.data() + begin;
+    const std::uint64_t* const stored = (request_.compared ? words_ : stored_).data() + begin;
     std::uint32_t* const updates = updates_.data() + begin;
     by_code_.clear();
     by_place_.clear();

@@ -53,6 +53,9 @@ struct Frame {
 
     [[nodiscard]] rasterizer::Rect rect() const noexcept;  // of its viewport
 
+    // The list that passes draw again and again, and replay captures: the first one only begins a peel that has a second.
+    [[nodiscard]] const PreparedDraw* repeated() const noexcept { return second != nullptr ? second : transparent; }
+
     // How depths that this frame compares are computed and stored.
     [[nodiscard]] rasterizer::DepthRequest key_request() const noexcept {
         if (key == DepthKey::shader_z) return {rasterizer::DepthPath::float32, DepthFormat::d32f, depth.reference};

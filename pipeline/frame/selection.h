@@ -9,7 +9,9 @@
 // Tests    tests/peeling/selection_test.cpp, execution_test.cpp
 #pragma once
 #include <cstdint>
+#include <optional>
 
+#include "pipeline/stages/depth_compare.h"
 #include "pipeline/stages/target_handle.h"
 
 namespace strata::pipeline {
@@ -61,8 +63,9 @@ struct FragmentSelection {
     std::uint32_t least = 0, most = ~0u;     // keys, both included
     std::uint32_t behind_codes = 0;
     std::uint32_t first_arrival = 0;
-    bool has_plain_inside = false;  // of `ends`: between them the program looks at depths alone, at no colour
-    bool by_reference = false;      // `behind` bounds reference_code, and the program looks at no other depth
+    bool has_plain_inside = false;           // of `ends`: between them the program looks at depths alone, at no colour
+    bool by_reference = false;               // `behind` bounds reference_code, and the program looks at no other depth
+    std::optional<DepthCompare> compared{};  // `behind` or `range` bounds the depth that this compares, and no key
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;
 };
 

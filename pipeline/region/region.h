@@ -220,6 +220,8 @@ class Region {
     };
     void select_previous(const PassState& state, std::size_t pixel, const ColumnPart& part, std::uint32_t updates);
     void select_nearest_stored(const PassState& state);
+    void select_nearest_compared(const PassState& state);
+    void select_ends_compared(const PassState& state);
     void count_up(const PassState& state, std::size_t pixel, std::uint32_t by);
     void select_window(const PassState& state);
     void select_arrivals(const PassState& state);

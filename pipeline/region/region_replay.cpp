@@ -90,7 +90,7 @@ DepthOutcome Region::depth_outcome(const PassState& state, const PreparedDraw& l
     return code(static_cast<float>(bound)) < code(1.0f) ? DepthOutcome::passes : DepthOutcome::open;
 }
 
-// The first pass over the transparent list captures what it and all later passes look at; a list that did not fit is rasterized
+// The first pass over the repeated list captures what it and all later passes look at; a list that did not fit is rasterized
 // every time.
 void Region::for_each_batch(const PreparedDraw& list, const PassState& state, rasterizer::BatchSink sink) {
     depth_ = depth_outcome(state, list);
@@ -100,7 +100,7 @@ void Region::for_each_batch(const PreparedDraw& list, const PassState& state, ra
         books_.pass_log.passes.push_back({state, needs, pass_needs(state, materials, Effects::needed),
                                           needs.color && materials.texcoord, &list == frame_.opaque,
                                           books_.iterations});
-    const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.transparent && state.primitives.empty();
+    const bool may_replay = frame_.replay.bytes > 0 && &list == frame_.repeated() && state.primitives.empty();
     FragmentNeeds kept = needs;
     kept.texcoord = state.needs.texcoord;  // for the program; colours are kept with their texture and shadow
     kept.units = state.needs.units;

@@ -37,6 +37,8 @@ std::span<const std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t
 void Region::select(const PassState& state) {
     if (std::exchange(scratch_->selected.is_ready, false)) return;
     scratch_->selected.start(scratch_->sorted.present().occupied().size());
+    if (state.selection.compared)
+        return state.selection.keeps == Keeps::ends ? select_ends_compared(state) : select_nearest_compared(state);
     switch (state.selection.keeps) {
         case Keeps::nearest:
         case Keeps::last_two:

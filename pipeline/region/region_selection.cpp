@@ -102,7 +102,7 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
     const FragmentSelection& selection = state.selection;
     const bool is_plain_run = extent_ == Extent::tile && frame_.effects == Effects::needed &&
                               instruments_.once_more == Effect::none && !instruments_.log_passes &&
-                              frame_.replay.bytes > 0 && &list == frame_.transparent;
+                              frame_.replay.bytes > 0 && &list == frame_.repeated();
     if (!is_plain_run || has_foreign_stages(state) || !has_tests_of_its_kind(state, pass_samples_) ||
         (wants_stored_codes(state) && frame_.key != DepthKey::stored_code))
         return false;
@@ -143,10 +143,13 @@ bool Region::sort_for(const PassState& state) {
         const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
         request.eight_bit_alpha = is_eight_bit_alpha(profile().alpha_test, type);
     }
-    if (!selection.by_reference || !store().has_references_apart()) return find_or_sort(state, request);
+    request.compared = selection.compared;
+    request.by_reference = selection.by_reference && store().has_references_apart();
+    if (!request.compared && !request.by_reference) return find_or_sort(state, request);
+    if (request.compared && selection.keeps == Keeps::ends)
+        return selection.range.exists() && frame_.key == DepthKey::shader_z && find_or_sort(state, request);
     const bool is_bounded = selection.before.exists() || selection.also_before.exists() || selection.up_to.exists() ||
                             selection.most != ~0u;
-    request.by_reference = true;
     return selection.keeps == Keeps::nearest && !state.stencil.enabled && !is_bounded &&
            frame_.key == DepthKey::stored_code && find_or_sort(state, request);
 }

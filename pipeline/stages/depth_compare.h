@@ -47,12 +47,18 @@ struct DepthCompare {
     }
     // In the buffer's own units; exact.
     [[nodiscard]] double value(std::uint32_t code) const noexcept { return rasterizer::buffer_value(code, format); }
-    [[nodiscard]] bool is_behind(std::uint32_t code, double z, std::uint32_t stored) const noexcept {
-        if (compares_codes()) return code > raised(stored);
-        const double one = rasterizer::buffer_units(format);
-        const double own = quantizes ? value(code) : std::min(z > 0.0 ? z : 0.0, one);
-        return own > value(raised(stored)) + epsilon.absolute * one;
+    // What is compared of a fragment, in the same units, and what lies behind a stored code is greater than.
+    [[nodiscard]] double own(std::uint32_t code, double z) const noexcept {
+        return quantizes ? value(code) : std::min(z > 0.0 ? z : 0.0, rasterizer::buffer_units(format));
     }
+    [[nodiscard]] double bound(std::uint32_t stored) const noexcept {
+        return value(raised(stored)) + epsilon.absolute * rasterizer::buffer_units(format);
+    }
+    [[nodiscard]] bool is_behind(std::uint32_t code, double z, std::uint32_t stored) const noexcept {
+        return compares_codes() ? code > raised(stored) : own(code, z) > bound(stored);
+    }
+    // What is compared of a fragment where depths are binary32 values and no codes.
+    [[nodiscard]] double own(double z) const noexcept { return quantizes ? double{static_cast<float>(z)} : z; }
     // a > b of binary32 depths, b raised by the epsilon: `ulps` steps of its binary32 value, and `absolute`.
     [[nodiscard]] bool exceeds(double a, double b) const noexcept {
         const auto from = static_cast<float>(b);
@@ -64,6 +70,7 @@ struct DepthCompare {
                                  std::uint32_t stored) const noexcept {
         return is_behind(in.reference_code[i], in.reference_z[i], stored);
     }
+    friend bool operator==(const DepthCompare&, const DepthCompare&) = default;
 };
 
 }  // namespace strict

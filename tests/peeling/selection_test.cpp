@@ -80,13 +80,13 @@ TEST_CASE("every selection keeps the promise that it makes of its program, on ev
 TEST_CASE("selections by another depth, with codes to spare and as published keep their promises, too", "[slow]") {
     const TriangleScene scene = random_triangles(92, 24);
     const auto check = [&](const char* algorithm, const RenderOptions& options, const char* what) {
-        for (const char* profile : {"geforce3", "geforce8", "ideal"}) {
+        for (const char* profile : {"geforce3", "geforce8_dx101", "ideal"}) {
             if (refusal(*strata::peeling::find_algorithm(algorithm), *find_profile(profile))) continue;
             INFO(algorithm << " on " << profile << ", " << what);
             CHECK_NOTHROW(render(scene.list, scene.view, {profile, algorithm}, options, {.check_selections = true}));
         }
     };
-    for (const char* algorithm : {"depth_units", "shadow_map", "front_to_back", "dual"}) {
+    for (const char* algorithm : {"depth_units", "shadow_map", "front_to_back", "dual", "dual_independent"}) {
         RenderOptions by_reference = frame_of_many_tiles();
         by_reference.reference_path = strata::rasterizer::DepthPath::perspective_rq;
         check(algorithm, by_reference, "by a reference path");
@@ -99,6 +99,15 @@ TEST_CASE("selections by another depth, with codes to spare and as published kee
         check(algorithm, own, "two codes more");
         own.compare_epsilon.absolute = 0x1p-12;
         check(algorithm, own, "a part of the range more");
+        RenderOptions unrounded = by_reference;
+        unrounded.quantize_reference = false;
+        check(algorithm, unrounded, "by a reference path that is not rounded");
+        unrounded.vertex_paths.second = VertexPath::fused;
+        check(algorithm, unrounded, "by other vertices and a reference path that is not rounded");
+        RenderOptions wide = by_reference;
+        wide.compare_epsilon.absolute = 0.05;  // several fragments at either end of a pass
+        wide.color_format = Format::rgba16f;
+        check(algorithm, wide, "by a twentieth of the range, in halves");
     }
     for (const char* algorithm : {"layer_peel", "hybrid", "coherent_stencil", "coherent_blend", "coherent_ideal"}) {
         RenderOptions published = frame_of_many_tiles();
