@@ -46,7 +46,8 @@ Drawn peel(Region& region, const Buffers& to) {
         for (std::size_t i = 0; by_codes && i < lanes(in); ++i)
             alpha[i] = select(mask(in.reference_code[i] > own.depth(0)[i]), alpha[i], 0.0f);
         for (std::size_t i = 0; !by_codes && i < lanes(in); ++i)
-            alpha[i] = select(mask(compare.is_behind(in, i, own.depth(0)[i])), alpha[i], 0.0f);
+            alpha[i] = select(mask(compare.is_behind(in.reference_code[i], in.reference_z[i], own.depth(0)[i])),
+                              alpha[i], 0.0f);
     });
 }
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/region/region_place.h"
+#include "pipeline/frame/region_place.h"
 #include "pipeline/vertices/draw_list.h"
 #include "rasterizer/rules/raster_state.h"
 

@@ -33,7 +33,8 @@ void discard_peeled(const pipeline::FragmentBatch& in, const pipeline::Lanes<std
 inline void discard_peeled(const pipeline::DepthCompare& compare, const pipeline::FragmentBatch& in,
                            const pipeline::Lanes<std::uint32_t>& peeled, pipeline::Outputs& out) noexcept {
     if (compare.is_plain()) return discard_peeled(in, peeled, out);
-    for (std::size_t i = 0; i < lanes(in); ++i) out.alive[i] &= pipeline::mask(compare.is_behind(in, i, peeled[i]));
+    for (std::size_t i = 0; i < lanes(in); ++i)
+        out.alive[i] &= pipeline::mask(compare.is_behind(in.reference_code[i], in.reference_z[i], peeled[i]));
 }
 
 namespace scalar {

@@ -44,8 +44,8 @@ bool SortedFragments::take_compared(const FragmentStore& store) {
         store.fetch({places.data(), count}, reference_alone, FragmentStore::Numbers::no, *batch);
         for (std::size_t i = 0; i < count; ++i) {
             const double z = batch->reference_z[i];
-            const double own = request_.key == DepthKey::shader_z ? compare.own(z)
-                                                                  : compare.own(batch->reference_code[i], z);
+            const double own =
+                request_.key == DepthKey::shader_z ? compare.own(z) : compare.own(batch->reference_code[i], z);
             compared_[first + i] = own;
             has_order &= !std::isnan(own);
         }
@@ -88,8 +88,7 @@ void SortedFragments::take_extremes() {
     for (const std::uint32_t p : occupied_) {
         const std::size_t begin = columns_[p].begin, end = begin + columns_[p].size;
         std::uint32_t greatest = 0, least = ~0u;
-        for (std::size_t k = begin; k < end; ++k)
-            greatest_key_[k] = greatest = std::max(greatest, key_of(words_[k]));
+        for (std::size_t k = begin; k < end; ++k) greatest_key_[k] = greatest = std::max(greatest, key_of(words_[k]));
         for (std::size_t k = end; k-- > begin;) least_key_[k] = least = std::min(least, key_of(words_[k]));
     }
 }

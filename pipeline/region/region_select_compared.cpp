@@ -20,11 +20,10 @@ struct Parts {
 
 Parts parts_of(SortedFragments& sorted, std::size_t column, const DepthCompare& compare, double near, double far) {
     if (!(near <= far)) return {};
-    const std::array found{
-        sorted.first_compared(column, 0, [&](double own) { return !compare.exceeds(near, own); }),
-        sorted.first_compared(column, 1, [&](double own) { return compare.exceeds(own, near); }),
-        sorted.first_compared(column, 2, [&](double own) { return !compare.exceeds(far, own); }),
-        sorted.first_compared(column, 3, [&](double own) { return compare.exceeds(own, far); })};
+    const std::array found{sorted.first_compared(column, 0, [&](double own) { return !compare.exceeds(near, own); }),
+                           sorted.first_compared(column, 1, [&](double own) { return compare.exceeds(own, near); }),
+                           sorted.first_compared(column, 2, [&](double own) { return !compare.exceeds(far, own); }),
+                           sorted.first_compared(column, 3, [&](double own) { return compare.exceeds(own, far); })};
     const std::uint32_t last = std::max(found[0], found[3]), near_end = std::clamp(found[1], found[0], last);
     return {found[0], near_end, std::clamp(found[2], near_end, last), last};
 }

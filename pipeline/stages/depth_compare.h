@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "rasterizer/base/numerics.h"
-#include "rasterizer/coverage/fragment_batch.h"
+#include "rasterizer/rules/depth_code.h"
 
 namespace strata::pipeline {
 
@@ -65,10 +65,6 @@ struct DepthCompare {
         const auto steps = static_cast<std::uint32_t>(from > 0.0f ? epsilon.ulps : 0);
         const float to = std::bit_cast<float>(std::bit_cast<std::uint32_t>(from) + steps);
         return a > b + (double{to} - double{from}) + epsilon.absolute;
-    }
-    [[nodiscard]] bool is_behind(const rasterizer::FragmentBatch& in, std::size_t i,
-                                 std::uint32_t stored) const noexcept {
-        return is_behind(in.reference_code[i], in.reference_z[i], stored);
     }
     friend bool operator==(const DepthCompare&, const DepthCompare&) = default;
 };

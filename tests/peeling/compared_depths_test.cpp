@@ -45,10 +45,10 @@ constexpr Comparison comparisons[]{
 
 TEST_CASE("what a peel visits grows with its layers and not with their square, whatever depth it compares") {
     const std::vector<std::pair<Machine, std::uint32_t>> most_a_layer{{{"geforce3", "depth_units"}, 3},
-                                                               {{"geforce3", "shadow_map"}, 3},
-                                                               {{"geforce8", "front_to_back"}, 3},
-                                                               {{"geforce8", "dual"}, 5},
-                                                               {{"geforce8_dx101", "dual_independent"}, 5}};
+                                                                      {{"geforce3", "shadow_map"}, 3},
+                                                                      {{"geforce8", "front_to_back"}, 3},
+                                                                      {{"geforce8", "dual"}, 5},
+                                                                      {{"geforce8_dx101", "dual_independent"}, 5}};
     for (const auto& [machine, most] : most_a_layer)
         for (const Comparison& comparison : comparisons)
             for (const std::uint32_t layers : {16u, 200u}) {

@@ -57,7 +57,8 @@ struct ComparedColumns {
 
 }  // namespace
 
-TEST_CASE("columns are sorted by what is compared, arrivals in order where it is equal, and what is hidden comes last") {
+TEST_CASE(
+    "columns are sorted by what is compared, arrivals in order where it is equal, and what is hidden comes last") {
     Random random{31};
     for (const bool quantizes : {false, true})
         for (const int batches : {1, 7, 60}) {

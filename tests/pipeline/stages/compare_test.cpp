@@ -4,10 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "pipeline/device/state.h"
-#include "pipeline/formats/format.h"
 #include "pipeline/stages/depth_compare.h"
 #include "tests/pipeline/stage_values.h"
 
@@ -59,32 +57,6 @@ TEST_CASE("each function passes exactly its own outcomes, of integers, of floats
     CHECK(wrong == 0);
     CHECK_FALSE(compared(CompareFunc::never, 1, 1));
     CHECK(compared(CompareFunc::always, not_a_number, not_a_number));
-}
-
-TEST_CASE("a fragment of a batch is behind by its own reference code and depth, at every place of the batch") {
-    const auto batch = std::make_unique<strata::rasterizer::FragmentBatch>();
-    Random random{751};
-    int wrong = 0, behind = 0;
-    for (std::size_t i = 0; i < 256; ++i) {
-        batch->reference_code[i] = below(random, 65536);
-        batch->reference_z[i] = batch->reference_code[i] + 0.75;
-    }
-    for (const bool quantizes : {true, false})
-        for (const int ulps : {0, 1, 70000}) {
-            const DepthCompare compare{DepthFormat::d16, {0.0, ulps}, true, quantizes};
-            for (std::size_t i = 0; i < 256; ++i)
-                for (const int beside : {-1, 0, 1}) {
-                    const auto stored = static_cast<std::uint32_t>(
-                        std::clamp(static_cast<int>(batch->reference_code[i]) + beside, 0, 65535));
-                    const double raised = std::min(stored + static_cast<double>(ulps), 65535.0);
-                    const double own = batch->reference_code[i] + (quantizes ? 0.0 : 0.75);
-                    const bool expected = std::min(own, 65535.0) > raised;
-                    behind += expected ? 1 : 0;
-                    wrong += compare.is_behind(*batch, i, stored) != expected ? 1 : 0;
-                }
-        }
-    CHECK(wrong == 0);
-    CHECK(behind > 500);
 }
 
 TEST_CASE("steps of binary32 raise a depth above 0 alone: at 0 and below it there is nothing to step from") {

@@ -1,4 +1,4 @@
-// pipeline/region/region_place.h - where a region lies, and the words in which its callers say what they ask of it.
+// pipeline/frame/region_place.h - where a region lies, and the words in which its callers say what they ask of it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
