@@ -62,7 +62,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     state.needs.reference = !compare.is_plain();
     if (compare.is_plain())
         state.selection = {
-            .keeps = Keeps::ends, .before = region.opaque_depth(), .range = min_max, .has_plain_inside = true};
+            .keeps = Keeps::ends, .before = region.opaque_depth(), .range = min_max, .keys_suffice = true};
     const bool stores_codes = info(region.frame().color_format).type == ChannelType::unorm8;
     const bool is_traced = region.frame().trace;
     return region.draw(state, List::second, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
