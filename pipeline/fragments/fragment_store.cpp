@@ -182,15 +182,22 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     for_each_array(needs_, batch, recall_array);
 }
 
+// Places that memory is asked for before they are taken: stores seldom fit into the second cache, and fragments lie here and there.
+constexpr std::size_t ahead = 32;
+
 // Calls `take` with the number of each place and where its fragment lies in the array that begins where fragments have `start` bytes
 // before it, and has `bytes` of each.
 template <class Take>
 void FragmentStore::for_each_place(std::span<const std::uint32_t> places, std::uint32_t start, std::uint32_t bytes,
                                    const Take& take) const noexcept {
     const Packed* const batches = batches_.data();
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto at = [&](std::size_t i) {
         const Packed& packed = batches[places[i] >> 8];
-        take(i, packed.begin + (packed.count * start + (places[i] & 0xff) * bytes));
+        return packed.begin + (packed.count * start + (places[i] & 0xff) * bytes);
+    };
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        __builtin_prefetch(at(std::min(i + ahead, places.size() - 1)));
+        take(i, at(i));
     }
 }
 

@@ -23,6 +23,15 @@ class KeyBound {
     [[nodiscard]] std::uint64_t of(std::size_t pixel) const noexcept {
         return is_float_key_ ? ordered(codes_[pixel]) : codes_[pixel];
     }
+    // keys[k] = key_of(the bound of pixels[k]).
+    template <class KeyOf>
+    void put(std::span<const std::uint32_t> pixels, std::vector<std::uint64_t>& keys, const KeyOf& key_of) const {
+        keys.resize(pixels.size());
+        for (std::size_t k = 0; is_float_key_ && k < keys.size(); ++k)
+            keys[k] = key_of(std::uint64_t{ordered(codes_[pixels[k]])});
+        for (std::size_t k = 0; !is_float_key_ && k < keys.size(); ++k)
+            keys[k] = key_of(std::uint64_t{codes_[pixels[k]]});
+    }
     // keys[k] = narrowed(keys[k], the bound of pixels[k]), if there is a bound.
     template <class Narrowed>
     void narrow(std::span<const std::uint32_t> pixels, std::vector<std::uint64_t>& keys,
@@ -134,10 +143,12 @@ struct KeyWindow {
     }
     void put_low(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
         const auto greater = [](Key key, Key code) { return std::max(key, code); };
-        ends.low.assign(pixels.size(), least);
-        behind.narrow(pixels, ends.low, [raised = behind_codes, most = greatest](Key key, Key code) {
-            return std::max(key, std::min(code + raised, most) + 1);
-        });
+        if (behind.exists())
+            behind.put(pixels, ends.low, [first = least, raised = behind_codes, most = greatest](Key code) {
+                return std::max(first, std::min(code + raised, most) + 1);
+            });
+        else
+            ends.low.assign(pixels.size(), least);
         from.narrow(pixels, ends.low, greater);
         at.narrow(pixels, ends.low, greater);
         behind_value.narrow_behind(pixels, ends.low);

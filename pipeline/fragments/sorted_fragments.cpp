@@ -134,6 +134,8 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
             for (std::size_t i = 0; is_value && i < count; ++i) key[i] = rasterizer::ordered_code(batch->shader_z[i]);
             std::uint32_t* const next = next_.data();
             std::uint64_t* const words = words_.data();
+            // A word goes to another line each time: they are asked for beforehand, all of a batch.
+            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(words + next[batch->pixel[i]], 1);
             for (std::size_t i = 0; i < count; ++i)
                 if (is_alive[i] != 0)
                     words[next[batch->pixel[i]]++] = std::uint64_t{key[i]} << 32 | FragmentStore::place(number, i);
