@@ -62,7 +62,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
     state.needs.code = false;
     state.needs.reference = !compare.is_plain();
     state.selection = ends_between(compare, min_max, region.opaque_depth(), Outside::discarded);
-    state.selection.has_plain_inside = compare.is_plain();
+    state.selection.keys_suffice = compare.is_plain();
     const bool stores_codes = info(region.frame().color_format).type == ChannelType::unorm8;
     const bool has_ends = compare.is_plain();  // wherever something lies between
     const bool is_traced = region.frame().trace;

@@ -68,7 +68,7 @@ class Peel {
         state.reads[0] = peeled_;
         state.needs = code_only;
         state.primitives = as_span(sets_.unordered);
-        state.selection = {.keeps = Keeps::nearest};
+        state.selection = {.keeps = Keeps::nearest, .keys_suffice = true};
         if (!from_the_start_) state.selection.behind = peeled_;
         return region_.draw(state, [this](const FragmentBatch& in, const Loads& own, Outputs& out) {
             if (!from_the_start_) keep_behind(in, own.depth(0), out);

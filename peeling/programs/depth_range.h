@@ -2,6 +2,7 @@
 // composites in arrival order, and pixels that a fault concerns.
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "peeling/programs/programs.h"
@@ -78,14 +79,14 @@ class PixelSet {
 // Arrivals at a depth that a pass composites by equality: more than one at a pixel is a tie at a peel's bound.
 class BoundTies {
   public:
-    explicit BoundTies(const pipeline::Region& region) : arrived_{region}, tied_{region} {}
-    void start() { arrived_.clear(); }
+    explicit BoundTies(const pipeline::Region& region) : tied_{region}, arrived_(region.rect().area()) {}
+    void start() { ++pass_; }
     void add(const pipeline::FragmentBatch& in, const pipeline::Outputs& out) {
         for (std::size_t i = 0; i < lanes(in); ++i)
             if (out.alive[i] != 0) add(in.pixel[i]);
     }
     void add(std::uint32_t pixel) {
-        if (!arrived_.add(pixel)) tied_.add(pixel);
+        if (std::exchange(arrived_[pixel], pass_) == pass_) tied_.add(pixel);
     }
     void report(pipeline::Region& region) const {
         tied_.report(region, pipeline::Fault::equal_at_bound,
@@ -93,7 +94,9 @@ class BoundTies {
     }
 
   private:
-    PixelSet arrived_, tied_;
+    PixelSet tied_;
+    std::vector<std::uint32_t> arrived_;  // by pixel: the last pass in which something did
+    std::uint32_t pass_ = 1;
 };
 
 }  // namespace strata::peeling

@@ -18,12 +18,52 @@ using rasterizer::Lanes;
 
 namespace {
 
+using Colors = std::array<Lanes<float>, 4>;
+
 // Whether `array` of a batch holds colours or depths that `needs` does not name. Few passes look at the other arrays, and
 // none of the many passes of a peel: they are taken wherever they are held.
 bool is_left_out(const FragmentBatch& batch, const FragmentNeeds& needs, const void* array) noexcept {
-    const bool is_color = array >= &batch.color[0] && array <= &batch.color[3];
-    return (is_color && !needs.color) || (array == &batch.code && !needs.code) ||
-           (array == &batch.shader_z && !needs.shader_z);
+    const bool is_reference = array == &batch.reference_z || array == &batch.reference_code;
+    return (array == &batch.color && !needs.color) || (array == &batch.code && !needs.code) ||
+           (array == &batch.shader_z && !needs.shader_z) || (is_reference && !needs.reference);
+}
+
+// What a fragment takes of an array. The channels of a colour lie together: passes that fetch fragments from here and there find
+// them in one place.
+template <class T>
+constexpr std::uint32_t bytes_in(const Lanes<T>&) noexcept {
+    return sizeof(T);
+}
+constexpr std::uint32_t bytes_in(const Colors&) noexcept { return 4 * sizeof(float); }
+
+template <class T>
+void pack(const Lanes<T>& array, std::size_t count, std::byte* to) noexcept {
+    std::memcpy(to, array.data(), count * sizeof(T));
+}
+void pack(const Colors& colors, std::size_t count, std::byte* to) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::array one{colors[0][i], colors[1][i], colors[2][i], colors[3][i]};
+        std::memcpy(to + i * sizeof(one), one.data(), sizeof(one));
+    }
+}
+
+// One fragment's, to lane i.
+template <class T>
+void take(const std::byte* from, std::size_t i, Lanes<T>& array) noexcept {
+    std::memcpy(&array[i], from, sizeof(T));
+}
+void take(const std::byte* from, std::size_t i, Colors& colors) noexcept {
+    std::array<float, 4> one;
+    std::memcpy(one.data(), from, sizeof(one));
+    for (std::size_t c = 0; c < 4; ++c) colors[c][i] = one[c];
+}
+
+template <class T>
+void unpack(const std::byte* from, std::size_t count, Lanes<T>& array) noexcept {
+    std::memcpy(array.data(), from, count * sizeof(T));
+}
+void unpack(const std::byte* from, std::size_t count, Colors& colors) noexcept {
+    for (std::size_t i = 0; i < count; ++i) take(from + i * bytes_in(colors), i, colors);
 }
 
 }  // namespace
@@ -38,8 +78,7 @@ void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visi
     if (needs.shader_z) visit(batch.shader_z);
     if (needs.code) visit(batch.code);
     if (needs.exact_code) visit(batch.exact_code);
-    if (needs.color)
-        for (auto& channel : batch.color) visit(channel);
+    if (needs.color) visit(batch.color);
     if (needs.texcoord)
         for (auto& coordinate : batch.texcoord) visit(coordinate);
     if (needs.reference) {
@@ -55,7 +94,7 @@ void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visi
 std::size_t FragmentStore::packed_bytes(std::size_t count) const noexcept {
     static const FragmentBatch shape{};         // only the types of its arrays are looked at
     std::size_t bytes = sizeof(std::uint32_t);  // `alive`, whether it is kept or not
-    for_each_array(needs_, shape, [&](const auto& array) { bytes += sizeof(array[0]); });
+    for_each_array(needs_, shape, [&](const auto& array) { bytes += bytes_in(array); });
     return count * bytes;
 }
 
@@ -103,14 +142,14 @@ void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t
     const bool has_dead = living == 0;
     for (std::size_t i = 0; needs_.reference && needs_.code && i < count; ++i)
         references_apart_ |= batch.reference_code[i] ^ batch.code[i];
-    batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead, {least, greatest + 1}});
-    const auto pack = [&](const auto& array) {
-        std::memcpy(at, array.data(), count * sizeof(array[0]));
-        at += count * sizeof(array[0]);
+    const auto append_array = [&](const auto& array) {
+        pack(array, count, at);
+        at += count * bytes_in(array);
     };
     // In most batches MASK kills nothing: `alive` is kept only where it is not all ~0.
-    if (has_dead) pack(alive);
-    for_each_array(needs_, batch, pack);
+    if (has_dead) append_array(alive);
+    batches_.push_back({at, batch.material, static_cast<std::uint16_t>(count), has_dead, {least, greatest + 1}});
+    for_each_array(needs_, batch, append_array);
     used_bytes_ = static_cast<std::size_t>(at - chunks_[used_chunks_ - 1].data());
 }
 
@@ -123,85 +162,58 @@ bool FragmentStore::serves(const FragmentNeeds& needs) const noexcept {
 }
 
 void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::uint32_t>& alive,
-                           const FragmentNeeds& needs) const {
+                           const FragmentNeeds& needs, Numbers numbers) const {
     assert(state_ == State::complete && number < batches_.size());
     const Packed& packed = batches_[number];
     const std::byte* at = packed.begin;
-    const auto unpack = [&](auto& array) {
-        if (!is_left_out(batch, needs, &array)) std::memcpy(array.data(), at, packed.count * sizeof(array[0]));
-        at += packed.count * sizeof(array[0]);
+    const auto is_skipped = [&](const void* array) {
+        return numbers == Numbers::no && (array == &batch.primitive || array == &batch.x || array == &batch.y);
+    };
+    const auto recall_array = [&](auto& array) {
+        if (!is_skipped(&array) && !is_left_out(batch, needs, &array)) unpack(at, packed.count, array);
+        at += packed.count * bytes_in(array);
     };
     batch.count = packed.count;
     batch.material = packed.material;
     if (packed.has_dead)
-        unpack(alive);
+        unpack(at - packed.count * bytes_in(alive), packed.count, alive);
     else
         std::fill_n(alive.begin(), packed.count, ~0u);
-    for_each_array(needs_, batch, unpack);
+    for_each_array(needs_, batch, recall_array);
 }
 
-namespace {
+// Places that memory is asked for before they are taken: stores seldom fit into the second cache, and fragments lie here and there.
+constexpr std::size_t ahead = 32;
 
-// Fragments of packed batches: where each one's batch begins, how many it holds, and the fragment's number there.
-struct PackedPlaces {
-    const std::byte* const* begin;
-    const std::uint32_t *count, *number;
-    std::size_t size;
-};
-
-// The array that begins where fragments have `start` bytes before it.
-template <class T>
-void take(const PackedPlaces& from, std::uint32_t start, T* to) noexcept {
-    const auto [begin, count, number, size] = from;  // copies: what is stored could lie anywhere
-    for (std::size_t i = 0; i < size; ++i)
-        std::memcpy(to + i, begin[i] + (count[i] * start + number[i] * std::uint32_t{sizeof(T)}), sizeof(T));
-}
-
-// Four channels that follow each other: what is known of a place serves all.
-void take_colors(const PackedPlaces& from, std::uint32_t start, std::array<Lanes<float>, 4>& to) noexcept {
-    const auto [begin, count, number, size] = from;
-    float *const red = to[0].data(), *const green = to[1].data(), *const blue = to[2].data(),
-                 *const alpha = to[3].data();
-    for (std::size_t i = 0; i < size; ++i) {
-        const std::size_t channel = count[i] * sizeof(float);
-        const std::byte* const at = begin[i] + (count[i] * start + number[i] * sizeof(float));
-        std::memcpy(red + i, at, sizeof(float));
-        std::memcpy(green + i, at + channel, sizeof(float));
-        std::memcpy(blue + i, at + 2 * channel, sizeof(float));
-        std::memcpy(alpha + i, at + 3 * channel, sizeof(float));
+// Calls `take` with the number of each place and where its fragment lies in the array that begins where fragments have `start` bytes
+// before it, and has `bytes` of each.
+template <class Take>
+void FragmentStore::for_each_place(std::span<const std::uint32_t> places, std::uint32_t start, std::uint32_t bytes,
+                                   const Take& take) const noexcept {
+    const Packed* const batches = batches_.data();
+    const auto at = [&](std::size_t i) {
+        const Packed& packed = batches[places[i] >> 8];
+        return packed.begin + (packed.count * start + (places[i] & 0xff) * bytes);
+    };
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        __builtin_prefetch(at(std::min(i + ahead, places.size() - 1)));
+        take(i, at(i));
     }
 }
-
-}  // namespace
 
 // Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.
 void FragmentStore::fetch(std::span<const std::uint32_t> places, const FragmentNeeds& needs, Numbers numbers,
                           FragmentBatch& batch) const noexcept {
     const auto is_skipped = [&](const void* array) {
-        const bool is_reference = array == &batch.reference_z || array == &batch.reference_code;
         return array == &batch.pixel || array == &batch.x || array == &batch.y ||
-               (array == &batch.primitive && numbers == Numbers::no) || (is_reference && !needs.reference) ||
-               is_left_out(batch, needs, array);
+               (array == &batch.primitive && numbers == Numbers::no) || is_left_out(batch, needs, array);
     };
-    bool is_any = false;
-    for_each_array(needs_, batch, [&](auto& array) { is_any = is_any || !is_skipped(&array); });
-    if (!is_any) return;
-    std::array<const std::byte*, rasterizer::batch_capacity> begin;
-    std::array<std::uint32_t, rasterizer::batch_capacity> count, number;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const Packed& packed = batches_[places[i] >> 8];
-        count[i] = packed.count;
-        number[i] = places[i] & 0xff;
-        begin[i] = packed.begin + (packed.has_dead ? count[i] * sizeof(std::uint32_t) : 0);
-    }
-    const PackedPlaces from{begin.data(), count.data(), number.data(), places.size()};
     std::uint32_t before = 0;
     for_each_array(needs_, batch, [&](auto& array) {
-        const std::uint32_t start = std::exchange(before, before + std::uint32_t{sizeof(array[0])});
-        const void* const address = &array;
-        if (is_skipped(address)) return;
-        if (address == &batch.color[0]) take_colors(from, start, batch.color);
-        if (address < &batch.color[0] || address > &batch.color[3]) take(from, start, array.data());
+        const std::uint32_t start = std::exchange(before, before + bytes_in(array));
+        if (is_skipped(&array)) return;
+        for_each_place(places, start, bytes_in(array),
+                       [&array](std::size_t i, const std::byte* from) { take(from, i, array); });
     });
 }
 

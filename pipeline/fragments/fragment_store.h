@@ -35,14 +35,17 @@ class FragmentStore {
     void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive) const {
         recall(number, batch, alive, recalled_);
     }
+    // `numbers`: whether somebody looks at primitives and positions.
+    enum class Numbers : std::uint8_t { no, yes };
     void recall(std::size_t number, rasterizer::FragmentBatch& batch, rasterizer::Lanes<std::uint32_t>& alive,
-                const rasterizer::FragmentNeeds& needs) const;
+                const rasterizer::FragmentNeeds& needs, Numbers numbers = Numbers::yes) const;
 
     // A fragment's place among all of the store: places rise with arrival.
     [[nodiscard]] static constexpr std::uint32_t place(std::size_t batch, std::size_t lane) noexcept {
         return static_cast<std::uint32_t>(batch << 8 | lane);
     }
     [[nodiscard]] std::size_t count(std::size_t number) const noexcept { return batches_[number].count; }
+    [[nodiscard]] bool has_dead(std::size_t number) const noexcept { return batches_[number].has_dead; }
     // The least range that holds the primitives of a batch. In later batches neither of its ends is less.
     [[nodiscard]] const PrimitiveRange& primitives(std::size_t number) const noexcept {
         return batches_[number].primitives;
@@ -52,7 +55,6 @@ class FragmentStore {
     [[nodiscard]] bool has_references_apart() const noexcept { return references_apart_ != 0; }
     // What `needs` names, and `primitive` where it is asked for, of the fragments at `places` to the first lanes of a batch, in
     // this order. Pixels and their positions are the caller's: it knows them.
-    enum class Numbers : std::uint8_t { no, yes };
     void fetch(std::span<const std::uint32_t> places, const rasterizer::FragmentNeeds& needs, Numbers numbers,
                rasterizer::FragmentBatch& batch) const noexcept;
 
@@ -66,12 +68,15 @@ class FragmentStore {
         const std::byte* begin;
         std::uint32_t material;
         std::uint16_t count;
-        bool has_dead;  // MASK killed some: `alive` is among the arrays
+        bool has_dead;  // MASK killed some: `alive` stands before the arrays
         PrimitiveRange primitives;
     };
 
     template <class Visit>
     static void for_each_array(const rasterizer::FragmentNeeds& needs, auto& batch, Visit&& visit);
+    template <class Take>
+    void for_each_place(std::span<const std::uint32_t> places, std::uint32_t start, std::uint32_t bytes,
+                        const Take& take) const noexcept;
     [[nodiscard]] std::size_t packed_bytes(std::size_t count) const noexcept;
 
     State state_ = State::empty;

@@ -23,6 +23,15 @@ class KeyBound {
     [[nodiscard]] std::uint64_t of(std::size_t pixel) const noexcept {
         return is_float_key_ ? ordered(codes_[pixel]) : codes_[pixel];
     }
+    // keys[k] = key_of(the bound of pixels[k]).
+    template <class KeyOf>
+    void put(std::span<const std::uint32_t> pixels, std::vector<std::uint64_t>& keys, const KeyOf& key_of) const {
+        keys.resize(pixels.size());
+        for (std::size_t k = 0; is_float_key_ && k < keys.size(); ++k)
+            keys[k] = key_of(std::uint64_t{ordered(codes_[pixels[k]])});
+        for (std::size_t k = 0; !is_float_key_ && k < keys.size(); ++k)
+            keys[k] = key_of(std::uint64_t{codes_[pixels[k]]});
+    }
     // keys[k] = narrowed(keys[k], the bound of pixels[k]), if there is a bound.
     template <class Narrowed>
     void narrow(std::span<const std::uint32_t> pixels, std::vector<std::uint64_t>& keys,
@@ -134,10 +143,12 @@ struct KeyWindow {
     }
     void put_low(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
         const auto greater = [](Key key, Key code) { return std::max(key, code); };
-        ends.low.assign(pixels.size(), least);
-        behind.narrow(pixels, ends.low, [raised = behind_codes, most = greatest](Key key, Key code) {
-            return std::max(key, std::min(code + raised, most) + 1);
-        });
+        if (behind.exists())
+            behind.put(pixels, ends.low, [first = least, raised = behind_codes, most = greatest](Key code) {
+                return std::max(first, std::min(code + raised, most) + 1);
+            });
+        else
+            ends.low.assign(pixels.size(), least);
         from.narrow(pixels, ends.low, greater);
         at.narrow(pixels, ends.low, greater);
         behind_value.narrow_behind(pixels, ends.low);
@@ -159,6 +170,10 @@ struct KeyWindow {
 class StoredDepth {
   public:
     StoredDepth(const std::uint32_t* codes, bool is_float) : codes_{codes}, is_float_{is_float} {}
+    void put(std::span<const std::uint32_t> pixels, WindowEnds& ends) const {
+        ends.surface.resize(pixels.size());
+        for (std::size_t k = 0; k < pixels.size(); ++k) ends.surface[k] = of(pixels[k]);
+    }
     [[nodiscard]] std::uint32_t of(std::size_t pixel) const noexcept {
         return is_float_ && codes_[pixel] > 0x7f800000u ? 0 : codes_[pixel];
     }
@@ -195,28 +210,45 @@ KeyWindow window_of(const FragmentSelection& s, const Frame& frame, const Storag
             s.range.exists() ? RangeBound{storage_of(s.range).texels(0)} : RangeBound{}};
 }
 
-// A column of sorted fragments, and its window: numbers [first, last), keys from `low` on.
+// Calls `visit` with the columns of some neighbouring pixels after those of others, as few as the first cache holds the words of.
+template <class Visit>
+void for_some_columns(const SortedFragments& sorted, const Visit& visit) {
+    constexpr std::size_t some = 64;
+    const auto occupied = sorted.occupied();
+    for (std::size_t from = 0; from < occupied.size(); from += some)
+        visit(from, occupied.subspan(from, std::min(some, occupied.size() - from)));
+}
+
+// A column of sorted fragments, and its window: numbers [first, last), keys from `low` on; [first, tested) lies before what is stored,
+// if that is asked for.
 struct WindowColumn {
     std::uint32_t pixel;
     std::span<const std::uint64_t> words;
-    std::uint32_t first, last;
+    std::uint32_t first, last, tested;
     std::uint64_t low;
 };
 
 // Calls `visit` with every column.
 template <class Visit>
-void for_each_column(SortedFragments& sorted, const KeyWindow& window, WindowEnds& ends, const Visit& visit) {
+void for_each_column(SortedFragments& sorted, const KeyWindow& window, const StoredDepth* stored, WindowEnds& ends,
+                     const Visit& visit) {
     using Cursor = SortedFragments::Cursor;
-    const auto occupied = sorted.occupied();
-    window.put(occupied, ends);
-    const auto first = sorted.numbers_below(ends.low, Cursor::low);
-    const bool is_open = ends.high.empty();
-    const auto end = is_open ? first : sorted.numbers_below(ends.high, Cursor::high);
-    for (std::size_t k = 0; k < occupied.size(); ++k) {
-        const auto words = sorted.column(k);
-        const auto size = static_cast<std::uint32_t>(words.size());
-        visit(WindowColumn{occupied[k], words, first[k], is_open ? size : std::max(first[k], end[k]), ends.low[k]});
-    }
+    for_some_columns(sorted, [&](std::size_t from, std::span<const std::uint32_t> pixels) {
+        window.put(pixels, ends);
+        const auto first = sorted.numbers_below(from, ends.low, Cursor::low);
+        const bool is_open = ends.high.empty();
+        const auto end = is_open ? first : sorted.numbers_below(from, ends.high, Cursor::high);
+        if (stored != nullptr) stored->put(pixels, ends);
+        const auto surface = stored == nullptr ? end : sorted.numbers_below(from, ends.surface, Cursor::surface);
+        for (std::size_t k = 0; stored != nullptr && k < pixels.size(); ++k)
+            sorted.expect(from + k, pixels[k], first[k]);
+        for (std::size_t k = 0; k < pixels.size(); ++k) {
+            const auto words = sorted.column(from + k);
+            const std::uint32_t last = is_open ? static_cast<std::uint32_t>(words.size()) : std::max(first[k], end[k]);
+            const std::uint32_t tested = stored == nullptr ? last : std::min(last, surface[k]);
+            visit(WindowColumn{pixels[k], words, first[k], last, tested, ends.low[k]});
+        }
+    });
 }
 
 }  // namespace strata::pipeline

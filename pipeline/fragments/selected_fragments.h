@@ -12,6 +12,7 @@ namespace strata::pipeline {
 // The windows of columns: keys in [low, high).
 struct WindowEnds {
     std::vector<std::uint64_t> low, high;  // no `high`: up to the end
+    std::vector<std::uint64_t> surface;    // what a depth test LESS compares with
 };
 
 // Several fragments of a pixel follow each other in the order of arrival, and a batch holds no pixel twice: so the

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "pipeline/formats/lane_mask.h"
-#include "pipeline/fragments/cursor_steps.h"
 #include "pipeline/stages/alpha_test.h"
 #include "rasterizer/rules/depth_code.h"
 
@@ -54,6 +53,7 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
     request_ = request;
     state_ = State::declined;
     columns_.assign(pixels, Column{});
+    next_.assign(pixels, 0);
     if (!take(store, limit, surface)) return false;
     earliest_.forget();
     for (const std::uint32_t p : occupied_) {
@@ -64,7 +64,10 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
     if (request.by_reference) take_stored(store);
     if (request.compared && !sort_compared(store, surface)) return false;
     updates_.resize(words_.size());
-    for (auto& cursors : cursors_) cursors.assign(occupied_.size(), 0);
+    for (auto& [bounds, cursors] : cursors_) {
+        bounds.assign(occupied_.size(), ~std::uint64_t{0});  // that none is
+        cursors.assign(occupied_.size(), 0);
+    }
     state_ = State::sorted;
     return true;
 }
@@ -78,28 +81,36 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
     if (store.batches() >= std::size_t{1} << 24) return false;
     const auto batch = std::make_unique<FragmentBatch>();
     Lanes<std::uint32_t> alive;
-    FragmentNeeds recalled = store.needs();
-    recalled.color = request_.alpha.enabled;
+    FragmentNeeds recalled{.shader_z = request_.key == DepthKey::shader_z,
+                           .code = request_.key == DepthKey::stored_code || request_.by_arrival,
+                           .reference = request_.by_reference};
+    const auto numbers = request_.primitives.empty() ? FragmentStore::Numbers::no : FragmentStore::Numbers::yes;
+    const std::span<const PrimitiveRange> ranges = request_.primitives;
+    std::vector<bool> is_bright(store.batches());  // known to lose nothing by the alpha test: it is not made again
     const auto for_each_alive = [&](auto&& visit) {
         for (std::size_t number = 0; number < store.batches(); ++number) {
-            const std::span<const PrimitiveRange> ranges = request_.primitives;
             if (!ranges.empty() && !meets(ranges, store.primitives(number))) continue;
-            store.recall(number, *batch, alive, recalled);
+            const bool has_test = request_.alpha.enabled && !is_bright[number];
+            recalled.color = has_test;
+            store.recall(number, *batch, alive, recalled, numbers);
             const auto count = static_cast<std::size_t>(batch->count);
             const auto dead = [&] {
                 return static_cast<std::uint64_t>(std::count(alive.begin(), alive.begin() + batch->count, 0u));
             };
             std::uint64_t others = 0;  // that are none of this request's
-            for (std::size_t i = 0; i < count && !ranges.empty() && !covers(ranges, store.primitives(number)); ++i)
+            const bool is_part = !ranges.empty() && !covers(ranges, store.primitives(number));
+            for (std::size_t i = 0; is_part && i < count; ++i)
                 if (!holds(ranges, batch->primitive[i])) alive[i] = 0, ++others;
-            const std::uint64_t masked = dead();
+            const std::uint64_t masked = is_part || store.has_dead(number) ? dead() : 0;
             for (std::size_t i = 0; request_.by_arrival && i < count; ++i)
                 alive[i] &= mask(batch->code[i] < surface[batch->pixel[i]]);
-            const std::uint64_t unseen = dead();
-            if (request_.alpha.enabled)
+            const std::uint64_t unseen = request_.by_arrival ? dead() : masked;
+            if (has_test)
                 alpha_test(request_.alpha, request_.eight_bit_alpha, batch->color[3].data(), alive.data(),
                            batch->count);
-            if (!visit(number, count, alive, Fates{count - others, masked - others, unseen - masked, dead() - unseen}))
+            const std::uint64_t killed = has_test ? dead() - unseen : 0;
+            is_bright[number] = killed == 0;
+            if (!visit(number, count, alive, Fates{count - others, masked - others, unseen - masked, killed}))
                 return false;
         }
         return true;
@@ -110,7 +121,7 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
             masked_ += lost.masked;
             hidden_ += lost.hidden;
             alpha_killed_ += lost.alpha_killed;
-            for (std::size_t i = 0; i < count; ++i) columns_[batch->pixel[i]].size += is_alive[i] & 1u;
+            for (std::size_t i = 0; i < count; ++i) next_[batch->pixel[i]] += is_alive[i] & 1u;
             return has_sortable_keys(*batch);
         });
     if (!sortable) return false;
@@ -123,24 +134,25 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
             const bool is_value = !request_.by_reference && request_.key == DepthKey::shader_z;
             Lanes<std::uint32_t>& key = request_.by_reference ? batch->reference_code : batch->code;
             for (std::size_t i = 0; is_value && i < count; ++i) key[i] = rasterizer::ordered_code(batch->shader_z[i]);
-            Column* const columns = columns_.data();
+            std::uint32_t* const next = next_.data();
             std::uint64_t* const words = words_.data();
-            for (std::size_t i = 0; i < count; ++i) {
-                if (is_alive[i] == 0) continue;
-                Column& column = columns[batch->pixel[i]];
-                words[column.begin + column.size++] = std::uint64_t{key[i]} << 32 | FragmentStore::place(number, i);
-            }
+            // A word goes to another line each time: they are asked for beforehand, all of a batch.
+            for (std::size_t i = 0; i < count; ++i) __builtin_prefetch(words + next[batch->pixel[i]], 1);
+            for (std::size_t i = 0; i < count; ++i)
+                if (is_alive[i] != 0)
+                    words[next[batch->pixel[i]]++] = std::uint64_t{key[i]} << 32 | FragmentStore::place(number, i);
             return true;
         });
 }
 
-// Heights are counted again as words come.
+// Of heights in `next_` makes columns, and leaves there where the first word of each goes.
 void SortedFragments::place_columns() {
     occupied_.clear();
     begin_.assign(1, 1);
     for (std::size_t p = 0; p < pixels(); ++p) {
-        const std::uint32_t height = std::exchange(columns_[p].size, 0);
+        const std::uint32_t height = std::exchange(next_[p], begin_.back());
         columns_[p].begin = begin_.back();
+        columns_[p].size = height;
         if (height == 0) continue;
         occupied_.push_back(static_cast<std::uint32_t>(p));
         begin_.push_back(begin_.back() + height + 1);
@@ -178,16 +190,30 @@ bool SortedFragments::has_plain_colors(const FragmentStore& store) {
     return plain;
 }
 
-std::span<const std::uint32_t> SortedFragments::numbers_below(std::span<const std::uint64_t> bounds, Cursor which) {
-    std::vector<std::uint32_t>& cursors = cursors_[static_cast<std::size_t>(which)];
-    const ColumnPlaces columns{words_.data(), begin_.data(), occupied_.size()};
-    constexpr std::size_t some = 8;  // that are found one by one where one of them has moved farther
-    for (std::size_t k = 0; (k = step_cursors(columns, bounds.data(), cursors.data(), k)) < columns.count;)
-        for (const std::size_t end = std::min(k + some, columns.count); k < end; ++k) {
-            const auto words = column(k);
-            cursors[k] = bounds[k] > 0xffffffff ? static_cast<std::uint32_t>(words.size())
-                                                : first_from(words, bounds[k] << 32, cursors[k]);
+// Behind a column's last word none lies below a bound; the word before its first becomes 0 when 1 is added. No loop but a tight one has
+// many words under way from memory at once.
+std::span<const std::uint32_t> SortedFragments::numbers_below(std::size_t from, std::span<const std::uint64_t> bounds,
+                                                              Cursor which) {
+    auto& [all_bounds, all_cursors] = cursors_[static_cast<std::size_t>(which)];
+    const std::span<std::uint64_t> last = std::span{all_bounds}.subspan(from, bounds.size());
+    const std::span<std::uint32_t> cursors = std::span{all_cursors}.subspan(from, bounds.size());
+    if (std::ranges::equal(last, bounds)) return cursors;
+    const std::uint64_t* const all = words_.data();
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+        last[k] = bounds[k];
+        const std::uint64_t word = bounds[k] > 0xffffffff ? ~std::uint64_t{0} : bounds[k] << 32;
+        const std::uint64_t* at = all + begin_[from + k] + cursors[k];
+        if (*at < word) {
+            ++cursors[k];
+            if (*++at >= word) continue;
+        } else if (*--at + 1 > word) {
+            --cursors[k];
+            if (*--at + 1 <= word) continue;
+        } else {
+            continue;
         }
+        cursors[k] = first_from(column(from + k), word, cursors[k]);
+    }
     return cursors;
 }
 

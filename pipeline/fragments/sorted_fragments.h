@@ -78,17 +78,15 @@ class SortedFragments {
     [[nodiscard]] const std::uint64_t* column_begin(std::size_t number) const noexcept {
         return words_.data() + begin_[number];
     }
-    // By column, how many of its fragments have keys below its bound, which may be 2^32. Cursors tell bounds apart that are looked
-    // for in every pass.
-    enum class Cursor : std::uint8_t { low, high };
-    [[nodiscard]] std::span<const std::uint32_t> numbers_below(std::span<const std::uint64_t> bounds, Cursor which);
-    // The number of the pixel's fragments with keys below that of an opaque surface, which seldom changes.
-    [[nodiscard, gnu::always_inline]] inline std::uint32_t before_surface(std::size_t pixel,
-                                                                          std::uint32_t key) noexcept {
-        Found& last = columns_[pixel].surface;
-        if (last.bound != key) [[unlikely]]
-            last = {key, first_from(of(pixel), std::uint64_t{key} << 32, last.at)};
-        return last.at;
+    // Of the columns from number `from` on, how many fragments have keys below their bounds, which may be 2^32. Cursors tell bounds
+    // apart that are looked for in every pass: those of neighbouring passes are the same, or lie a fragment apart.
+    enum class Cursor : std::uint8_t { low, high, surface };
+    [[nodiscard]] std::span<const std::uint32_t> numbers_below(std::size_t from, std::span<const std::uint64_t> bounds,
+                                                               Cursor which);
+    // Asks memory for what `passing` looks up.
+    void expect(std::size_t number, std::size_t pixel, std::uint32_t first) const noexcept {
+        __builtin_prefetch(&columns_[pixel]);
+        __builtin_prefetch(updates_.data() + begin_[number] + first);
     }
     // How many of the fragments [first, last) pass a depth test LESS with a write, as they arrive.
     [[nodiscard, gnu::always_inline]] inline std::uint32_t passing(std::size_t pixel, std::uint32_t first,
@@ -179,15 +177,19 @@ class SortedFragments {
     UninitializedVector<std::uint64_t> words_;
     std::uint64_t size_ = 0;
     std::vector<std::uint32_t> occupied_;
-    std::vector<std::uint32_t> begin_;                   // by column, and where the next one would begin
-    std::array<std::vector<std::uint32_t>, 2> cursors_;  // by column
+    std::vector<std::uint32_t> begin_;  // by column, and where the next one would begin
+    std::vector<std::uint32_t> next_;   // by pixel, while words come: how many, then where the next goes
+    struct Cursors {
+        std::vector<std::uint64_t> bounds;
+        std::vector<std::uint32_t> cursors;
+    };
+    std::array<Cursors, 3> cursors_;  // by column
     struct Found {
         std::uint32_t bound = 0, at = 0;
     };
     // What passes look up at a pixel, together: the words from `begin` on.
     struct Column {
         std::uint32_t begin = 0, size = 0;
-        Found surface;
         std::uint32_t updates_end = 0;  // up to where updates_ and later_ are counted
         ColumnArrival arrival = ColumnArrival::near_to_far;
         std::uint32_t later_end = 0;

@@ -63,7 +63,9 @@ struct FragmentSelection {
     std::uint32_t least = 0, most = ~0u;     // keys, both included
     std::uint32_t behind_codes = 0;
     std::uint32_t first_arrival = 0;
-    bool has_plain_inside = false;           // of `ends`: between them the program looks at depths alone, at no colour
+    // What the pass leaves of a kept fragment follows from its key: of `nearest` the depth alone; of `ends` what lies between is
+    // (-z, z) in color[0], of two binary32 channels under MAX, and the program looks at no colour there.
+    bool keys_suffice = false;
     bool by_reference = false;               // `behind` bounds reference_code, and the program looks at no other depth
     std::optional<DepthCompare> compared{};  // `behind` or `range` bounds the depth that this compares, and no key
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;

@@ -214,7 +214,12 @@ class Region {
     void select(const PassState& state);
     void select_nearest(const PassState& state);
     void select_key(const KeyWindow& window);
-    void select_nearest_left(const KeyWindow& window, const StoredDepth& stored);
+    void select_nearest_alone(const PassState& state);
+    [[nodiscard]] StoredDepth stored_depth(const PassState& state) const;
+    [[nodiscard]] std::uint32_t* depth_of_kept(const PassState& state);
+    void count_visits(std::uint64_t fragments) noexcept {
+        if (books_.counts) books_.fragments_visited += fragments;
+    }
     struct ColumnPart {
         std::uint32_t first, last, end;  // a window [first, end), of which [first, last) lies before the stored depth
     };

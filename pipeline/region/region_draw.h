@@ -129,7 +129,7 @@ void Region::run_program(const PassState& state, P& program, FragmentBatch& batc
     tallied_ += out.tally - tally;
     if (kind_ != PassKind::geometry) return;
     record().counters.discarded += before - alive_count(out, batch.count);
-    if (books_.counts) books_.fragments_visited += static_cast<std::uint64_t>(batch.count);
+    count_visits(static_cast<std::uint64_t>(batch.count));
 }
 
 }  // namespace strata::pipeline

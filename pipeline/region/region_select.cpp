@@ -54,57 +54,77 @@ void Region::select(const PassState& state) {
     }
 }
 
+// Where the depth of what a depth test LESS keeps is put, which needs no test then: it passes. Null where a stencil has a say, or where
+// what is stored is not what is compared (depth.md 2.9).
+std::uint32_t* Region::depth_of_kept(const PassState& state) {
+    if (state.stencil.enabled || wraps_depths()) return nullptr;
+    depth_ = DepthOutcome::passes;
+    return at(state.depth_target).depth_plane(0).words;
+}
+
 // Updates of a pixel form a chain (SortedFragments::passing), whose last is the nearest. Where a stencil counts them,
 // the visited one counts itself.
 void Region::select_nearest(const PassState& state) {
+    const Keeps keeps = state.selection.keeps;
+    if (keeps == Keeps::nearest && !state.stencil.enabled) return select_nearest_alone(state);
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
-    const Keeps keeps = state.selection.keeps;
-    const bool is_counted = state.stencil.enabled;
-    if (keeps == Keeps::nearest && !is_counted && !window.has_high()) return select_nearest_left(window, stored);
+    const StoredDepth stored = stored_depth(state);
     std::uint64_t inside = 0, passed = 0;
-    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, low] = column;
-        const std::uint32_t last = std::min(end, sorted.before_surface(p, stored.of(p)));
+    for_each_column(sorted, window, &stored, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, tested, low] = column;
         inside += end - first;
-        const std::uint32_t updates = sorted.passing(p, first, last);
+        const std::uint32_t updates = sorted.passing(p, first, tested);
         if (keeps == Keeps::previous) {
-            select_previous(state, p, {first, last, end}, updates);
+            select_previous(state, p, {first, tested, end}, updates);
             return;
         }
         if (updates == 0) return;
         passed += updates;
-        if (is_counted) count_up(state, p, updates - 1);
+        if (state.stencil.enabled) count_up(state, p, updates - 1);
         const bool has_two = keeps == Keeps::last_two && updates > 1;
-        if (has_two) selected.add(p, words[sorted.update(p, first, last, updates - 1)], 0);
+        if (has_two) selected.add(p, words[sorted.update(p, first, tested, updates - 1)], 0);
         selected.add(p, words[first], has_two ? 1 : 0);
     });
     selected.inside += inside;
     selected.passed += passed;
 }
 
-// The same of windows that nothing but the surface ends, where no stencil counts: what most peels look for.
-void Region::select_nearest_left(const KeyWindow& window, const StoredDepth& stored) {
+// The same where no stencil counts, and the nearest alone is kept: what most peels look for.
+void Region::select_nearest_alone(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
+    const StoredDepth stored = stored_depth(state);
+    std::uint32_t* const depth = depth_of_kept(state);
+    const bool is_done =
+        state.selection.keys_suffice && depth != nullptr && std::ranges::none_of(state.color, &Target::exists);
     auto [nearest] = selected.begin_ranks<1>();
-    const auto occupied = sorted.occupied();
-    window.put_low(occupied, selected.windows);
-    const auto first = sorted.numbers_below(selected.windows.low, Cursor::low);
-    std::uint64_t nearer = 0, passed = 0;
-    for (std::size_t k = 0; k < occupied.size(); ++k) {
-        const std::uint32_t p = occupied[k];
-        const std::uint32_t updates = sorted.passing(p, first[k], sorted.before_surface(p, stored.of(p)));
-        nearer += first[k];
+    std::uint64_t inside = 0, passed = 0, done = 0;
+    const KeyWindow window =
+        window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
+    for_each_column(sorted, window, &stored, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, tested, low] = column;
+        inside += end - first;
+        const std::uint32_t updates = sorted.passing(p, first, tested);
+        if (updates == 0) return;
         passed += updates;
-        if (updates > 0) nearest.add(p, sorted.column_begin(k)[first[k]]);
-    }
+        const std::uint64_t word = words[first];
+        if (depth != nullptr) depth[p] = static_cast<std::uint32_t>(word >> 32);
+        if (is_done)
+            ++done;
+        else
+            nearest.add(p, word);
+    });
+    count_visits(done);
     selected.end_ranks<1>({nearest});
-    selected.inside += sorted.size() - nearer;
+    selected.inside += inside;
     selected.passed += passed;
+}
+
+StoredDepth Region::stored_depth(const PassState& state) const {
+    return {codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
 }
 
 // Increments a pixel's stencil up to 255, and reports the first increment that it does not take.
@@ -137,13 +157,15 @@ void Region::select_nearest_stored(const PassState& state) {
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
-    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, low] = column;
+    const StoredDepth stored = stored_depth(state);
+    std::uint32_t* const depth = depth_of_kept(state);
+    for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, end, tested, low] = column;
         selected.inside += end - first;
         const SortedFragments::Passing found = sorted.passing_stored(p, first, stored.of(p));
         if (found.passed == 0) return;
         selected.passed += found.passed;
+        if (depth != nullptr) depth[p] = static_cast<std::uint32_t>(found.word >> 32);
         selected.add(p, found.word, 0);
     });
 }
@@ -157,8 +179,8 @@ void Region::select_window(const PassState& state) {
     if (window.is_one_key()) return select_key(window);
     std::vector<std::uint64_t> in_order;
     std::uint64_t inside = 0;
-    for_each_column(sorted, window, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, last, low] = column;
+    for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, last, tested, low] = column;
         inside += last - first;
         if (last == first) return;
         const auto kept = in_order_of_arrival(words.subspan(first, last - first), in_order);
@@ -171,29 +193,23 @@ void Region::select_window(const PassState& state) {
 void Region::select_key(const KeyWindow& window) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    const auto occupied = sorted.occupied();
-    window.put_low(occupied, selected.windows);
-    const auto first = sorted.numbers_below(selected.windows.low, Cursor::low);
     auto [alone] = selected.begin_ranks<1>();
-    std::vector<std::uint32_t> shared;  // columns with several
-    const auto words = [&](std::size_t k) { return sorted.column_begin(k) + first[k]; };
-    const auto is_kept = [&](std::size_t k, std::uint64_t word) {
-        return word >> 32 == selected.windows.low[k] && word != ~std::uint64_t{0};
-    };
-    for (std::size_t k = 0; k < occupied.size(); ++k) {
-        const std::uint64_t* const word = words(k);
-        if (!is_kept(k, word[0])) continue;
-        alone.add(occupied[k], word[0]);
-        if (is_kept(k, word[1])) [[unlikely]]
-            shared.push_back(static_cast<std::uint32_t>(k));
-    }
+    std::uint64_t more = 0;
+    for_some_columns(sorted, [&](std::size_t from, std::span<const std::uint32_t> pixels) {
+        window.put_low(pixels, selected.windows);
+        const auto first = sorted.numbers_below(from, selected.windows.low, Cursor::low);
+        for (std::size_t k = 0; k < pixels.size(); ++k) {
+            const std::uint64_t key = selected.windows.low[k];
+            const std::uint64_t* word = sorted.column_begin(from + k) + first[k];
+            const auto is_kept = [key](std::uint64_t w) { return w >> 32 == key && w != ~std::uint64_t{0}; };
+            if (!is_kept(*word)) continue;
+            alone.add(pixels[k], *word);
+            for (std::size_t rank = 1; is_kept(*++word); ++rank, ++more)
+                [[unlikely]] selected.add(pixels[k], *word, rank);
+        }
+    });
     selected.end_ranks<1>({alone});
-    selected.inside = alone.count;
-    for (const std::uint32_t k : shared) {
-        std::size_t rank = 1;
-        for (; is_kept(k, words(k)[rank]); ++rank) selected.add(occupied[k], words(k)[rank], rank);
-        selected.inside += rank - 1;
-    }
+    selected.inside = alone.count + more;
 }
 
 // Those before have counted the stencil down by the time that the kept ones come, and met no sample's test. Where sample s
@@ -256,18 +272,27 @@ void Region::count_down(const PassState& state, const FragmentsAt& fragments_at)
 
 namespace {
 
-constexpr std::span<const std::uint32_t> no_numbers;
-
 // The ranks of Keeps::ends are places in the window: nearest, the next two inwards from either end, farthest. What is tied with an end
 // has ranks behind them. So a batch of the inner ones holds nothing else.
 constexpr std::size_t end_ranks = 4;
 constexpr bool is_inner(std::size_t rank) noexcept { return rank == 1 || rank == 2; }
 
-void put_range(const Texels& range, std::span<const std::uint32_t> pixels, WindowEnds& ends) {
-    ends.low.assign(pixels.size(), 0);
-    ends.high.assign(pixels.size(), std::uint64_t{1} << 32);
-    RangeBound{range}.narrow(pixels, ends);
-}
+// Where MAX leaves (-z, z) of what lies between the ends: of the nearest and of the farthest of it.
+struct InnerRange {
+    Word *near = nullptr, *far = nullptr;
+    // False where the program has to say it: where depths are not above 0 and normal, or less than what is stored, a profile decides.
+    [[nodiscard]] bool put(std::size_t pixel, std::uint64_t nearest, std::uint64_t farthest) const noexcept {
+        constexpr std::uint32_t zero = rasterizer::ordered_code(0.0f), least = zero | 0x00800000u;
+        const float nearer = -std::bit_cast<float>(static_cast<std::uint32_t>(nearest) ^ zero);
+        const float farther = std::bit_cast<float>(static_cast<std::uint32_t>(farthest) ^ zero);
+        if (near == nullptr || nearest < least || !(std::bit_cast<float>(near[pixel]) < nearer) ||
+            !(std::bit_cast<float>(far[pixel]) < farther))
+            return false;
+        near[pixel] = std::bit_cast<Word>(nearer);
+        far[pixel] = std::bit_cast<Word>(farther);
+        return true;
+    }
+};
 
 }  // namespace
 
@@ -276,18 +301,18 @@ void Region::select_ends(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const FragmentSelection& selection = state.selection;
-    const KeyBound before{codes_of(selection.before), frame_.key};
-    if (selection.range.exists()) put_range(at(selection.range).texels(0), sorted.occupied(), selected.windows);
-    const auto near = selection.range.exists() ? sorted.numbers_below(selected.windows.low, Cursor::low) : no_numbers;
-    const auto far = selection.range.exists() ? sorted.numbers_below(selected.windows.high, Cursor::high) : no_numbers;
+    const KeyWindow window = window_of(selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
+    InnerRange inner;
+    const bool has_range = is_one_sample(state.color[0]) && at(state.color[0]).format() == Format::rg32f &&
+                           state.blend[0] == blend_mode::max && profile().blend_storage == BlendStorage::target;
+    if (selection.keys_suffice && has_range && frame_.key == DepthKey::shader_z) {
+        const Texels written = at(state.color[0]).texels(0);
+        inner = {written.plane(0).words, written.plane(1).words};
+    }
+    std::uint64_t done = 0;
     auto [nearest, after_nearest, before_farthest, farthest] = selected.begin_ranks<end_ranks>();
-    for (std::size_t column = 0; column < sorted.occupied().size(); ++column) {
-        const std::uint32_t p = sorted.occupied()[column];
-        const auto words = sorted.column(column);
-        const auto size = static_cast<std::uint32_t>(words.size());
-        const std::uint32_t surface = sorted.before_surface(p, static_cast<std::uint32_t>(before.of(p)));
-        const std::uint32_t first = near.empty() ? 0 : near[column];
-        const std::uint32_t last = std::max(first, far.empty() ? surface : std::min(surface, far[column]));
+    for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
+        const auto& [p, words, first, last, tested, low] = column;
         selected.inside += last - first;
         std::size_t rank = end_ranks;  // of what is tied with an end
         const auto key = [&](std::uint32_t k) { return words[k] >> 32; };
@@ -295,15 +320,23 @@ void Region::select_ends(const PassState& state) {
         if (first < last) nearest.add(p, words[near_end++]);
         while (near_end < last && key(near_end) == key(first)) selected.add(p, words[near_end++], rank++);
         while (far_begin > near_end && key(far_begin - 1) == key(last - 1)) --far_begin;
-        if (near_end < far_begin) after_nearest.add(p, words[near_end]);
-        if (near_end + 1 < far_begin) before_farthest.add(p, words[far_begin - 1]);
+        if (near_end < far_begin) {
+            const bool has_two = near_end + 1 < far_begin;
+            if (inner.put(p, key(near_end), key(far_begin - 1))) {
+                done += has_two ? 2 : 1;
+            } else {
+                after_nearest.add(p, words[near_end]);
+                if (has_two) before_farthest.add(p, words[far_begin - 1]);
+            }
+        }
         if (far_begin < last) farthest.add(p, words[far_begin]);
         for (std::uint32_t k = far_begin + 1; k < last; ++k) selected.add(p, words[k], rank++);
         // Only where the window writes nothing but its first key does the value of those outside come from outside.
-        if (selection.outside == Outside::one_value && near_end == last && last - first < size)
+        if (selection.outside == Outside::one_value && near_end == last && last - first < words.size())
             after_nearest.add(p, words[first > 0 ? 0 : last]);
-    }
+    });
     selected.end_ranks<end_ranks>({nearest, after_nearest, before_farthest, farthest});
+    count_visits(done);
 }
 
 // The samples that the present batch is drawn to.
@@ -360,7 +393,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     FragmentNeeds fetched = state.needs;
     if (frame_.key == DepthKey::shader_z && fetched.shader_z)
         fetched.shader_z = put_depths(batch.code, count, batch.shader_z);
-    fetched.color &= !(state.selection.has_plain_inside && is_inner(selected.rank));
+    fetched.color &= !(state.selection.keys_suffice && is_inner(selected.rank));
     fetched.reference &= !is_reference_key;  // a program that asks by_reference looks at no other depth
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it

@@ -272,7 +272,7 @@ std::optional<std::span<const Word>> Region::pixels_of_layer(const PassState& st
     const TargetStorage& color = at(state.color[0]);
     const Blended to{color.texels(0), mask(profile().denormals == DenormalRule::flush)};
     UninitializedVector<Word>& pixels = scratch_->layer_pixels;
-    if (pixels.size() < rect_.area()) pixels.resize(rect_.area());
+    if (pixels.size() < rect_.area() + spare_words) pixels.resize(rect_.area() + spare_words);
     const std::size_t found = find_pixels(info(color.format()).type, depth, surface, to, rect_.area(), pixels.data());
     for (const auto& targets : {std::span<const Target>{state.textures}, std::span<const Target>{state.reads}})
         for (const Target t : targets)

@@ -8,6 +8,7 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 
 #include "pipeline/formats/format.h"
 #include "pipeline/formats/lane_mask.h"
@@ -43,19 +44,18 @@ template <ChannelType type>
     return odd != 0;
 }
 
-// The pixels to visit, ascending, into `pixels`; how many they are. An odd value is seldom: a batch with one is visited whole.
+// The pixels to visit, ascending, into `pixels`, which has spare words behind as many; how many they are. An odd value is seldom: a batch with one is visited whole.
 template <ChannelType type>
 [[nodiscard]] std::size_t find_pixels(const Word* depth, const Word* surface, const Blended& to, std::size_t area,
                                       Word* pixels) {
     std::size_t found = 0;
     for (std::size_t first = 0; first < area; first += rasterizer::batch_capacity) {
         const std::size_t count = std::min<std::size_t>(area - first, rasterizer::batch_capacity);
-        const Word everywhere = mask(has_odd<type>(to, first, count));
-        Word some = everywhere;
-        for (std::size_t i = 0; i < count; ++i) some |= depth[first + i] ^ surface[first + i];
-        for (std::size_t i = 0; some != 0 && i < count; ++i) {
-            pixels[found] = static_cast<Word>(first + i);
-            found += ((depth[first + i] ^ surface[first + i]) | everywhere) != 0 ? 1 : 0;
+        if (has_odd<type>(to, first, count)) {
+            std::iota(pixels + found, pixels + found + count, static_cast<Word>(first));
+            found += count;
+        } else {
+            found += find_differing(depth, surface, first, count, pixels + found);
         }
     }
     return found;

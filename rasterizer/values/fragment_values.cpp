@@ -152,8 +152,11 @@ void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes&
     std::size_t kept = begin;
     for (std::size_t i = begin; i < static_cast<std::size_t>(batch.count); ++i) {
         if (!is_in_depth_range(depth[i - begin], value_to_code_.least, value_to_code_.greatest)) continue;
-        depth[kept - begin] = depth[i - begin];
-        move_lane(i, kept++, batch, weights);
+        if (kept != i) {
+            depth[kept - begin] = depth[i - begin];
+            move_lane(i, kept, batch, weights);
+        }
+        ++kept;
     }
     batch.count = static_cast<int>(kept);
 }

@@ -15,7 +15,7 @@ GROUPS = {
     "replay: fragments captured and recalled": ["pipeline/fragments/fragment_store.*", "pipeline/region/region_replay.cpp"],
     "selections: passes visit what they keep": [
         "pipeline/fragments/sorted_*", "pipeline/fragments/stored_updates.cpp", "pipeline/fragments/selected_fragments.h",
-        "pipeline/fragments/earliest_index.h", "pipeline/fragments/cursor_steps*", "pipeline/fragments/sort_arrivals.h",
+        "pipeline/fragments/earliest_index.h", "pipeline/fragments/sort_arrivals.h",
         "pipeline/region/region_select_runs.cpp", "pipeline/fragments/key_windows.h",
         "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp",
         "pipeline/stages/layer_pixels.h"],

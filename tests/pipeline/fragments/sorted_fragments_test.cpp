@@ -147,7 +147,7 @@ TEST_CASE("bounds are found wherever their cursors stood, and as many fragments 
     REQUIRE(sorted.sort(given.store, without_faint, column_pixels, std::uint64_t{64} << 20));
     const auto occupied = sorted.occupied();
     REQUIRE(occupied.size() > column_pixels / 2);
-    std::vector<std::uint64_t> low(occupied.size()), high(occupied.size());
+    std::vector<std::uint64_t> low(occupied.size()), high(occupied.size()), surface(occupied.size());
     std::uint64_t wrong_bounds = 0, wrong_counts = 0;
     for (int look = 0; look < 150; ++look) {
         // Anywhere, or a little behind where they were.
@@ -158,12 +158,15 @@ TEST_CASE("bounds are found wherever their cursors stood, and as many fragments 
         };
         std::ranges::for_each(low, move);
         std::ranges::for_each(high, move);
-        const auto keys = [](std::vector<std::uint64_t> bounds) {
+        const auto below = [&](std::vector<std::uint64_t> bounds, SortedFragments::Cursor which) {
             for (std::uint64_t& bound : bounds) bound = bound == 41 ? std::uint64_t{1} << 32 : bound;
-            return bounds;
+            return sorted.numbers_below(0, bounds, which);
         };
-        const auto first = sorted.numbers_below(keys(low), SortedFragments::Cursor::low);
-        const auto last = sorted.numbers_below(keys(high), SortedFragments::Cursor::high);
+        const auto first = below(low, SortedFragments::Cursor::low);
+        const auto last = below(high, SortedFragments::Cursor::high);
+        for (std::size_t k = 0; look % 4 == 0 && k < surface.size(); ++k)
+            surface[k] = static_cast<std::uint64_t>(random_int(random, 0, 41));
+        const auto before = below(surface, SortedFragments::Cursor::surface);
         for (std::size_t k = 0; k < occupied.size(); ++k) {
             const auto words = sorted.column(k);
             REQUIRE(words.data() == sorted.of(occupied[k]).data());
@@ -173,8 +176,7 @@ TEST_CASE("bounds are found wherever their cursors stood, and as many fragments 
             wrong_bounds += first[k] == count(low[k]) && last[k] == count(high[k]) ? 0 : 1;
             const std::uint32_t expected = first[k] < last[k] ? passing_one_by_one(words, first[k], last[k]) : 0;
             wrong_counts += sorted.passing(occupied[k], first[k], last[k]) == expected ? 0 : 1;
-            const auto surface = static_cast<std::uint32_t>(random_int(random, 0, 41));
-            wrong_bounds += sorted.before_surface(occupied[k], surface) == count(surface) ? 0 : 1;
+            wrong_bounds += before[k] == count(surface[k]) ? 0 : 1;
         }
     }
     CHECK(wrong_bounds == 0);

@@ -1,6 +1,7 @@
 // What passes leave out because it changes nothing: pixels of a quad where its layer has no fragment, targets for which a batch is neutral,
 // the old contents of a buffer that is handed over. Model: literal execution, which leaves nothing out.
 #include <catch2/catch.hpp>
+#include <functional>
 #include <limits>
 
 #include "tests/pipeline/region/both_ways.h"
@@ -190,6 +191,111 @@ TEST_CASE(
     CHECK(difference_with(ends_with(1, true), {.check_selections = true}).find("what it leaves in a target") !=
           std::string::npos);
     CHECK(difference_with(ends_with(3, false)).empty());  // without a selection nobody listens
+}
+
+namespace {
+
+// Columns of up to eight fragments at few depths: ties, 0 and denormals among them.
+const FragmentScene& deep_scene() {
+    static const FragmentScene scene = [] {
+        FragmentScene made{32, 24};
+        Random random{2064};
+        constexpr std::array depths{0.0f, 0x1p-140f, 0x1p-127f, 0x1p-126f, 0.25f, 0.5f, 0.625f, 0.75f, 0.875f, 1.0f};
+        for (auto& pixel : made.pixels) {
+            for (int n = random_int(random, 0, 8); n-- > 0;)
+                pixel.fragments.push_back(
+                    {depths[static_cast<std::size_t>(random_int(random, 0, 9))], random_color(random)});
+            if (random_int(random, 0, 4) == 0) pixel.opaque = GivenFragment{0.75f, {0, 1, 0, 1}};
+        }
+        return made;
+    }();
+    return scene;
+}
+
+std::string difference_in_depth(DepthKey key, const Body& body, bool checks, const char* profile = "ideal") {
+    TestFrame test{deep_scene(), profile};
+    test.frame.key = key;
+    test.frame.replay = {std::uint64_t{1} << 20, {}};
+    return difference_of(run_one_way(test.frame, body, Execution::literal, {}),
+                         run_one_way(test.frame, body, Execution::replay, {.check_selections = checks}));
+}
+
+// As ends_with, of a range that another target holds, so that all else is what lies between; `far` is what is written of a depth.
+Body inner_ends(const std::function<float(float)>& far, float cleared, Format format = Format::rg32f) {
+    return [=](Region& region) {
+        const Target range = region.make(Format::rg32f), next = region.make(format);
+        region.clear(range, {.color = {0, 1, 0, 0}});
+        PassState state;
+        state.color[0] = next;
+        state.blend[0] = blend_mode::max;
+        state.reads = {range, region.opaque_depth()};
+        state.selection = {.keeps = Keeps::ends, .before = region.opaque_depth(), .range = range, .keys_suffice = true};
+        for (int pass = 0; pass < 3; ++pass) {
+            region.clear(state.color[0], {.color = {cleared, cleared, 0, 0}});
+            static_cast<void>(region.draw(state, [&](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+                    const float z = in.shader_z[i], near = -own.color(0)[0][i], last = own.color(0)[1][i];
+                    const bool is_inside = z < std::bit_cast<float>(own.depth(1)[i]) && z >= near && z <= last;
+                    if (!is_inside) out.discard(static_cast<int>(i));
+                    const bool is_inner = pass == 0 || (z != near && z != last);
+                    out.color[0][0][i] = is_inner ? -z : -1.0f;
+                    out.color[0][1][i] = is_inner ? far(z) : -1.0f;
+                    out.color[0][2][i] = out.color[0][3][i] = 0.0f;
+                }
+            }));
+            std::swap(state.reads[0], state.color[0]);
+            state.selection.range = state.reads[0];
+            if (format != Format::rg32f) break;
+        }
+        region.publish(region.opaque_color());
+    };
+}
+
+// The nearest depth alone, behind what the pass before has found; `color`: the program has one, too.
+Body nearest_depths(bool has_color) {
+    return [=](Region& region) {
+        const Target found = region.make_depth(), peeled = region.make_depth(), color = region.make_color();
+        region.clear(peeled, {.depth = 0.0f});
+        PassState state;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = found;
+        if (has_color) state.color[0] = color;
+        state.reads[0] = peeled;
+        state.selection = {.keeps = Keeps::nearest, .behind = peeled, .keys_suffice = true};
+        for (int pass = 0; pass < 3; ++pass) {
+            region.copy(region.opaque_depth(), found);
+            static_cast<void>(region.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+                out.color[0] = in.color;
+                for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+                    if (in.code[i] <= own.depth(0)[i]) out.discard(static_cast<int>(i));
+            }));
+            region.copy(found, peeled);
+        }
+        region.publish(has_color ? color : region.opaque_color());
+    };
+}
+
+}  // namespace
+
+TEST_CASE("what follows from keys is what the program would have left; where it does not follow, the program is run") {
+    const auto depth = [](float z) { return z; };
+    for (const float cleared : {-1.0f, 0.5f, 2.0f, -0.0f, not_a_number}) {
+        for (const char* profile : {"ideal", "geforce8_dx101"})
+            for (const bool checks : {false, true}) {
+                INFO("cleared to " << cleared << ", " << profile << ", checked: " << checks);
+                CHECK(difference_in_depth(DepthKey::shader_z, inner_ends(depth, cleared), checks, profile).empty());
+            }
+    }
+    CHECK(difference_in_depth(DepthKey::shader_z, inner_ends(depth, -1.0f, Format::rgba32f), true).empty());
+    const auto negated = [](float z) { return -z; };
+    CHECK(
+        difference_in_depth(DepthKey::shader_z, inner_ends(negated, -1.0f), true).find("what it leaves in a target") !=
+        std::string::npos);
+    for (const bool has_color : {false, true})
+        for (const bool checks : {false, true}) {
+            INFO("colour: " << has_color << ", checked: " << checks);
+            CHECK(difference_in_depth(DepthKey::stored_code, nearest_depths(has_color), checks).empty());
+        }
 }
 
 TEST_CASE("a buffer that is handed over is a copy, counted as one, and what it held is not looked at") {
