@@ -144,9 +144,19 @@ rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const
     check(list);
     check(view);
     rasterizer::TriangleSoup soup;
-    for (const Instance& instance : list.instances)
-        if (is_selected(list.materials[instance.material], options.selection))
-            append(list, instance, view, options, soup);
+    std::size_t vertices = 0, indices = 0;
+    const auto for_each_selected = [&](auto visit) {
+        for (const Instance& instance : list.instances)
+            if (is_selected(list.materials[instance.material], options.selection)) visit(instance);
+    };
+    for_each_selected([&](const Instance& instance) {
+        vertices += list.meshes[instance.mesh].positions.size();
+        indices += list.meshes[instance.mesh].indices.size();
+    });
+    // A vector that grows copies what it has.
+    soup.vertices.reserve(vertices);
+    soup.indices.reserve(indices);
+    for_each_selected([&](const Instance& instance) { append(list, instance, view, options, soup); });
     return soup;
 }
 

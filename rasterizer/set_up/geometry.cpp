@@ -12,15 +12,22 @@
 namespace strata::rasterizer {
 namespace {
 
-// Vertices or triangles of a chunk. It is fixed, so no result depends on the number of threads (numbers.md 2.2).
-constexpr std::size_t chunk_size = 1024;
+// Vertices or triangles in chunks. They follow from the count alone, so no result depends on the number of threads
+// (numbers.md 2.2). Of a large mesh there are no more than 64, each with memory of its own.
+class Chunks {
+  public:
+    explicit Chunks(std::size_t count) : count_{count}, size_{std::max<std::size_t>(1024, (count / 64 + 16) & ~std::size_t{15})} {}
+    [[nodiscard]] std::size_t number() const noexcept { return (count_ + size_ - 1) / size_; }
+    // Calls body(chunk number, begin, end) for all of them.
+    template <class Body>
+    void for_each(int threads, const Body& body) const {
+        parallel_for(number(), threads,
+                     [&](std::size_t c) { body(c, c * size_, std::min(count_, (c + 1) * size_)); });
+    }
 
-// Calls body(chunk number, begin, end) for all of [0, count).
-template <class Body>
-void for_chunks(std::size_t count, int threads, const Body& body) {
-    parallel_for((count + chunk_size - 1) / chunk_size, threads,
-                 [&](std::size_t c) { body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size)); });
-}
+  private:
+    std::size_t count_, size_;
+};
 
 // The triangles of a soup by their numbers in its listing.
 class Listing {
@@ -126,11 +133,12 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
     if (state.window_positions && rules.w_signs == WSigns::by_corner)
         for (ClipVertex& v : soup.vertices) v.w = settled_w(v.w);
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
-    for_chunks(soup.vertices.size(), threads,
-               [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });
+    Chunks{soup.vertices.size()}.for_each(
+        threads, [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });
     const Listing listing{soup};
-    std::vector<SetupChunk> chunks((listing.count() + chunk_size - 1) / chunk_size);
-    for_chunks(listing.count(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    const Chunks triangles{listing.count()};
+    std::vector<SetupChunk> chunks(triangles.number());
+    triangles.for_each(threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
         SetupChunk chunk;
         chunk.triangles.reserve(end - begin);
         std::size_t run = 0;
