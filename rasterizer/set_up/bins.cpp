@@ -1,5 +1,5 @@
 // rasterizer/set_up/bins.cpp - which tiles a set-up triangle may touch: its box of pixel centres, less the tiles wholly
-// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists
+// outside an edge; of a small triangle the box is enough, and a tiny one that covers nothing is in none. Two walks, one that counts and one that fills, so the lists
 // have exactly the memory that they need.
 // Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
 #include <algorithm>
@@ -41,6 +41,7 @@ class TileWalk {
 
     template <class Visit>
     void visit(const TriangleRecord& triangle, Visit&& visit) const {
+        if (triangle.is_tiny && triangle.covered == 0) return;
         const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
         const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
         if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly

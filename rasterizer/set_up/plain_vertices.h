@@ -1,7 +1,7 @@
 // rasterizer/set_up/plain_vertices.h - vertices set up sixteen at a time, where there is nothing unusual about them.
 //
 // Rule     A vertex is plain if all of it is finite, it lies in the view volume, and its window position, 1 / w and attributes over
-//          w are finite, too. The corners of plain vertices have the bits of window.h; of the others nothing is said.
+//          w are finite, too; and those of its neighbours are. The corners of plain vertices have the bits of window.h; of the others nothing is said.
 // Tests    tests/rasterizer/set_up/setup_test.cpp
 #pragma once
 #include <array>

@@ -15,6 +15,7 @@
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/clip.h"
 #include "rasterizer/set_up/geometry.h"
+#include "rasterizer/set_up/plain_triangles.h"
 #include "rasterizer/set_up/window.h"
 
 namespace strata::rasterizer {
@@ -61,6 +62,11 @@ class TriangleSetup {
     // Adds up to TriangleGroup::size triangles in their order; boxes and areas are found for all of them at once.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
 
+    // Adds TriangleGroup::size triangles of a run, three of `indices` each, submitted from number `primitive` on, all at once;
+    // false, and nothing is added, if one of them is not plain.
+    [[nodiscard]] bool add_plain(const std::uint32_t* indices, std::uint32_t primitive, const TriangleRun& run,
+                                 SetupChunk& out) const;
+
     [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
 
   private:
@@ -99,6 +105,7 @@ class TriangleSetup {
     WindowTransform window_;
     std::optional<PlainVertexRules> plain_rules_;
     SetUpPlain set_up_plain_;
+    SetUpPlainTriangles set_up_plain_triangles_;
     std::span<const ClipVertex> vertices_;
     const VertexExtras& extras_;
     UninitializedVector<WindowCorner> corners_;
