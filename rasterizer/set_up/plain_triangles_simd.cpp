@@ -77,9 +77,8 @@ HWY_INLINE EdgeLanes edge_of(const GroupRules& rules, const Boxes& b, VI from_x,
     const VI dx = turn(hn::Sub(to_x, from_x), turned), dy = turn(hn::Sub(to_y, from_y), turned);
     const VI owner = hn::IfThenElse(hn::Eq(dy, hn::Zero(I{})), top ? dx : hn::Neg(dx), left ? hn::Neg(dy) : dy);
     const VI tie = hn::BitCast(I{}, hn::ShiftRight<31>(hn::BitCast(U{}, owner)));
-    const auto centre = [&](VI pixel, VI from) HWY_ATTR {
-        return hn::Sub(hn::Add(hn::ShiftLeftSame(pixel, bits), half), from);
-    };
+    const auto centre = [&](VI pixel, VI from)
+                            HWY_ATTR { return hn::Sub(hn::Add(hn::ShiftLeftSame(pixel, bits), half), from); };
     const VI value = hn::Sub(hn::Mul(dx, centre(b.y0, from_y)), hn::Mul(dy, centre(b.x0, from_x)));
     return {hn::Sub(value, tie), hn::ShiftLeftSame(hn::Neg(dy), bits), hn::ShiftLeftSame(dx, bits)};
 }
@@ -121,8 +120,8 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const Corners& cor
         hn::Or(hn::Or(hn::Gt(b.width, set(TriangleGroup::max_width)), hn::Gt(b.height, set(TriangleGroup::max_height))),
                hn::Gt(b.extent, set(TriangleGroup::max_extent)));
     if (!hn::AllFalse(I{}, is_large)) return false;
-    const VI area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
-                            hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
+    const VI area =
+        hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])), hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
     const VI turned = hn::BroadcastSignBit(area), zero = hn::Zero(I{});
     const Mask is_degenerate = hn::Eq(area, zero);
     const Mask is_negative = hn::MaskFromVec(turned);
@@ -146,7 +145,8 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const Corners& cor
     const Mask is_tiny = hn::And(is_kept, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
     const VI covered = coverage_of(b, edge, is_tiny);
     const VI left = hn::Sub(b.x0, set(rules.x0)), above = hn::Sub(b.y0, set(rules.y0));
-    const auto store = [&](Word word, VI v) HWY_ATTR { hn::Store(hn::BitCast(U{}, v), U{}, records.word[word] + first); };
+    const auto store = [&](Word word, VI v)
+                           HWY_ATTR { hn::Store(hn::BitCast(U{}, v), U{}, records.word[word] + first); };
     const auto pair = [](VI low, VI high) HWY_ATTR { return hn::Or(low, hn::ShiftLeft<16>(high)); };
     store(box_begin, pair(left, above));
     store(box_end, pair(hn::Add(left, b.width), hn::Add(above, b.height)));
@@ -156,8 +156,7 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const Corners& cor
 }
 
 bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
-            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out,
-            PlainFates& fates) {
+            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates) {
     Corners own;
     Records records;
     std::uint32_t marked = 0;
@@ -174,14 +173,11 @@ bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::
         if (!set_up_lanes(rules, own, first, records, found, kept)) return false;
     for (std::size_t k = 0; k < group_size; ++k) {
         // Written whether it is kept or not: the next one takes its place.
-        const std::array<std::uint32_t, words> record{indices[3 * k],
-                                                      indices[3 * k + 1],
-                                                      indices[3 * k + 2],
-                                                      primitive + static_cast<std::uint32_t>(k),
-                                                      rules.material,
-                                                      records.word[box_begin][k],
-                                                      records.word[box_end][k],
-                                                      records.word[flags][k]};
+        const std::array<std::uint32_t, words> record{
+            indices[3 * k],           indices[3 * k + 1],
+            indices[3 * k + 2],       primitive + static_cast<std::uint32_t>(k),
+            rules.material,           records.word[box_begin][k],
+            records.word[box_end][k], records.word[flags][k]};
         out[found.kept] = std::bit_cast<TriangleRecord>(record);
         found.kept += kept >> k & 1;
     }

@@ -34,6 +34,7 @@ struct DepthOf {
               spare_{static_cast<std::uint32_t>(state.pixels)},
               triangles_{triangles},
               plane_{z(0), z(1), z(2)} {}
+        HWY_INLINE bool suits() const { return true; }
 
         HWY_INLINE void operator()(const TinyPixels& pixels) {
             const V32 depth =

@@ -6,7 +6,8 @@
 //          `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row, weights) for
 //          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
 //          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
-//          One that has a class Tiny is given tiny triangles side by side (tiny_walk-inl.h): Tiny{state, triangles}, then (pixels).
+//          One that has a class Tiny is given tiny triangles side by side (tiny_walk-inl.h): Tiny{state, triangles}, then (pixels) and
+//          finish() as above, if it suits().
 //          One that `takes_edges` is given edge values of the snapped corners in the place of weights.
 // Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
 //          constants of an edge are below 2^50 there (row_walk_suits).
@@ -171,11 +172,11 @@ class RowWalk {
         for (std::size_t at = 0; at < group.size(); at += tiny_lanes) {
             const auto own = group.subspan(at, tiny_lanes);
             const TinyTriangles<unsnapped> triangles{geometry_, own.data(), rules_.clip, region_};
-            if (HWY_UNLIKELY(!triangles.has_weights())) {
+            typename Shade<unsnapped>::Tiny shade{state_, triangles};
+            if (HWY_UNLIKELY(!triangles.has_weights() || !shade.suits())) {
                 draw_any(own);
                 continue;
             }
-            typename Shade<unsnapped>::Tiny shade{state_, triangles};
             for (std::uint32_t i = 0; i < triangles.count(); i += tiny_lanes) shade(triangles.pixels(i));
             shade.finish(triangles.count());
         }

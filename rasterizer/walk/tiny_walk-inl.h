@@ -27,7 +27,7 @@ using U64 = hn::Rebind<std::uint64_t, F64>;
 
 HWY_INLINE V64 set64(double v) { return hn::Set(F64{}, v); }
 
-// Pixels of several triangles: the covered ones come first. `of` fetches a triangle's value for each of its pixels.
+// Pixels of several triangles: the covered ones come first, the other lanes are the region's first. `of` fetches a triangle's value for each of its pixels.
 class TinyPixels {
   public:
     hn::Vec<U32> pixel, lane;  // number in the region; which triangle's
@@ -52,8 +52,7 @@ class TinyPlane {
     // At each pixel, rounded once.
     HWY_INLINE V32 at(const TinyPixels& pixels, const Weights& b, const Geometry& geometry,
                       const std::uint32_t* triangles) const {
-        const V64 v = hn::Add(pixels.of(v_[0]),
-                              hn::Add(hn::Mul(b.b1, pixels.of(d1_)), hn::Mul(b.b2, pixels.of(d2_))));
+        const V64 v = hn::Add(pixels.of(v_[0]), hn::Add(hn::Mul(b.b1, pixels.of(d1_)), hn::Mul(b.b2, pixels.of(d2_))));
         if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
         auto unsure = hn::Zero(U32{});
         const V32 low = rounded(v, pixels.of(error_), unsure);
@@ -94,7 +93,9 @@ class TinyTriangles {
     // `triangles`: numbers in geometry.triangles, all tiny.
     HWY_INLINE TinyTriangles(const Geometry& geometry, const std::uint32_t* triangles, const Rect& clip,
                              const Rect& region)
-        : geometry_{geometry}, triangles_{triangles}, width_{hn::Set(U32{}, static_cast<std::uint32_t>(region.width()))} {
+        : geometry_{geometry},
+          triangles_{triangles},
+          width_{hn::Set(U32{}, static_cast<std::uint32_t>(region.width()))} {
         Loaded in;
         for (std::uint32_t k = 0; k < tiny_lanes; ++k) load(k, in);
         const V64 area = set_up_weights(in);
@@ -118,21 +119,24 @@ class TinyTriangles {
         const I32 di;
         TinyPixels p;
         p.count = count_ - first < tiny_lanes ? count_ - first : tiny_lanes;
-        const auto number = hn::IfThenElseZero(hn::FirstN(d, p.count), hn::LoadU(d, numbers_ + first));
+        const auto is_covered = hn::FirstN(d, p.count);
+        const auto number = hn::IfThenElseZero(is_covered, hn::LoadU(d, numbers_ + first));
         const auto column = hn::And(number, hn::Set(d, tiny_size - 1));
         const auto row = hn::And(hn::ShiftRight<2>(number), hn::Set(d, tiny_size - 1));
         p.lane = hn::ShiftRight<4>(number);
         const auto lane = hn::IndicesFromVec(d, p.lane);
         p.x = hn::BitCast(di, hn::Add(hn::TableLookupLanes(x_, lane), column));
         p.y = hn::BitCast(di, hn::Add(hn::TableLookupLanes(y_, lane), row));
-        p.pixel = hn::Add(hn::TableLookupLanes(first_pixel_, lane), hn::Add(column, hn::Mul(row, width_)));
+        const auto within = hn::Add(column, hn::Mul(row, width_));
+        p.pixel = hn::IfThenElseZero(is_covered, hn::Add(hn::TableLookupLanes(first_pixel_, lane), within));
         return p;
     }
     // WeightsAt of each pixel's own triangle.
     HWY_INLINE Weights weights(const TinyPixels& p) const {
         const V64 x = hn::PromoteTo(F64{}, p.x), y = hn::PromoteTo(F64{}, p.y), r = p.of(r_);
         if constexpr (unsnapped) {
-            const V64 dx = hn::Sub(hn::Add(x, set64(0.5)), p.of(a_[0])), dy = hn::Sub(hn::Add(y, set64(0.5)), p.of(b_[0]));
+            const V64 dx = hn::Sub(hn::Add(x, set64(0.5)), p.of(a_[0])),
+                      dy = hn::Sub(hn::Add(y, set64(0.5)), p.of(b_[0]));
             const V64 x1 = p.of(a_[1]), y1 = p.of(b_[1]), x2 = p.of(a_[2]), y2 = p.of(b_[2]);
             return {hn::Mul(hn::Sub(hn::Mul(dx, y2), hn::Mul(dy, x2)), r),
                     hn::Mul(hn::Sub(hn::Mul(dy, x1), hn::Mul(dx, y1)), r)};
@@ -259,7 +263,8 @@ class TinyTriangles {
     const hn::Vec<U32> width_;
     hn::Vec<U32> x_, y_, first_pixel_;  // of the box's first pixel
     V32 z_[3], inverse_w_[3];
-    V64 a_[3], b_[3], constant_[3], r_;  // unsnapped: corner 0, and 1 and 2 seen from it; snapped: steps of edges 1 and 2
+    V64 a_[3], b_[3], constant_[3],
+        r_;  // unsnapped: corner 0, and 1 and 2 seen from it; snapped: steps of edges 1 and 2
     std::uint32_t count_ = 0;
     bool has_weights_;
     alignas(64) std::uint32_t numbers_[16 * tiny_lanes + 16];

@@ -28,7 +28,8 @@ struct DenseCase {
         const float w = random_float(random, 0.5f, 2);
         const bool is_centre = corners % 11 == 0;
         const float px = is_centre ? std::floor(x) + 0.5f : x, py = is_centre ? std::floor(y) + 0.5f : y;
-        ClipVertex v{.x = (px / 35 - 1) * w, .y = (1 - py / 20) * w, .z = (depth + random_float(random, 0, 0.2f)) * w, .w = w};
+        ClipVertex v{
+            .x = (px / 35 - 1) * w, .y = (1 - py / 20) * w, .z = (depth + random_float(random, 0, 0.2f)) * w, .w = w};
         for (float& c : v.front) c = corners % 5 == 0 ? 0.5f : random_float(random, 0, 1);
         for (float& c : v.back) c = corners % 7 < 4 ? 0.25f : random_float(random, 0, 1);
         if (corners % 31 == 0 && corners > 0) v = soup.vertices.back();
@@ -43,7 +44,8 @@ struct DenseCase {
             const std::uint32_t c = corner(column, row + far, depth), d = corner(column + far, row + far, depth);
             for (const std::uint32_t v : {a, b, c, d, c, b}) soup.indices.push_back(v);
         }
-    const auto half = static_cast<std::uint32_t>(soup.indices.size() / 6 * 3), all = static_cast<std::uint32_t>(soup.indices.size());
+    const auto half = static_cast<std::uint32_t>(soup.indices.size() / 6 * 3),
+               all = static_cast<std::uint32_t>(soup.indices.size());
     soup.runs = {{0, half, 7, 0, true, false}, {half, all - half, 8, 1, false, true}};
     return soup;
 }
