@@ -2,7 +2,7 @@
 // wherever foreach_target.h asks.
 //
 // Rule     ColorPlanes of each pixel's own triangle.
-// Tests    tests/peeling/closed/tiny_frames_test.cpp: against literal execution
+// Tests    tests/peeling/dense_meshes_test.cpp: against literal execution
 #include <cstring>
 #include <limits>
 

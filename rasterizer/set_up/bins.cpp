@@ -129,16 +129,30 @@ void bin_triangles(Geometry& geometry, int tile_size, int threads) {
 
     const TileWalk walk{geometry};
     ChunkedBins bins{geometry.triangles.size(), tiles};
+    // The one tile of a triangle, for the second walk; `several` also stands for none.
+    constexpr std::uint32_t several = ~0u;
+    UninitializedVector<std::uint32_t> only_tile(geometry.triangles.size());
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* count) {
-        for (std::size_t i = begin; i < end; ++i)
-            walk.visit(geometry.triangles[i], [&](std::size_t tile) { ++count[tile]; });
+        for (std::size_t i = begin; i < end; ++i) {
+            std::uint32_t visits = 0;
+            walk.visit(geometry.triangles[i], [&](std::size_t tile) {
+                ++count[tile];
+                only_tile[i] = ++visits == 1 ? static_cast<std::uint32_t>(tile) : several;
+            });
+            if (visits == 0) only_tile[i] = several;
+        }
     });
     bins.to_offsets(geometry.bin_start);
     geometry.bin_triangles.resize(geometry.bin_start[tiles]);
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* next) {
+        const auto put = [&](std::size_t tile, std::size_t i) {
+            geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i);
+        };
         for (std::size_t i = begin; i < end; ++i)
-            walk.visit(geometry.triangles[i],
-                       [&](std::size_t tile) { geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i); });
+            if (only_tile[i] != several)
+                put(only_tile[i], i);
+            else
+                walk.visit(geometry.triangles[i], [&](std::size_t tile) { put(tile, i); });
     });
 }
 

@@ -149,6 +149,7 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
             setup.set_up_vertices(at, at + own.size());
         }
     });
+    setup.find_marked();
     const Listing listing{soup};
     const Chunks triangles{listing.count()};
     std::vector<SetupChunk> chunks(triangles.number());

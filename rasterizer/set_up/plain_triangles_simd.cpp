@@ -4,7 +4,9 @@
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_triangles_simd.cpp"
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 #include "hwy/foreach_target.h"  // compiles this file once a target
 #include "hwy/highway.h"
@@ -21,17 +23,13 @@ using VU = hn::Vec<U>;
 using VI = hn::Vec<I>;
 using Mask = hn::Mask<I>;
 constexpr std::size_t lanes = hn::MaxLanes(U{}), group_size = TriangleGroup::size;
+alignas(64) constexpr std::uint32_t numbers[group_size] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
-// The words of a TriangleRecord, each for all triangles of the group.
-enum Word : std::size_t { vertex0, vertex1, vertex2, primitive_word, material_word, box_begin, box_end, flags, words };
+// The words of the records of a group, four and four side by side.
 struct Records {
-    alignas(64) std::uint32_t word[words][group_size];
+    alignas(64) std::array<std::uint32_t, 4> first[group_size], second[group_size];
 };
-static_assert(sizeof(TriangleRecord) == words * sizeof(std::uint32_t));
-
-struct Corners {
-    alignas(64) std::int32_t p[3][group_size * 2];  // x, y
-};
+static_assert(sizeof(TriangleRecord) == 2 * sizeof(Records::first[0]) && std::is_trivially_copyable_v<TriangleRecord>);
 
 HWY_INLINE VI set(std::int32_t v) { return hn::Set(I{}, v); }
 HWY_INLINE VI least(VI a, VI b, VI c) { return hn::Min(hn::Min(a, b), c); }
@@ -110,11 +108,33 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
     return static_cast<std::uint32_t>(bytes[1]) << 8 | bytes[0];
 }
 
-// `lanes` triangles from number `first` of the group on: their fates, and as bits which are kept. False if one is not small.
-HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const Corners& corners, std::size_t first,
-                             Records& records, PlainFates& fates, std::uint32_t& kept_bits) {
+// Snapped positions: a corner is three words of 64 bits, and the first holds x and y.
+static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0);
+HWY_INLINE void gather(const WindowCorner* corners, VU vertex, VI& x, VI& y) {
+    using Half = hn::Half<U>;
+    using Wide = hn::Rebind<std::uint64_t, Half>;
+    const auto points = [&](hn::Vec<Half> vertices) HWY_ATTR {
+        const auto number = hn::PromoteTo(Wide{}, vertices);
+        const auto index = hn::BitCast(hn::RebindToSigned<Wide>{}, hn::Add(number, hn::Add(number, number)));
+        return hn::GatherIndex(Wide{}, reinterpret_cast<const std::uint64_t*>(corners), index);
+    };
+    const auto low = points(hn::LowerHalf(Half{}, vertex)), high = points(hn::UpperHalf(Half{}, vertex));
+    const auto joined = [](auto first, auto second) HWY_ATTR {
+        return hn::BitCast(I{}, hn::Combine(U{}, hn::TruncateTo(Half{}, second), hn::TruncateTo(Half{}, first)));
+    };
+    x = joined(low, high);
+    y = joined(hn::ShiftRight<32>(low), hn::ShiftRight<32>(high));
+}
+
+// `lanes` triangles from number `first` of the group on: their records, their fates, and as bits which are kept. False if one is not
+// small.
+HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
+                             const WindowCorner* corners, std::size_t first, Records& records, PlainFates& fates,
+                             std::uint32_t& kept_bits) {
+    VU vertex[3];
     VI x[3], y[3];
-    for (int i = 0; i < 3; ++i) hn::LoadInterleaved2(I{}, corners.p[i] + 2 * first, x[i], y[i]);
+    hn::LoadInterleaved3(U{}, indices + 3 * first, vertex[0], vertex[1], vertex[2]);
+    for (int i = 0; i < 3; ++i) gather(corners, vertex[i], x[i], y[i]);
     const Boxes b = boxes_of(rules.group, x, y);
     const Mask is_large =
         hn::Or(hn::Or(hn::Gt(b.width, set(TriangleGroup::max_width)), hn::Gt(b.height, set(TriangleGroup::max_height))),
@@ -145,40 +165,32 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const Corners& cor
     const Mask is_tiny = hn::And(is_kept, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
     const VI covered = coverage_of(b, edge, is_tiny);
     const VI left = hn::Sub(b.x0, set(rules.x0)), above = hn::Sub(b.y0, set(rules.y0));
-    const auto store = [&](Word word, VI v)
-                           HWY_ATTR { hn::Store(hn::BitCast(U{}, v), U{}, records.word[word] + first); };
-    const auto pair = [](VI low, VI high) HWY_ATTR { return hn::Or(low, hn::ShiftLeft<16>(high)); };
-    store(box_begin, pair(left, above));
-    store(box_end, pair(hn::Add(left, b.width), hn::Add(above, b.height)));
+    const auto pair = [](VI low, VI high) HWY_ATTR { return hn::BitCast(U{}, hn::Or(low, hn::ShiftLeft<16>(high))); };
     const VI facing = hn::IfThenElseZero(is_front, set(1)), tiny = hn::IfThenElseZero(is_tiny, set(2));
-    store(flags, pair(hn::Or(facing, tiny), covered));
+    const VU number = hn::Add(hn::Set(U{}, primitive), hn::Load(U{}, numbers + first));
+    hn::StoreInterleaved4(vertex[0], vertex[1], vertex[2], number, U{}, records.first[first].data());
+    hn::StoreInterleaved4(hn::Set(U{}, rules.material), pair(left, above),
+                          pair(hn::Add(left, b.width), hn::Add(above, b.height)),
+                          pair(hn::Or(facing, tiny), covered), U{}, records.second[first].data());
     return true;
 }
 
 bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
-            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates) {
-    Corners own;
-    Records records;
+            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out,
+            PlainFates& fates) {
     std::uint32_t marked = 0;
-    for (std::size_t k = 0; k < group_size; ++k)
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t v = indices[3 * k + i];
-            marked |= marks[v];
-            std::memcpy(&own.p[i][2 * k], &corners[v].p, sizeof(SubpixelPoint));
-        }
+    for (std::size_t i = 0; marks != nullptr && i < 3 * group_size; ++i) marked |= marks[indices[i]];
     if (marked != 0) return false;
+    Records records;
     std::uint32_t kept = 0;
     PlainFates found;
     for (std::size_t first = 0; first < group_size; first += lanes)
-        if (!set_up_lanes(rules, own, first, records, found, kept)) return false;
+        if (!set_up_lanes(rules, indices, primitive, corners.data(), first, records, found, kept)) return false;
     for (std::size_t k = 0; k < group_size; ++k) {
         // Written whether it is kept or not: the next one takes its place.
-        const std::array<std::uint32_t, words> record{
-            indices[3 * k],           indices[3 * k + 1],
-            indices[3 * k + 2],       primitive + static_cast<std::uint32_t>(k),
-            rules.material,           records.word[box_begin][k],
-            records.word[box_end][k], records.word[flags][k]};
-        out[found.kept] = std::bit_cast<TriangleRecord>(record);
+        auto* const bytes = reinterpret_cast<std::byte*>(out + found.kept);
+        std::memcpy(bytes, &records.first[k], sizeof records.first[k]);
+        std::memcpy(bytes + sizeof records.first[k], &records.second[k], sizeof records.second[k]);
         found.kept += kept >> k & 1;
     }
     fates = found;

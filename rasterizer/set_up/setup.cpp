@@ -112,6 +112,12 @@ void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept
     for (; i < end; ++i) set_up_vertex(i);
 }
 
+void TriangleSetup::find_marked() noexcept {
+    VertexMarks all = 0;
+    for (const VertexMarks marks : marks_) all |= marks;
+    any_marked_ = all != 0;
+}
+
 // Positive area is clockwise as memory shows it, rows downwards; with y up the window shows the same picture.
 bool TriangleSetup::is_front(std::int64_t area, bool mirrored) const noexcept {
     const bool clockwise = (area > 0) == (state_.y_direction == YDirection::up);
@@ -307,7 +313,8 @@ bool TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primit
     PlainFates fates;
     out.triangles.resize(before + TriangleGroup::size);
     const bool is_done =
-        set_up_plain_triangles_(rules, indices, primitive, corners_, marks_.data(), &out.triangles[before], fates);
+        set_up_plain_triangles_(rules, indices, primitive, corners_, any_marked_ ? marks_.data() : nullptr,
+                                &out.triangles[before], fates);
     out.triangles.resize(before + fates.kept);
     out.counters.triangles_in += is_done ? TriangleGroup::size : 0;
     out.counters.culled += fates.culled;

@@ -57,6 +57,8 @@ class TriangleSetup {
 
     // First every vertex once ...
     void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
+    // ... then find out whether any of them is marked ...
+    void find_marked() noexcept;
     // ... then triangles: appends what is left of `triangle` to `out` and counts what is not.
     void add(const SourceTriangle& triangle, SetupChunk& out) const;
     // Adds up to TriangleGroup::size triangles in their order; boxes and areas are found for all of them at once.
@@ -110,6 +112,7 @@ class TriangleSetup {
     const VertexExtras& extras_;
     UninitializedVector<WindowCorner> corners_;
     UninitializedVector<VertexMarks> marks_;
+    bool any_marked_ = true;
 };
 
 }  // namespace strata::rasterizer
