@@ -170,14 +170,13 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_
     const VU number = hn::Add(hn::Set(U{}, primitive), hn::Load(U{}, numbers + first));
     hn::StoreInterleaved4(vertex[0], vertex[1], vertex[2], number, U{}, records.first[first].data());
     hn::StoreInterleaved4(hn::Set(U{}, rules.material), pair(left, above),
-                          pair(hn::Add(left, b.width), hn::Add(above, b.height)),
-                          pair(hn::Or(facing, tiny), covered), U{}, records.second[first].data());
+                          pair(hn::Add(left, b.width), hn::Add(above, b.height)), pair(hn::Or(facing, tiny), covered),
+                          U{}, records.second[first].data());
     return true;
 }
 
 bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
-            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out,
-            PlainFates& fates) {
+            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates) {
     std::uint32_t marked = 0;
     for (std::size_t i = 0; marks != nullptr && i < 3 * group_size; ++i) marked |= marks[indices[i]];
     if (marked != 0) return false;

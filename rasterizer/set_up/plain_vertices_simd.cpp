@@ -57,10 +57,11 @@ HWY_INLINE bool attributes_are_finite(const float* vertices, const float* invers
 
 HWY_INLINE hn::Mask<F> within(VF low, VF c, VF high) { return hn::And(hn::Ge(c, low), hn::Le(c, high)); }
 
-// As within_viewport of clip.h.
-HWY_INLINE hn::Mask<F> in_view(const VF (&p)[4], bool symmetric) {
-    const VF w = p[3], minus_w = hn::Neg(w), least_z = symmetric ? minus_w : hn::Zero(F{});
-    return hn::And(hn::And(within(minus_w, p[0], w), within(minus_w, p[1], w)),
+// As within_viewport of clip.h, and somewhat further: inside all planes.
+HWY_INLINE hn::Mask<F> within_planes(const VF (&p)[4], const PlainVertexRules& r) {
+    const VF w = p[3], least_z = r.symmetric ? hn::Neg(w) : hn::Zero(F{});
+    const VF x = hn::Mul(hn::Set(F{}, r.reach[0]), w), y = hn::Mul(hn::Set(F{}, r.reach[1]), w);
+    return hn::And(hn::And(within(hn::Neg(x), p[0], x), within(hn::Neg(y), p[1], y)),
                    hn::And(within(least_z, p[2], w), hn::Ge(w, hn::Set(F{}, least_w))));
 }
 
@@ -102,7 +103,7 @@ HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vert
     hn::Store(z, d, out.z);
     hn::Store(inverse_w, d, out.inverse_w);
     if (HWY_UNLIKELY(!attributes_are_finite(vertices, out.inverse_w))) return hn::Lt(guard, guard);
-    return hn::And(magnitude.is_finite(), in_view(p, r.symmetric));
+    return hn::And(magnitude.is_finite(), within_planes(p, r));
 }
 
 std::uint32_t set_up(const PlainVertexRules& rules, const ClipVertex* vertices, WindowCorner* corners) {

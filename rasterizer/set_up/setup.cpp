@@ -312,9 +312,8 @@ bool TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primit
     const std::size_t before = out.triangles.size();
     PlainFates fates;
     out.triangles.resize(before + TriangleGroup::size);
-    const bool is_done =
-        set_up_plain_triangles_(rules, indices, primitive, corners_, any_marked_ ? marks_.data() : nullptr,
-                                &out.triangles[before], fates);
+    const bool is_done = set_up_plain_triangles_(rules, indices, primitive, corners_,
+                                                 any_marked_ ? marks_.data() : nullptr, &out.triangles[before], fates);
     out.triangles.resize(before + fates.kept);
     out.counters.triangles_in += is_done ? TriangleGroup::size : 0;
     out.counters.culled += fates.culled;
