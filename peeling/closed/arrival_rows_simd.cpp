@@ -63,6 +63,8 @@ struct AppendOf {
     template <bool unsnapped>
     class TinyOf {
       public:
+        using Triangles = raster::TinyTriangles<unsnapped>;
+
         HWY_INLINE TinyOf(AppendState& state, const raster::TinyTriangles<unsnapped>& triangles)
             : state_{state}, to_{state.to}, triangles_{triangles}, color_{triangles}, depth_{z(0), z(1), z(2)} {}
         HWY_INLINE bool suits() const { return !color_.has_flat(); }

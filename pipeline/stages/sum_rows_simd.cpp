@@ -144,6 +144,8 @@ struct SumOf {
     template <bool unsnapped>
     class TinyOf {
       public:
+        using Triangles = raster::TinyTriangles<unsnapped>;
+
         HWY_INLINE TinyOf(SumState& state, const raster::TinyTriangles<unsnapped>& triangles)
             : state_{state},
               planes_{state.planes},

@@ -6,6 +6,7 @@
 #include "hwy/highway.h"
 #include "rasterizer/walk/row_walk-inl.h"
 #include "rasterizer/walk/rows.h"
+#include "rasterizer/walk/tiny_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::rasterizer::HWY_NAMESPACE {
@@ -27,6 +28,8 @@ struct DepthOf {
     template <bool unsnapped>
     class TinyOf {
       public:
+        using Triangles = TinyTriangles<unsnapped>;
+
         HWY_INLINE TinyOf(DepthState& state, const TinyTriangles<unsnapped>& triangles)
             : state_{state},
               to_code_{state.to_code},

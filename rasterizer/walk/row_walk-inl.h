@@ -6,7 +6,7 @@
 //          `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row, weights) for
 //          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
 //          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
-//          One that has a class Tiny is given tiny triangles side by side (tiny_walk-inl.h): Tiny{state, triangles}, then (pixels) and
+//          One that has a class Tiny is given tiny triangles side by side (Tiny::Triangles, of tiny_walk-inl.h): Tiny{state, triangles}, then (pixels) and
 //          finish() as above, if it suits().
 //          One that `takes_edges` is given edge values of the snapped corners in the place of weights.
 // Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
@@ -17,7 +17,6 @@
 #include "rasterizer/values/fragment_values.h"
 #include "rasterizer/values/weights-inl.h"
 #include "rasterizer/walk/rows.h"
-#include "rasterizer/walk/tiny_walk-inl.h"
 
 #if defined(STRATA_RASTERIZER_ROW_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRATA_RASTERIZER_ROW_WALK_INL_H
@@ -169,15 +168,16 @@ class RowWalk {
     }
     template <bool unsnapped>
     [[gnu::flatten]] void draw_tiny(std::span<const std::uint32_t> group) {
-        for (std::size_t at = 0; at < group.size(); at += tiny_lanes) {
-            const auto own = group.subspan(at, tiny_lanes);
-            const TinyTriangles<unsnapped> triangles{geometry_, own.data(), rules_.clip, region_};
-            typename Shade<unsnapped>::Tiny shade{state_, triangles};
+        using Tiny = typename Shade<unsnapped>::Tiny;
+        for (std::size_t at = 0; at < group.size(); at += row_lanes) {
+            const auto own = group.subspan(at, row_lanes);
+            const typename Tiny::Triangles triangles{geometry_, own.data(), rules_.clip, region_};
+            Tiny shade{state_, triangles};
             if (HWY_UNLIKELY(!triangles.has_weights() || !shade.suits())) {
                 draw_any(own);
                 continue;
             }
-            for (std::uint32_t i = 0; i < triangles.count(); i += tiny_lanes) shade(triangles.pixels(i));
+            for (std::uint32_t i = 0; i < triangles.count(); i += row_lanes) shade(triangles.pixels(i));
             shade.finish(triangles.count());
         }
     }
