@@ -8,10 +8,9 @@
 namespace strata::rasterizer {
 namespace {
 
-// |dz/dx| + |dz/dy| over the unsnapped positions, per pixel. Without an area there the plane is the snapped one. What is surely less than
-// `enough` may come back as 0: a division less.
-[[nodiscard]] double steepness(const Geometry& geometry, const TriangleRecord& triangle, const std::array<double, 3>& z,
-                               double enough) {
+// |dz/dx| + |dz/dy| over the unsnapped positions, per pixel. Without an area there the plane is the snapped one.
+[[nodiscard]] double steepness(const Geometry& geometry, const TriangleRecord& triangle,
+                               const std::array<double, 3>& z) {
     const auto at = [&](std::size_t i) { return geometry.corners[triangle.vertex[i]].unsnapped; };
     const auto [x0, y0] = at(0);
     const double x1 = double{at(1)[0]} - x0, y1 = double{at(1)[1]} - y0;
@@ -19,8 +18,7 @@ namespace {
     const double area = x1 * y2 - x2 * y1;
     if (area == 0.0) return 0.0;
     const double d1 = z[1] - z[0], d2 = z[2] - z[0];
-    const double rise = std::fabs(d1 * y2 - d2 * y1) + std::fabs(d2 * x1 - d1 * x2);
-    return rise < 0.99 * enough * std::fabs(area) ? 0.0 : rise / std::fabs(area);
+    return (std::fabs(d1 * y2 - d2 * y1) + std::fabs(d2 * x1 - d1 * x2)) / std::fabs(area);
 }
 
 // A bound of what rounding each step to binary32 does to a depth (float_planes.h), to first order with room: the rounded
@@ -56,7 +54,6 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
     const double subpixel = 1.0 / (1 << geometry.rules.subpixel_bits);
     const bool has_spans = geometry.rules.coverage == CoverageRule::float_spans;
     const double beyond = has_spans ? 1.0 : geometry.rules.snap == Snap::nearest_even ? 0.5 * subpixel : subpixel;
-    const double per_beyond = 1.0 / beyond;  // exact: of a power of two
     // Memory is asked for this many triangles ahead, because a list names triangles here and there.
     constexpr std::size_t ahead = 16;
     for (std::size_t k = 0; k < triangles.size(); ++k) {
@@ -69,7 +66,7 @@ double depth_bound(const Geometry& geometry, std::span<const std::uint32_t> tria
         const std::array<double, 3> z = geometry.depths(i);
         double most = larger(larger(z[0], z[1]), z[2]);
         if (geometry.rules.plane_origin == PlaneOrigin::unsnapped)
-            most += beyond * steepness(geometry, geometry.triangles[i], z, (greatest - most) * per_beyond);
+            most += beyond * steepness(geometry, geometry.triangles[i], z);
         if (geometry.rules.plane_rule != PlaneRule::exact) most += step_error(geometry, geometry.triangles[i], z);
         greatest = larger(most, greatest);
         const double corners = larger(larger(std::fabs(z[0]), std::fabs(z[1])), std::fabs(z[2]));
