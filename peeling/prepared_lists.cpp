@@ -46,6 +46,7 @@ const PreparedDraw& PreparedLists::transparent(ListOrder order) {
     if (!prepared) {
         PrepareOptions ordered = prepare_options(transparent_selection());
         ordered.order = ordering(order);
+        ordered.is_checked = true;  // at construction
         prepared = prepare(s_.list, s_.view, s_.raster, ordered);
     }
     return *prepared;

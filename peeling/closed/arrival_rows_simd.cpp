@@ -7,6 +7,7 @@
 #include "peeling/closed/arrival_rows.h"
 #include "peeling/programs/keys-inl.h"
 #include "pipeline/stages/color_planes-inl.h"
+#include "pipeline/stages/tiny_colors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
@@ -37,13 +38,80 @@ struct AppendState {
     bool has_room = true;
 };
 
+// Without room the word is dropped and the walk goes on: its caller gives the whole band up.
+HWY_INLINE void put_one(AppendState& state, const Arrivals& to, std::uint32_t pixel, std::uint64_t word) {
+    const std::uint32_t rank = to.count[pixel];
+    if (HWY_UNLIKELY(rank >= to.ranks)) {
+        state.has_room = false;
+        return;
+    }
+    to.count[pixel] = rank + 1;
+    to.word[rank * to.stride + pixel] = word;
+}
+// Hidden fragments are counted and not kept. A float key never counts as exactly at the surface, as in scalar::append.
+template <bool by_shader_z>
+HWY_INLINE void hide_one(const Arrivals& to, std::uint32_t pixel, std::uint32_t key) {
+    ++to.hidden[pixel];
+    to.at_surface[pixel] += !by_shader_z && key == to.opaque[to.same_opaque ? 0 : pixel] ? 1 : 0;
+}
+
 // The body of a walk over rows (rasterizer/walk/row_walk-inl.h): one Shade a triangle, called for each vector of its
 // pixels.
 template <bool by_shader_z>
 struct AppendOf {
+    // Pixels of tiny triangles, each a place of its own: a triangle of one colour goes the other way.
+    template <bool unsnapped>
+    class TinyOf {
+      public:
+        using Triangles = raster::TinyTriangles<unsnapped>;
+
+        HWY_INLINE TinyOf(AppendState& state, const raster::TinyTriangles<unsnapped>& triangles)
+            : state_{state}, to_{state.to}, triangles_{triangles}, color_{triangles}, depth_{z(0), z(1), z(2)} {}
+        HWY_INLINE bool suits() const { return !color_.has_flat(); }
+
+        HWY_INLINE void operator()(const raster::TinyPixels& pixels) {
+            if (HWY_UNLIKELY(!(state_.has_room &= state_.to.places <= to_.most_places))) return;
+            const raster::Weights b = triangles_.weights(pixels);
+            const V32 z = depth_.at(pixels, b, triangles_.geometry(), triangles_.triangles());
+            const WordVec surface = to_.same_opaque
+                                        ? hn::Set(U32{}, to_.opaque[0])
+                                        : hn::GatherIndex(U32{}, to_.opaque, hn::BitCast(raster::I32{}, pixels.pixel));
+            const Keys<U32> keys = by_shader_z ? keys_of_z(U32{}, z, surface)
+                                               : keys_of_code(U32{}, raster::codes(z, state_.to_code), surface);
+            const WordMask is_visible = hn::And(hn::RebindMask(U32{}, pixels.covered()), keys.is_visible);
+            state_.to.has_denormals |= !hn::AllFalse(U32{}, hn::And(is_visible, keys.is_denormal));
+            V32 color[4];
+            color_.at(pixels, b, color);
+            const std::uint32_t place = state_.to.places;
+            for (std::size_t c = 0; c < 4; ++c) hn::StoreU(color[c], F32{}, to_.color[c] + place);
+            state_.to.places += pixels.count;
+            alignas(64) std::uint32_t pixel[lane_count], key[lane_count];
+            hn::Store(pixels.pixel, U32{}, pixel);
+            hn::Store(keys.key, U32{}, key);
+            const std::uint32_t visible = bits_of(is_visible);
+            for (std::uint32_t i = 0; i < pixels.count; ++i)
+                if ((visible >> i & 1) != 0)
+                    put_one(state_, to_, pixel[i], std::uint64_t{key[i]} << 32 | (place + i));
+                else
+                    hide_one<by_shader_z>(to_, pixel[i], key[i]);
+        }
+        HWY_INLINE void finish(std::uint64_t pixels) { state_.fragments += pixels; }
+
+      private:
+        HWY_INLINE raster::V64 z(std::size_t i) const { return hn::PromoteTo(F64{}, triangles_.z(i)); }
+
+        AppendState& state_;
+        const Arrivals to_;
+        const raster::TinyTriangles<unsnapped>& triangles_;
+        const pipeline::HWY_NAMESPACE::TinyColors<unsnapped> color_;
+        const raster::TinyPlane<unsnapped> depth_;
+    };
+
     template <bool unsnapped>
     class Shade {
       public:
+        using Tiny = TinyOf<unsnapped>;
+
         HWY_INLINE Shade(AppendState& state, const DrawnTriangle& triangle)
             : state_{state},
               to_{state.to},
@@ -76,13 +144,13 @@ struct AppendOf {
             const std::uint32_t covered = raster::bits_of(pixels.covered), visible = covered & bits_of(keys.is_visible);
             const auto end = static_cast<std::size_t>(std::popcount(covered));
             if (HWY_LIKELY(visible == covered)) {
-                for (std::size_t i = 0; i < end; ++i) put_one(pixel[i], word[i]);
+                for (std::size_t i = 0; i < end; ++i) put_one(state_, to_, pixel[i], word[i]);
             } else {
                 for (std::size_t i = 0; i < end; ++i)
                     if ((visible >> i & 1) != 0)
-                        put_one(pixel[i], word[i]);
+                        put_one(state_, to_, pixel[i], word[i]);
                     else
-                        hide_one(pixel[i], static_cast<std::uint32_t>(word[i] >> 32));
+                        hide_one<by_shader_z>(to_, pixel[i], static_cast<std::uint32_t>(word[i] >> 32));
             }
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
@@ -143,8 +211,6 @@ struct AppendOf {
             return hn::Or(hn::ShiftLeft<32>(hn::PromoteTo(Wide{}, key)), hn::PromoteTo(Wide{}, place));
         }
 
-        // Hidden fragments are counted and not kept. A float key never counts as exactly at the surface, as in
-        // scalar::append.
         HWY_INLINE void hide(std::size_t pixel, WordVec key, WordMask lost) const {
             const auto add = [&](std::uint32_t* counts, WordMask which) HWY_ATTR {
                 const WordVec more = hn::Add(hn::LoadU(U32{}, counts + pixel), hn::Set(U32{}, 1));
@@ -155,10 +221,6 @@ struct AppendOf {
             const WordVec surface =
                 to_.same_opaque ? hn::Set(U32{}, to_.opaque[0]) : hn::LoadU(U32{}, to_.opaque + pixel);
             add(to_.at_surface, hn::And(lost, hn::Eq(key, surface)));
-        }
-        HWY_INLINE void hide_one(std::uint32_t pixel, std::uint32_t key) const {
-            ++to_.hidden[pixel];
-            to_.at_surface[pixel] += !by_shader_z && key == to_.opaque[to_.same_opaque ? 0 : pixel] ? 1 : 0;
         }
 
         // Neighbours where all covered pixels have as many arrivals. That branch looks at counts alone, which are there early.
@@ -183,17 +245,6 @@ struct AppendOf {
             hn::ScatterIndex(words, wide, to_.word,
                              hn::ConvertTo(hn::RebindToSigned<Wide>{}, hn::IfThenElse(is_put_here, index, nobodys)));
         }
-        // Without room the word is dropped and the walk goes on: its caller gives the whole band up.
-        HWY_INLINE void put_one(std::uint32_t pixel, std::uint64_t word) {
-            const std::uint32_t rank = to_.count[pixel];
-            if (HWY_UNLIKELY(rank >= to_.ranks)) {
-                state_.has_room = false;
-                return;
-            }
-            to_.count[pixel] = rank + 1;
-            to_.word[rank * to_.stride + pixel] = word;
-        }
-
         AppendState& state_;
         const Arrivals to_;  // what stands in the state, where a store could not have changed it
         const rasterizer::DepthConversion<float> to_code_;

@@ -31,28 +31,49 @@ bool is_selected(const Material& material, Selection selection) {
     return (material.alpha_mode == AlphaMode::blend) == (selection == Selection::transparent);
 }
 
-// Appends an instance to the soup. Vertices and indices go in chunks of fixed size, each written by one thread.
+// The vertices of a soup before they have values: which mesh each part of them is, and how it is transformed.
+class SoupVertices {
+  public:
+    void add(const VertexStage& stage, std::size_t count) {
+        parts_.push_back({count_, stage});
+        count_ += count;
+    }
+    [[nodiscard]] std::size_t count() const noexcept { return count_; }
+    // Those from number `begin` on.
+    void write(std::size_t begin, std::span<rasterizer::ClipVertex> out) const {
+        auto part = std::ranges::upper_bound(parts_, begin, {}, &Part::begin) - 1;
+        for (std::size_t done = 0; done < out.size(); ++part) {
+            const std::size_t at = begin + done;
+            const std::size_t end = part + 1 == parts_.end() ? count_ : (part + 1)->begin;
+            const std::size_t count = std::min(end - at, out.size() - done);
+            part->stage.run(at - part->begin, out.subspan(done, count));
+            done += count;
+        }
+    }
+
+  private:
+    struct Part {
+        std::size_t begin;
+        VertexStage stage;
+    };
+    std::vector<Part> parts_;
+    std::size_t count_ = 0;
+};
+
+constexpr std::size_t chunk = 1024;  // vertices or indices that a thread writes
+
+// Appends an instance's vertices, its indices from number soup.indices[first_index] on, and its run.
 void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
-            rasterizer::TriangleSoup& soup) {
+            SoupVertices& vertices, std::size_t first_index, rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
-    const VertexStage stage{mesh, material, view, instance.model,
-                            material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale};
-    const std::size_t base = soup.vertices.size(), first_index = soup.indices.size();
-    soup.vertices.resize(base + mesh.positions.size());
-    soup.indices.resize(first_index + mesh.indices.size());
-    constexpr std::size_t chunk = 1024;
-    const std::size_t vertex_chunks = (mesh.positions.size() + chunk - 1) / chunk;
-    const std::size_t index_chunks = (mesh.indices.size() + chunk - 1) / chunk;
-    parallel_for(vertex_chunks + index_chunks, options.threads, [&](std::size_t c) {
-        if (c < vertex_chunks) {
-            const std::size_t count = std::min(chunk, mesh.positions.size() - c * chunk);
-            stage.run(c * chunk, std::span{soup.vertices}.subspan(base + c * chunk, count));
-            return;
-        }
-        const std::size_t begin = (c - vertex_chunks) * chunk, end = std::min(mesh.indices.size(), begin + chunk);
-        for (std::size_t i = begin; i < end; ++i)
-            soup.indices[first_index + i] = static_cast<std::uint32_t>(base) + mesh.indices[i];
+    const auto base = static_cast<std::uint32_t>(vertices.count());
+    vertices.add(
+        {mesh, material, view, instance.model, material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale},
+        mesh.positions.size());
+    parallel_for((mesh.indices.size() + chunk - 1) / chunk, options.threads, [&](std::size_t c) {
+        const std::size_t begin = c * chunk, end = std::min(mesh.indices.size(), begin + chunk);
+        for (std::size_t i = begin; i < end; ++i) soup.indices[first_index + i] = base + mesh.indices[i];
     });
     soup.runs.push_back({.first_index = static_cast<std::uint32_t>(first_index),
                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
@@ -60,6 +81,33 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
                          .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
                          .double_sided = material.double_sided,
                          .mirrored = linear_determinant(instance.model) < 0});
+}
+
+// The soup of the selected instances, whose vertices have no values yet.
+rasterizer::TriangleSoup lay_out(const DrawList& list, const View& view, const PrepareOptions& options,
+                                 SoupVertices& vertices) {
+    rasterizer::TriangleSoup soup;
+    const auto for_each_selected = [&](auto visit) {
+        for (const Instance& instance : list.instances)
+            if (is_selected(list.materials[instance.material], options.selection)) visit(instance);
+    };
+    std::size_t indices = 0;
+    for_each_selected([&](const Instance& i) { indices += list.meshes[i.mesh].indices.size(); });
+    soup.indices.resize(indices);
+    std::size_t at = 0;
+    for_each_selected([&](const Instance& instance) {
+        append(list, instance, view, options, vertices, at, soup);
+        at += list.meshes[instance.mesh].indices.size();
+    });
+    soup.vertices.resize(vertices.count());
+    return soup;
+}
+
+void write_all(const SoupVertices& vertices, int threads, rasterizer::TriangleSoup& soup) {
+    parallel_for((vertices.count() + chunk - 1) / chunk, threads, [&](std::size_t c) {
+        const std::size_t count = std::min(chunk, vertices.count() - c * chunk);
+        vertices.write(c * chunk, std::span{soup.vertices}.subspan(c * chunk, count));
+    });
 }
 
 // The values of a vertex that the options ask for beside position and colour, in this order: r and q, then texture
@@ -143,10 +191,9 @@ bool has_perspective(const View& view) noexcept { return view.projection[2][3] !
 rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const PrepareOptions& options) {
     check(list);
     check(view);
-    rasterizer::TriangleSoup soup;
-    for (const Instance& instance : list.instances)
-        if (is_selected(list.materials[instance.material], options.selection))
-            append(list, instance, view, options, soup);
+    SoupVertices vertices;
+    rasterizer::TriangleSoup soup = lay_out(list, view, options, vertices);
+    write_all(vertices, options.threads, soup);
     return soup;
 }
 
@@ -156,8 +203,15 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     check(profile);
     // Before the transform, whose quotient rows read the state.
     check(state);
-    rasterizer::TriangleSoup soup = transform(list, view, options);
-    if (options.alteration != nullptr && options.alteration->vertices) options.alteration->vertices(soup);
+    if (!options.is_checked) check(list);
+    check(view);
+    SoupVertices vertices;
+    rasterizer::TriangleSoup soup = lay_out(list, view, options, vertices);
+    // Vertices that nobody asks for before are written while they are set up.
+    const bool alters = options.alteration != nullptr && options.alteration->vertices;
+    const bool is_written = alters || options.order;
+    if (is_written) write_all(vertices, options.threads, soup);
+    if (alters) options.alteration->vertices(soup);
     SubmissionOrder order;
     if (options.order) order = options.order(soup);
     soup.order = std::move(order.triangles);
@@ -167,7 +221,9 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     PreparedDraw prepared;
     rasterizer::RasterState scaled = state;
     scaled.w_scale = w_scale_of(view, state);
-    prepared.geometry = rasterizer::set_up(std::move(soup), scaled, rules, options.threads);
+    rasterizer::VertexSource source;
+    if (!is_written) source = [&](std::size_t begin, auto out) { vertices.write(begin, out); };
+    prepared.geometry = rasterizer::set_up(std::move(soup), scaled, rules, options.threads, source);
     if (options.alteration != nullptr && options.alteration->corners) options.alteration->corners(prepared.geometry);
     if (options.tile_size != 0) bin_triangles(prepared.geometry, options.tile_size, options.threads);
     if (options.receives_shadow) prepared.needs.shadow = shadow_coordinates;

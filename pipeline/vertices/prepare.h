@@ -98,6 +98,8 @@ struct PrepareOptions {
     CoordinateUnits units{};
     // Every colour is multiplied by the comparison of shadow_stage.h.
     bool receives_shadow = false;
+    // The list has been checked (check_list.h), and has not changed since.
+    bool is_checked = false;
     // Null: none.
     const VertexAlteration* alteration = nullptr;
 };

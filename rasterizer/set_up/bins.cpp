@@ -1,5 +1,5 @@
 // rasterizer/set_up/bins.cpp - which tiles a set-up triangle may touch: its box of pixel centres, less the tiles wholly
-// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists
+// outside an edge; of a small triangle the box is enough, and a tiny one that covers nothing is in none. Two walks, one that counts and one that fills, so the lists
 // have exactly the memory that they need.
 // Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
 #include <algorithm>
@@ -41,6 +41,7 @@ class TileWalk {
 
     template <class Visit>
     void visit(const TriangleRecord& triangle, Visit&& visit) const {
+        if (triangle.is_tiny && triangle.covered == 0) return;
         const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
         const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
         if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly
@@ -128,16 +129,30 @@ void bin_triangles(Geometry& geometry, int tile_size, int threads) {
 
     const TileWalk walk{geometry};
     ChunkedBins bins{geometry.triangles.size(), tiles};
+    // The one tile of a triangle, for the second walk; `several` also stands for none.
+    constexpr std::uint32_t several = ~0u;
+    UninitializedVector<std::uint32_t> only_tile(geometry.triangles.size());
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* count) {
-        for (std::size_t i = begin; i < end; ++i)
-            walk.visit(geometry.triangles[i], [&](std::size_t tile) { ++count[tile]; });
+        for (std::size_t i = begin; i < end; ++i) {
+            std::uint32_t visits = 0;
+            walk.visit(geometry.triangles[i], [&](std::size_t tile) {
+                ++count[tile];
+                only_tile[i] = ++visits == 1 ? static_cast<std::uint32_t>(tile) : several;
+            });
+            if (visits == 0) only_tile[i] = several;
+        }
     });
     bins.to_offsets(geometry.bin_start);
     geometry.bin_triangles.resize(geometry.bin_start[tiles]);
     bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* next) {
+        const auto put = [&](std::size_t tile, std::size_t i) {
+            geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i);
+        };
         for (std::size_t i = begin; i < end; ++i)
-            walk.visit(geometry.triangles[i],
-                       [&](std::size_t tile) { geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i); });
+            if (only_tile[i] != several)
+                put(only_tile[i], i);
+            else
+                walk.visit(geometry.triangles[i], [&](std::size_t tile) { put(tile, i); });
     });
 }
 

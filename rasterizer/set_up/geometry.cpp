@@ -12,15 +12,22 @@
 namespace strata::rasterizer {
 namespace {
 
-// Vertices or triangles of a chunk. It is fixed, so no result depends on the number of threads (numbers.md 2.2).
-constexpr std::size_t chunk_size = 1024;
+// Vertices or triangles in chunks. They follow from the count alone, so no result depends on the number of threads
+// (numbers.md 2.2). Of a large mesh there are no more than 64, each with memory of its own.
+class Chunks {
+  public:
+    explicit Chunks(std::size_t count)
+        : count_{count}, size_{std::max<std::size_t>(1024, (count / 64 + 16) & ~std::size_t{15})} {}
+    [[nodiscard]] std::size_t number() const noexcept { return (count_ + size_ - 1) / size_; }
+    // Calls body(chunk number, begin, end) for all of them.
+    template <class Body>
+    void for_each(int threads, const Body& body) const {
+        parallel_for(number(), threads, [&](std::size_t c) { body(c, c * size_, std::min(count_, (c + 1) * size_)); });
+    }
 
-// Calls body(chunk number, begin, end) for all of [0, count).
-template <class Body>
-void for_chunks(std::size_t count, int threads, const Body& body) {
-    parallel_for((count + chunk_size - 1) / chunk_size, threads,
-                 [&](std::size_t c) { body(c, c * chunk_size, std::min(count, (c + 1) * chunk_size)); });
-}
+  private:
+    std::size_t count_, size_;
+};
 
 // The triangles of a soup by their numbers in its listing.
 class Listing {
@@ -40,6 +47,13 @@ class Listing {
         const std::uint32_t* index =
             &soup_.indices[soup_.runs[run].first_index + std::size_t{3} * (number - start_[run])];
         return {{index[0], index[1], index[2]}, number, primitive, &soup_.runs[run]};
+    }
+
+    // The indices of `count` triangles from `primitive` on, in submission order; none if they do not lie side by side in the run
+    // where the last one was found.
+    [[nodiscard]] const std::uint32_t* side_by_side(std::size_t primitive, std::size_t count, std::size_t run) const {
+        if (!soup_.order.empty() || primitive < start_[run] || primitive + count > start_[run + 1]) return nullptr;
+        return &soup_.indices[soup_.runs[run].first_index + 3 * (primitive - start_[run])];
     }
 
   private:
@@ -119,23 +133,36 @@ SetupTriangle Geometry::triangle(std::size_t i) const noexcept {
     return t;
 }
 
-Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads) {
+Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads,
+                const VertexSource& source) {
     const FloatEnvironment ours;
     check(state);
     check(soup);
-    if (state.window_positions && rules.w_signs == WSigns::by_corner)
-        for (ClipVertex& v : soup.vertices) v.w = settled_w(v.w);
+    const bool settles = state.window_positions && rules.w_signs == WSigns::by_corner;
     TriangleSetup setup{state, rules, soup.vertices, soup.extras};
-    for_chunks(soup.vertices.size(), threads,
-               [&](std::size_t, std::size_t begin, std::size_t end) { setup.set_up_vertices(begin, end); });
+    Chunks{soup.vertices.size()}.for_each(threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+        constexpr std::size_t few = 1024;  // as stay in the caches between one step and the next
+        for (std::size_t at = begin; at < end; at += few) {
+            const auto own = std::span{soup.vertices}.subspan(at, std::min(few, end - at));
+            if (source) source(at, own);
+            for (std::size_t i = 0; settles && i < own.size(); ++i) own[i].w = settled_w(own[i].w);
+            setup.set_up_vertices(at, at + own.size());
+        }
+    });
+    setup.find_marked();
     const Listing listing{soup};
-    std::vector<SetupChunk> chunks((listing.count() + chunk_size - 1) / chunk_size);
-    for_chunks(listing.count(), threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    const Chunks triangles{listing.count()};
+    std::vector<SetupChunk> chunks(triangles.number());
+    triangles.for_each(threads, [&](std::size_t c, std::size_t begin, std::size_t end) {
         SetupChunk chunk;
         chunk.triangles.reserve(end - begin);
         std::size_t run = 0;
         std::array<SourceTriangle, TriangleGroup::size> group;
         for (std::size_t at = begin; at < end; at += group.size()) {
+            const std::uint32_t* const plain = listing.side_by_side(at, group.size(), run);
+            if (plain != nullptr && at + group.size() <= end &&
+                setup.add_plain(plain, static_cast<std::uint32_t>(at), soup.runs[run], chunk))
+                continue;
             const std::size_t count = std::min(group.size(), end - at);
             for (std::size_t k = 0; k < count; ++k) group[k] = listing.at(static_cast<std::uint32_t>(at + k), run);
             setup.add(std::span{group}.first(count), chunk);

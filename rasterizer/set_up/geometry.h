@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -63,9 +64,14 @@ struct TriangleRecord {
     std::uint32_t primitive = 0;            // submission index of the source triangle
     std::uint32_t material = 0;
     PixelBox box;  // the pixels of the viewport whose centres lie in its bounding box: there are some
-    bool front_facing = true;
+    bool front_facing : 1 = true;
+    // The box has at most tiny_size pixels either way, the corners lie at most TriangleGroup::max_extent apart, and `covered` says
+    // which pixels of the box are covered: row by row, tiny_size bits a row.
+    bool is_tiny : 1 = false;
     std::uint8_t negative_w = 0;  // bit i: w of corner i is negative (WSigns::by_corner)
+    std::uint16_t covered = 0;
 };
+inline constexpr int tiny_size = 4;
 
 // A TriangleRecord with the values of its corners gathered from the arrays of Geometry.
 struct SetupTriangle {
@@ -125,9 +131,14 @@ struct Geometry {
     [[nodiscard]] SetupTriangle triangle(std::size_t i) const noexcept;
 };
 
+// Writes a soup's vertices from number `begin` on.
+using VertexSource = std::function<void(std::size_t begin, std::span<ClipVertex> vertices)>;
+
 // Clips, projects, snaps, culls and sets up every triangle of `soup`, in parallel, result independent of `threads`.
-// The vertices become the geometry's: who moves the soup in saves their copy. Throws InputError (check_input.h).
-[[nodiscard]] Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads);
+// The vertices become the geometry's: who moves the soup in saves their copy. With a source they have no values yet, and get them from
+// it, some at a time, just before they are set up. Throws InputError (check_input.h).
+[[nodiscard]] Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& rules, int threads,
+                              const VertexSource& source = {});
 
 // Sorts the set-up triangles into square tiles of `tile_size` pixels (8, 16, 32, 64 or 128) over the viewport,
 // row-major; in parallel, result independent of `threads`.

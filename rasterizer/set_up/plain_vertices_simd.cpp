@@ -2,6 +2,9 @@
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
+#include <algorithm>
+#include <cstring>
+
 #include "hwy/foreach_target.h"  // compiles this file once a target
 #include "hwy/highway.h"
 #include "rasterizer/set_up/clip.h"
@@ -18,31 +21,47 @@ using VF = hn::Vec<F>;
 constexpr std::size_t lanes = hn::MaxLanes(F{});
 
 // A vertex is 14 floats: x y z w, then what is interpolated.
-// component_of[i] is the distance in floats from vertex 0 to vertex i.
-constexpr int components = sizeof(ClipVertex) / sizeof(float), first_attribute = 4;
-alignas(64) constexpr std::int32_t component_of[plain_vertex_count] = {0,   14,  28,  42,  56,  70,  84,  98,
-                                                                       112, 126, 140, 154, 168, 182, 196, 210};
-static_assert(component_of[1] == components);
+constexpr std::size_t components = sizeof(ClipVertex) / sizeof(float), first_attribute = 4;
 
 // The greatest magnitude yet, as bits: infinities and NaN are the greatest.
+template <class D>
 class Magnitude {
   public:
-    HWY_INLINE Magnitude() : greatest_{hn::Zero(I{})} {}
-    HWY_INLINE void add(VF v) { greatest_ = hn::Max(greatest_, hn::BitCast(I{}, hn::Abs(v))); }
-    HWY_INLINE hn::Mask<F> is_finite() const {
-        return hn::RebindMask(F{}, hn::Lt(greatest_, hn::Set(I{}, 0x7f800000)));
+    HWY_INLINE Magnitude() : greatest_{hn::Zero(Integers{})} {}
+    HWY_INLINE void add(hn::Vec<D> v) { greatest_ = hn::Max(greatest_, hn::BitCast(Integers{}, hn::Abs(v))); }
+    HWY_INLINE hn::Mask<D> is_finite() const {
+        return hn::RebindMask(D{}, hn::Lt(greatest_, hn::Set(Integers{}, 0x7f800000)));
     }
 
   private:
-    hn::Vec<I> greatest_;
+    using Integers = hn::RebindToSigned<D>;
+    hn::Vec<Integers> greatest_;
 };
+
+// Whether the attributes of `lanes` vertices are finite, and what they are over w: all of them together, for they nearly always are.
+HWY_INLINE bool attributes_are_finite(const float* vertices, const float* inverse_w) {
+    using D = hn::CappedTag<float, 8>;
+    constexpr std::size_t step = hn::MaxLanes(D{});
+    Magnitude<D> magnitude;
+    for (std::size_t k = 0; k < lanes; ++k) {
+        const float* const vertex = vertices + k * components;
+        const auto factor = hn::Set(D{}, inverse_w[k]);
+        for (std::size_t c = first_attribute; c < components; c += step) {
+            const auto value = hn::LoadU(D{}, vertex + std::min(c, components - step));
+            magnitude.add(value);
+            magnitude.add(hn::Mul(value, factor));
+        }
+    }
+    return hn::AllTrue(D{}, magnitude.is_finite());
+}
 
 HWY_INLINE hn::Mask<F> within(VF low, VF c, VF high) { return hn::And(hn::Ge(c, low), hn::Le(c, high)); }
 
-// As within_viewport of clip.h.
-HWY_INLINE hn::Mask<F> in_view(const VF (&p)[4], bool symmetric) {
-    const VF w = p[3], minus_w = hn::Neg(w), least_z = symmetric ? minus_w : hn::Zero(F{});
-    return hn::And(hn::And(within(minus_w, p[0], w), within(minus_w, p[1], w)),
+// As within_viewport of clip.h, and somewhat further: inside all planes.
+HWY_INLINE hn::Mask<F> within_planes(const VF (&p)[4], const PlainVertexRules& r) {
+    const VF w = p[3], least_z = r.symmetric ? hn::Neg(w) : hn::Zero(F{});
+    const VF x = hn::Mul(hn::Set(F{}, r.reach[0]), w), y = hn::Mul(hn::Set(F{}, r.reach[1]), w);
+    return hn::And(hn::And(within(hn::Neg(x), p[0], x), within(hn::Neg(y), p[1], y)),
                    hn::And(within(least_z, p[2], w), hn::Ge(w, hn::Set(F{}, least_w))));
 }
 
@@ -66,16 +85,13 @@ struct CornerLanes {
 // The others may hold anything: set_up_vertex writes them anew.
 HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vertices, CornerLanes& out) {
     const F d;
-    const auto component = [&](int c)
-                               HWY_ATTR { return hn::GatherIndex(d, vertices + c, hn::Load(I{}, component_of)); };
-    const VF p[4] = {component(0), component(1), component(2), component(3)};
+    alignas(64) float positions[4 * lanes];
+    for (std::size_t k = 0; k < lanes; ++k)
+        std::memcpy(positions + 4 * k, vertices + k * components, 4 * sizeof(float));
+    VF p[4];
+    hn::LoadInterleaved4(d, positions, p[0], p[1], p[2], p[3]);
     const VF inverse_w = hn::Div(hn::Set(d, 1.0f), p[3]), guard = hn::Set(d, r.guard);
-    Magnitude magnitude;
-    for (int c = first_attribute; c < components; ++c) {
-        const VF value = component(c);
-        magnitude.add(value);
-        magnitude.add(hn::Mul(value, inverse_w));
-    }
+    Magnitude<F> magnitude;
     const VF x = map(r, 0, p[0], p[3], inverse_w), y = map(r, 1, p[1], p[3], inverse_w);
     const VF z = map(r, 2, p[2], p[3], inverse_w);
     for (const VF v : {p[0], p[1], p[2], p[3], inverse_w, x, y, z}) magnitude.add(v);
@@ -86,7 +102,8 @@ HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vert
     hn::Store(snapped(r, guarded_y), I{}, out.y);
     hn::Store(z, d, out.z);
     hn::Store(inverse_w, d, out.inverse_w);
-    return hn::And(magnitude.is_finite(), in_view(p, r.symmetric));
+    if (HWY_UNLIKELY(!attributes_are_finite(vertices, out.inverse_w))) return hn::Lt(guard, guard);
+    return hn::And(magnitude.is_finite(), within_planes(p, r));
 }
 
 std::uint32_t set_up(const PlainVertexRules& rules, const ClipVertex* vertices, WindowCorner* corners) {

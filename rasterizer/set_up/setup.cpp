@@ -62,6 +62,10 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       window_{state, rules},
       plain_rules_{window_.plain_rules(state.clip_depth)},
       set_up_plain_{clipper_.holds_view_volume() && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
+      set_up_plain_triangles_{!state.polygon_offset.enabled && !state.window_positions &&
+                                      rules.coverage == CoverageRule::snapped_edges
+                                  ? rasterizer::set_up_plain_triangles()
+                                  : nullptr},
       vertices_{vertices},
       extras_{extras},
       corners_(vertices.size()),
@@ -108,6 +112,12 @@ void TriangleSetup::set_up_vertices(std::size_t begin, std::size_t end) noexcept
     for (; i < end; ++i) set_up_vertex(i);
 }
 
+void TriangleSetup::find_marked() noexcept {
+    VertexMarks all = 0;
+    for (const VertexMarks marks : marks_) all |= marks;
+    any_marked_ = all != 0;
+}
+
 // Positive area is clockwise as memory shows it, rows downwards; with y up the window shows the same picture.
 bool TriangleSetup::is_front(std::int64_t area, bool mirrored) const noexcept {
     const bool clockwise = (area > 0) == (state_.y_direction == YDirection::up);
@@ -138,8 +148,14 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     // A triangle that reaches through infinity may cover any pixel of the window; behind the eye with all of itself, none.
     const Rect box = intersection(negative == 0 ? shape.box : state_.viewport, state_.viewport);
     if (box.area() == 0 || negative == all_corners || is_out_of_range(piece.corner)) return Fate::outside;
-    out.triangles.push_back(
-        {piece.vertex, triangle.primitive, triangle.run->material, in_viewport(box, state_.viewport), front, negative});
+    out.triangles.push_back({.vertex = piece.vertex,
+                             .primitive = triangle.primitive,
+                             .material = triangle.run->material,
+                             .box = in_viewport(box, state_.viewport),
+                             .front_facing = front,
+                             .negative_w = negative});
+    if (!state_.window_positions && rules_.coverage == CoverageRule::snapped_edges)
+        find_tiny({a->p, b->p, c->p}, box, rules_, out.triangles.back());
     if (state_.polygon_offset.enabled) out.offset_z.push_back(with_offset(piece.corner));
     return Fate::kept;
 }
@@ -192,6 +208,8 @@ TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, con
     if (group.width[k] == 0 || group.height[k] == 0) return Fate::outside;
     const PixelBox box = in_viewport(group.box(k), state_.viewport);
     out.triangles.push_back({triangle.vertex, triangle.primitive, triangle.run->material, box, front});
+    const auto& [a, b, c] = triangle.vertex;
+    find_tiny({corners_[a].p, corners_[b].p, corners_[c].p}, group.box(k), rules_, out.triangles.back());
     return Fate::kept;
 }
 
@@ -278,6 +296,30 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
         else
             add(triangles[k], out);
     }
+}
+
+bool TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primitive, const TriangleRun& run,
+                              SetupChunk& out) const {
+    if (set_up_plain_triangles_ == nullptr) return false;
+    const Rect& viewport = state_.viewport;
+    const PlainTriangleRules rules{.group = {viewport, rules_.subpixel_bits, rules_.tie_rule},
+                                   .x0 = viewport.x0,
+                                   .y0 = viewport.y0,
+                                   .material = run.material,
+                                   .positive_is_front = is_front(1, run.mirrored),
+                                   .drops_front = !run.double_sided && is_culled(true),
+                                   .drops_back = !run.double_sided && is_culled(false)};
+    const std::size_t before = out.triangles.size();
+    PlainFates fates;
+    out.triangles.resize(before + TriangleGroup::size);
+    const bool is_done = set_up_plain_triangles_(rules, indices, primitive, corners_,
+                                                 any_marked_ ? marks_.data() : nullptr, &out.triangles[before], fates);
+    out.triangles.resize(before + fates.kept);
+    out.counters.triangles_in += is_done ? TriangleGroup::size : 0;
+    out.counters.culled += fates.culled;
+    out.counters.outside += fates.outside;
+    out.counters.degenerate += fates.degenerate;
+    return is_done;
 }
 
 void TriangleSetup::count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept {

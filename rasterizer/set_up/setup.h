@@ -15,6 +15,7 @@
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/clip.h"
 #include "rasterizer/set_up/geometry.h"
+#include "rasterizer/set_up/plain_triangles.h"
 #include "rasterizer/set_up/window.h"
 
 namespace strata::rasterizer {
@@ -56,10 +57,17 @@ class TriangleSetup {
 
     // First every vertex once ...
     void set_up_vertices(std::size_t begin, std::size_t end) noexcept;
+    // ... then find out whether any of them is marked ...
+    void find_marked() noexcept;
     // ... then triangles: appends what is left of `triangle` to `out` and counts what is not.
     void add(const SourceTriangle& triangle, SetupChunk& out) const;
     // Adds up to TriangleGroup::size triangles in their order; boxes and areas are found for all of them at once.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
+
+    // Adds TriangleGroup::size triangles of a run, three of `indices` each, submitted from number `primitive` on, all at once;
+    // false, and nothing is added, if one of them is not plain.
+    [[nodiscard]] bool add_plain(const std::uint32_t* indices, std::uint32_t primitive, const TriangleRun& run,
+                                 SetupChunk& out) const;
 
     [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
 
@@ -99,10 +107,12 @@ class TriangleSetup {
     WindowTransform window_;
     std::optional<PlainVertexRules> plain_rules_;
     SetUpPlain set_up_plain_;
+    SetUpPlainTriangles set_up_plain_triangles_;
     std::span<const ClipVertex> vertices_;
     const VertexExtras& extras_;
     UninitializedVector<WindowCorner> corners_;
     UninitializedVector<VertexMarks> marks_;
+    bool any_marked_ = true;
 };
 
 }  // namespace strata::rasterizer

@@ -1,4 +1,4 @@
-// rasterizer/set_up/triangle_walk.h - the triangles of a triangles, a group at a time, and the rows of a large one:
+// rasterizer/set_up/triangle_walk.h - the triangles of a region, a group at a time, and the rows of a large one:
 // what every walk over a region starts with. Tests: tests/rasterizer/walk/tile_rasterizer_test.cpp, rows_test.cpp
 #pragma once
 #include <algorithm>
@@ -24,13 +24,18 @@ struct RowSpan {
     return rules;
 }
 
-// Sets up `triangles` (indices into geometry.triangles) group after group in `group` and calls visit(the group's part
-// of it) for each. Triangles and corners of the groups to come are prefetched meanwhile.
+// Sets up `triangles` (indices into geometry.triangles), of which there are some and no more than a group has, in `group`.
+inline void set_up_group(const Geometry& geometry, const GroupRules& rules, const SmallKernels& kernels,
+                         std::span<const std::uint32_t> triangles, TriangleGroup& group) {
+    const auto vertices = [&](std::size_t k) -> const auto& { return geometry.triangles[triangles[k]].vertex; };
+    load_corners(geometry.corners, triangles.size(), vertices, group);
+    kernels.set_up(rules, group);
+}
+
+// Calls visit(part) for `triangles` group after group. Triangles and corners of the groups to come are prefetched meanwhile.
 template <class Visit>
-void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span<const std::uint32_t> triangles,
-                    TriangleGroup& group, const Visit& visit) {
+void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> triangles, const Visit& visit) {
     constexpr std::size_t size = TriangleGroup::size;
-    const SmallKernels& kernels = small_kernels();
     const auto part = [&](std::size_t at) {
         const auto rest = triangles.subspan(std::min(at, triangles.size()));
         return rest.first(std::min(size, rest.size()));
@@ -40,11 +45,7 @@ void for_each_group(const Geometry& geometry, const GroupRules& rules, std::span
         for (const std::uint32_t t : part(at + 2 * size)) __builtin_prefetch(&geometry.triangles[t]);
         for (const std::uint32_t t : part(at + size))
             for (const std::uint32_t v : geometry.triangles[t].vertex) __builtin_prefetch(&geometry.corners[v]);
-        const std::span<const std::uint32_t> own = part(at);
-        const auto vertices = [&](std::size_t k) -> const auto& { return geometry.triangles[own[k]].vertex; };
-        load_corners(geometry.corners, own.size(), vertices, group);
-        kernels.set_up(rules, group);
-        visit(own);
+        visit(part(at));
     }
 }
 

@@ -89,8 +89,14 @@ class WindowTransform {
     // For sixteen at a time, where no more is done than these rules say.
     [[nodiscard]] constexpr std::optional<PlainVertexRules> plain_rules(ClipDepth depth) const noexcept {
         if (is_done_ || rules_.w_divide == WDivide::nv20 || rules_.viewport != ViewportArithmetic::separate) return {};
+        const auto reach = [this](const Axis& axis) {
+            const auto size = [](float v) { return v < 0.0f ? -v : v; };
+            const float half = 0.5f * (guard_ - size(axis.offset)) / size(axis.scale);
+            return rules_.clip == ClipVolume::guard_band && half > 1.0f ? half : 1.0f;
+        };
         return PlainVertexRules{.scale = {x_.scale, y_.scale, z_.scale},
                                 .offset = {x_.offset, y_.offset, z_.offset},
+                                .reach = {reach(x_), reach(y_)},
                                 .guard = guard_,
                                 .subpixels = static_cast<float>(1 << rules_.subpixel_bits),
                                 .divides = rules_.w_divide == WDivide::quotient,

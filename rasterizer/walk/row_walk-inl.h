@@ -6,6 +6,8 @@
 //          `Shade` is a template over "planes are unsnapped": Shade<unsnapped>{state, triangle}, then (row, weights) for
 //          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
 //          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
+//          One that has a class Tiny is given tiny triangles side by side (Tiny::Triangles, of tiny_walk-inl.h): Tiny{state, triangles}, then (pixels) and
+//          finish() as above, if it suits().
 //          One that `takes_edges` is given edge values of the snapped corners in the place of weights.
 // Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
 //          constants of an edge are below 2^50 there (row_walk_suits).
@@ -125,20 +127,61 @@ concept takes_pixels = requires(Shade shade, const Pixels& at, const Weights& b)
 template <class Shade>
 concept takes_edges = Shade::takes_edges;
 
+template <class Shade>
+concept takes_tiny = requires {
+    typename Shade::Tiny;
+};
+
 // Draws the triangles of a list in a region. `State` is what the pass keeps; a Shade is made for each triangle (or
 // each max_span_rows rows of a large one) and dies after its finish().
 template <template <bool> class Shade, class State>
 class RowWalk {
   public:
     HWY_INLINE RowWalk(State& state, const Geometry& geometry, const Rect& region)
-        : state_{state}, geometry_{geometry}, region_{region}, rules_{group_rules(geometry, region)} {}
+        : state_{state},
+          geometry_{geometry},
+          region_{region},
+          rules_{group_rules(geometry, region)},
+          kernels_{small_kernels()},
+          has_tiny_{geometry.offset_z.empty() && geometry.rules.window_z == WindowZ::unit_interval} {}
 
     void draw(std::span<const std::uint32_t> triangles) {
-        const auto visit = [this](std::span<const std::uint32_t> group) HWY_ATTR { draw_group(group); };
-        for_each_group(geometry_, rules_, triangles, group_, visit);
+        const bool is_unsnapped = geometry_.rules.plane_origin == PlaneOrigin::unsnapped;
+        for_each_group(geometry_, triangles, [&](std::span<const std::uint32_t> group) HWY_ATTR {
+            if constexpr (takes_tiny<Shade<true>>)
+                if (has_tiny_ && is_tiny(group)) return is_unsnapped ? draw_tiny<true>(group) : draw_tiny<false>(group);
+            draw_any(group);
+        });
     }
 
   private:
+    void draw_any(std::span<const std::uint32_t> triangles) {
+        set_up_group(geometry_, rules_, kernels_, triangles, group_);
+        draw_group(triangles);
+    }
+
+    // A whole group of tiny triangles; a list's last ones go the other way.
+    [[nodiscard]] bool is_tiny(std::span<const std::uint32_t> triangles) const {
+        bool all = triangles.size() == TriangleGroup::size;
+        for (const std::uint32_t t : triangles) all &= geometry_.triangles[t].is_tiny;
+        return all;
+    }
+    template <bool unsnapped>
+    [[gnu::flatten]] void draw_tiny(std::span<const std::uint32_t> group) {
+        using Tiny = typename Shade<unsnapped>::Tiny;
+        for (std::size_t at = 0; at < group.size(); at += row_lanes) {
+            const auto own = group.subspan(at, row_lanes);
+            const typename Tiny::Triangles triangles{geometry_, own.data(), rules_.clip, region_};
+            Tiny shade{state_, triangles};
+            if (HWY_UNLIKELY(!triangles.has_weights() || !shade.suits())) {
+                draw_any(own);
+                continue;
+            }
+            for (std::uint32_t i = 0; i < triangles.count(); i += row_lanes) shade(triangles.pixels(i));
+            shade.finish(triangles.count());
+        }
+    }
+
     [[gnu::flatten]] void draw_group(std::span<const std::uint32_t> triangles) {
         for (std::size_t k = 0; k < triangles.size(); ++k) {
             if (group_.reached[k] == 0) continue;
@@ -284,6 +327,8 @@ class RowWalk {
     const Geometry& geometry_;
     Rect region_;
     GroupRules rules_;
+    const SmallKernels& kernels_;
+    const bool has_tiny_;
     TriangleGroup group_;
     std::array<RowSpan, max_span_rows + 1> spans_;
 };

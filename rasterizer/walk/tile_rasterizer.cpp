@@ -24,7 +24,10 @@ class TileRasterizer::Pass {
         if (geometry_.rules.coverage == CoverageRule::float_spans)
             for (const std::uint32_t t : triangles) draw_float_spans(t);
         else
-            for_each_group(geometry_, rules_, triangles, group_, [&](auto group) { draw_group(group); });
+            for_each_group(geometry_, triangles, [&](auto group) {
+                set_up_group(geometry_, rules_, small_, group, group_);
+                draw_group(group);
+            });
         flush();
     }
 

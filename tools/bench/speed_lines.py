@@ -20,7 +20,8 @@ GROUPS = {
         "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp",
         "pipeline/stages/layer_pixels.h"],
     "rows: passes without batches": [
-        "rasterizer/walk/*rows*", "rasterizer/walk/row_walk*", "pipeline/region/region_rows.cpp", "pipeline/stages/sum_rows*"],
+        "rasterizer/walk/*rows*", "rasterizer/walk/row_walk*", "rasterizer/walk/tiny_walk*", "pipeline/stages/tiny_colors*",
+        "pipeline/region/region_rows.cpp", "pipeline/stages/sum_rows*"],
     "words: targets without gathers": [
         "pipeline/formats/image_words*", "pipeline/stages/lane_words.h", "peeling/programs/average_words*"],
 }

@@ -6,7 +6,7 @@
 
 #include "rasterizer/base/simd.h"
 #include "rasterizer/walk/tile_rasterizer.h"
-#include "tests/rasterizer/scene.h"
+#include "tests/rasterizer/dense.h"
 
 namespace {
 
@@ -88,6 +88,30 @@ TEST_CASE("rows of depth leave the codes and the counts of fragments tested one 
                 }
             }
         }
+    CHECK((compared > 100'000 || strata::available_simd().size() == 1));
+    CHECK(wrong == 0);
+}
+
+TEST_CASE(
+    "tiny triangles side by side leave what their fragments leave one after the other, cut by regions and scissors") {
+    std::size_t wrong = 0, compared = 0;
+    for (const DenseCase& dense : dense_cases()) {
+        Geometry geometry = set_up(dense.soup, dense.state, dense.rules, 1);
+        add_ties(geometry);
+        for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f})
+            for (const Rect& part : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}}) {
+                const Rect region = intersection(part, geometry.state.viewport);
+                const DepthRequest depth{DepthPath::float32, format};
+                const strata::SimdScope twins{strata::Simd::scalar};
+                const Drawn expected = by_fragments(geometry, depth, region);
+                for (const strata::Simd simd : strata::available_simd()) {
+                    const strata::SimdScope kernels{simd};
+                    if (!row_walk_suits(geometry, depth, region)) continue;
+                    wrong += by_rows(geometry, depth, region) != expected ? 1 : 0;
+                    compared += expected.fragments;
+                }
+            }
+    }
     CHECK((compared > 100'000 || strata::available_simd().size() == 1));
     CHECK(wrong == 0);
 }

@@ -1,0 +1,235 @@
+// rasterizer/set_up/plain_triangles_simd.cpp - plain_triangles.h for every instruction set.
+// How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_triangles_simd.cpp"
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+#include "hwy/foreach_target.h"  // compiles this file once a target
+#include "hwy/highway.h"
+#include "rasterizer/set_up/plain_triangles.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::rasterizer::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using U = hn::CappedTag<std::uint32_t, TriangleGroup::size>;
+using I = hn::RebindToSigned<U>;
+using VU = hn::Vec<U>;
+using VI = hn::Vec<I>;
+using Mask = hn::Mask<I>;
+constexpr std::size_t lanes = hn::MaxLanes(U{}), group_size = TriangleGroup::size;
+alignas(64) constexpr std::uint32_t numbers[group_size] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+// The words of the records of a group, four and four side by side.
+struct Records {
+    alignas(64) std::array<std::uint32_t, 4> first[group_size], second[group_size];
+};
+static_assert(sizeof(TriangleRecord) == 2 * sizeof(Records::first[0]) && std::is_trivially_copyable_v<TriangleRecord>);
+
+HWY_INLINE VI set(std::int32_t v) { return hn::Set(I{}, v); }
+HWY_INLINE VI least(VI a, VI b, VI c) { return hn::Min(hn::Min(a, b), c); }
+HWY_INLINE VI most(VI a, VI b, VI c) { return hn::Max(hn::Max(a, b), c); }
+// v, or -v where `turned` is all ones.
+HWY_INLINE VI turn(VI v, VI turned) { return hn::Sub(hn::Xor(v, turned), turned); }
+
+// find_boxes, find_areas and find_edge of small_triangles.h, in registers.
+struct Boxes {
+    VI x0, y0, width, height, extent;
+};
+HWY_INLINE Boxes boxes_of(const GroupRules& rules, const VI (&x)[3], const VI (&y)[3]) {
+    const VI half = set(1 << (rules.subpixel_bits - 1));
+    const int bits = rules.subpixel_bits;
+    const VI left = least(x[0], x[1], x[2]), right = most(x[0], x[1], x[2]);
+    const VI top = least(y[0], y[1], y[2]), bottom = most(y[0], y[1], y[2]);
+    const auto first = [&](VI c, int clip) HWY_ATTR {
+        return hn::Max(hn::ShiftRightSame(hn::Sub(hn::Add(c, half), set(1)), bits), set(clip));
+    };
+    const auto count = [&](VI c, int clip, VI begin) HWY_ATTR {
+        const VI end = hn::Add(hn::ShiftRightSame(hn::Sub(c, half), bits), set(1));
+        return hn::Max(hn::Sub(hn::Min(end, set(clip)), begin), hn::Zero(I{}));
+    };
+    Boxes b;
+    b.x0 = first(left, rules.clip.x0);
+    b.y0 = first(top, rules.clip.y0);
+    b.width = count(right, rules.clip.x1, b.x0);
+    b.height = count(bottom, rules.clip.y1, b.y0);
+    b.extent = hn::Max(hn::Sub(right, left), hn::Sub(bottom, top));
+    return b;
+}
+
+// An edge at the centre of the box's first pixel, less its tie, and what it changes by.
+struct EdgeLanes {
+    VI value, step, down;
+};
+HWY_INLINE EdgeLanes edge_of(const GroupRules& rules, const Boxes& b, VI from_x, VI from_y, VI to_x, VI to_y,
+                             VI turned) {
+    const bool left = rules.tie_rule == TieRule::top_left || rules.tie_rule == TieRule::bottom_left;
+    const bool top = rules.tie_rule == TieRule::top_left || rules.tie_rule == TieRule::top_right;
+    const int bits = rules.subpixel_bits;
+    const VI half = set(1 << (bits - 1));
+    const VI dx = turn(hn::Sub(to_x, from_x), turned), dy = turn(hn::Sub(to_y, from_y), turned);
+    const VI owner = hn::IfThenElse(hn::Eq(dy, hn::Zero(I{})), top ? dx : hn::Neg(dx), left ? hn::Neg(dy) : dy);
+    const VI tie = hn::BitCast(I{}, hn::ShiftRight<31>(hn::BitCast(U{}, owner)));
+    const auto centre = [&](VI pixel, VI from)
+                            HWY_ATTR { return hn::Sub(hn::Add(hn::ShiftLeftSame(pixel, bits), half), from); };
+    const VI value = hn::Sub(hn::Mul(dx, centre(b.y0, from_y)), hn::Mul(dy, centre(b.x0, from_x)));
+    return {hn::Sub(value, tie), hn::ShiftLeftSame(hn::Neg(dy), bits), hn::ShiftLeftSame(dx, bits)};
+}
+
+// The covered pixels of boxes of tiny_size pixels; of larger ones nothing is said.
+HWY_INLINE VI coverage_of(const Boxes& b, const EdgeLanes (&edge)[3], Mask is_tiny) {
+    VI covered = hn::Zero(I{});
+    VI row[3] = {edge[0].value, edge[1].value, edge[2].value};
+    for (int y = 0; y < tiny_size; ++y) {
+        const Mask has_row = hn::And(is_tiny, hn::Gt(b.height, set(y)));
+        if (hn::AllFalse(I{}, has_row)) break;
+        VI at[3] = {row[0], row[1], row[2]};
+        for (int x = 0; x < tiny_size; ++x) {
+            const Mask has_pixel = hn::And(has_row, hn::Gt(b.width, set(x)));
+            if (hn::AllFalse(I{}, has_pixel)) break;
+            const VI outside = hn::BroadcastSignBit(hn::Or(hn::Or(at[0], at[1]), at[2]));
+            const VI bit = hn::AndNot(outside, set(1 << (y * tiny_size + x)));
+            covered = hn::Or(covered, hn::IfThenElseZero(has_pixel, bit));
+            for (int i = 0; i < 3; ++i) at[i] = hn::Add(at[i], edge[i].step);
+        }
+        for (int i = 0; i < 3; ++i) row[i] = hn::Add(row[i], edge[i].down);
+    }
+    return covered;
+}
+
+HWY_INLINE std::uint32_t bits_of(Mask mask) {
+    alignas(8) std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(I{}, mask, bytes);
+    return static_cast<std::uint32_t>(bytes[1]) << 8 | bytes[0];
+}
+
+// Snapped positions: a corner is three words of 64 bits, and the first holds x and y.
+static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0);
+HWY_INLINE void gather(const WindowCorner* corners, VU vertex, VI& x, VI& y) {
+    using Half = hn::Half<U>;
+    using Wide = hn::Rebind<std::uint64_t, Half>;
+    const auto points = [&](hn::Vec<Half> vertices) HWY_ATTR {
+        const auto number = hn::PromoteTo(Wide{}, vertices);
+        const auto index = hn::BitCast(hn::RebindToSigned<Wide>{}, hn::Add(number, hn::Add(number, number)));
+        return hn::GatherIndex(Wide{}, reinterpret_cast<const std::uint64_t*>(corners), index);
+    };
+    const auto low = points(hn::LowerHalf(Half{}, vertex)), high = points(hn::UpperHalf(Half{}, vertex));
+    const auto joined = [](auto first, auto second) HWY_ATTR {
+        return hn::BitCast(I{}, hn::Combine(U{}, hn::TruncateTo(Half{}, second), hn::TruncateTo(Half{}, first)));
+    };
+    x = joined(low, high);
+    y = joined(hn::ShiftRight<32>(low), hn::ShiftRight<32>(high));
+}
+
+// `lanes` triangles from number `first` of the group on: their records, their fates, and as bits which are kept. False if one is not
+// small.
+HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
+                             const WindowCorner* corners, std::size_t first, Records& records, PlainFates& fates,
+                             std::uint32_t& kept_bits) {
+    VU vertex[3];
+    VI x[3], y[3];
+    hn::LoadInterleaved3(U{}, indices + 3 * first, vertex[0], vertex[1], vertex[2]);
+    for (int i = 0; i < 3; ++i) gather(corners, vertex[i], x[i], y[i]);
+    const Boxes b = boxes_of(rules.group, x, y);
+    const Mask is_large =
+        hn::Or(hn::Or(hn::Gt(b.width, set(TriangleGroup::max_width)), hn::Gt(b.height, set(TriangleGroup::max_height))),
+               hn::Gt(b.extent, set(TriangleGroup::max_extent)));
+    if (!hn::AllFalse(I{}, is_large)) return false;
+    const VI area =
+        hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])), hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
+    const VI turned = hn::BroadcastSignBit(area), zero = hn::Zero(I{});
+    const Mask is_degenerate = hn::Eq(area, zero);
+    const Mask is_negative = hn::MaskFromVec(turned);
+    const Mask is_front = rules.positive_is_front ? hn::Not(is_negative) : is_negative;
+    const VI drops_front = set(rules.drops_front ? -1 : 0), drops_back = set(rules.drops_back ? -1 : 0);
+    const Mask is_dropped = hn::MaskFromVec(hn::IfThenElse(is_front, drops_front, drops_back));
+    const Mask is_culled = hn::AndNot(is_degenerate, is_dropped);
+    const Mask is_gone = hn::Or(is_degenerate, is_culled);
+    const Mask has_no_box = hn::Or(hn::Eq(b.width, zero), hn::Eq(b.height, zero));
+    const Mask is_kept = hn::Not(hn::Or(is_gone, has_no_box));
+    fates.degenerate += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_degenerate));
+    fates.culled += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_culled));
+    fates.outside += static_cast<std::uint32_t>(hn::CountTrue(I{}, hn::AndNot(is_gone, has_no_box)));
+    kept_bits |= bits_of(is_kept) << first;
+
+    EdgeLanes edge[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t from = (i + 1) % 3, to = (i + 2) % 3;
+        edge[i] = edge_of(rules.group, b, x[from], y[from], x[to], y[to], turned);
+    }
+    const Mask is_tiny = hn::And(is_kept, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
+    const VI covered = coverage_of(b, edge, is_tiny);
+    const VI left = hn::Sub(b.x0, set(rules.x0)), above = hn::Sub(b.y0, set(rules.y0));
+    const auto pair = [](VI low, VI high) HWY_ATTR { return hn::BitCast(U{}, hn::Or(low, hn::ShiftLeft<16>(high))); };
+    const VI facing = hn::IfThenElseZero(is_front, set(1)), tiny = hn::IfThenElseZero(is_tiny, set(2));
+    const VU number = hn::Add(hn::Set(U{}, primitive), hn::Load(U{}, numbers + first));
+    hn::StoreInterleaved4(vertex[0], vertex[1], vertex[2], number, U{}, records.first[first].data());
+    hn::StoreInterleaved4(hn::Set(U{}, rules.material), pair(left, above),
+                          pair(hn::Add(left, b.width), hn::Add(above, b.height)), pair(hn::Or(facing, tiny), covered),
+                          U{}, records.second[first].data());
+    return true;
+}
+
+bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
+            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates) {
+    std::uint32_t marked = 0;
+    for (std::size_t i = 0; marks != nullptr && i < 3 * group_size; ++i) marked |= marks[indices[i]];
+    if (marked != 0) return false;
+    Records records;
+    std::uint32_t kept = 0;
+    PlainFates found;
+    for (std::size_t first = 0; first < group_size; first += lanes)
+        if (!set_up_lanes(rules, indices, primitive, corners.data(), first, records, found, kept)) return false;
+    for (std::size_t k = 0; k < group_size; ++k) {
+        // Written whether it is kept or not: the next one takes its place.
+        auto* const bytes = reinterpret_cast<std::byte*>(out + found.kept);
+        std::memcpy(bytes, &records.first[k], sizeof records.first[k]);
+        std::memcpy(bytes + sizeof records.first[k], &records.second[k], sizeof records.second[k]);
+        found.kept += kept >> k & 1;
+    }
+    fates = found;
+    return true;
+}
+
+}  // namespace
+
+SetUpPlainTriangles plain_triangles_table() { return set_up; }
+
+}  // namespace strata::rasterizer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "rasterizer/base/simd_dispatch.h"
+
+namespace strata::rasterizer {
+HWY_EXPORT(plain_triangles_table);
+
+SetUpPlainTriangles set_up_plain_triangles() noexcept {
+    if (simd_is_scalar() || std::endian::native != std::endian::little) return nullptr;
+    return kernel_of(HWY_DISPATCH_TABLE(plain_triangles_table))();
+}
+
+void find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
+               TriangleRecord& record) noexcept {
+    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
+    record.is_tiny = std::max(box.width(), box.height()) <= tiny_size &&
+                     std::max(right - left, bottom - top) <= TriangleGroup::max_extent;
+    if (!record.is_tiny) return;
+    const TriangleEdges edges{p, rules.tie_rule};
+    for (int y = box.y0; y < box.y1; ++y)
+        for (int x = box.x0; x < box.x1; ++x) {
+            const EdgeValues e = edges.at(pixel_centre(x, y, rules.subpixel_bits));
+            const bool is_covered = e[0] >= edges.tie(0) && e[1] >= edges.tie(1) && e[2] >= edges.tie(2);
+            const int bit = (y - box.y0) * tiny_size + (x - box.x0);
+            record.covered |= static_cast<std::uint16_t>((is_covered ? 1u : 0u) << bit);
+        }
+}
+
+}  // namespace strata::rasterizer
+#endif

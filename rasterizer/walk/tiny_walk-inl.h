@@ -1,0 +1,275 @@
+// rasterizer/walk/tiny_walk-inl.h - tiny triangles side by side, one a lane of binary64, and their pixels side by side behind them: a
+// triangle of a pixel or two does not pay for a row. For *_simd.cpp alone, as weights-inl.h.
+//
+// Rule     The pixels, weights and planes of RowWalk, in its order: triangle after triangle, row after row.
+// Numbers  As of small triangles; corners and boxes of TriangleRecord::is_tiny.
+// Tests    tests/rasterizer/walk/rows_test.cpp
+#include <cstring>
+
+#include "hwy/highway.h"
+#include "rasterizer/values/fragment_values.h"
+#include "rasterizer/values/weights-inl.h"
+#include "rasterizer/walk/rows.h"
+
+#if defined(STRATA_RASTERIZER_TINY_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRATA_RASTERIZER_TINY_WALK_INL_H
+#undef STRATA_RASTERIZER_TINY_WALK_INL_H
+#else
+#define STRATA_RASTERIZER_TINY_WALK_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace strata::rasterizer::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::uint32_t tiny_lanes = hn::MaxLanes(F64{});
+using U64 = hn::Rebind<std::uint64_t, F64>;
+
+HWY_INLINE V64 set64(double v) { return hn::Set(F64{}, v); }
+
+// Pixels of several triangles: the covered ones come first, the other lanes are the region's first. `of` fetches a triangle's value for each of its pixels.
+class TinyPixels {
+  public:
+    hn::Vec<U32> pixel, lane;  // number in the region; which triangle's
+    hn::Vec<I32> x, y;
+    std::uint32_t count;
+
+    HWY_INLINE V64 of(V64 by_triangle) const {
+        return hn::TableLookupLanes(by_triangle, hn::IndicesFromVec(F64{}, hn::PromoteTo(U64{}, lane)));
+    }
+    HWY_INLINE hn::Mask<F32> covered() const { return hn::FirstN(F32{}, count); }
+};
+
+// The corners' values of a plane, a triangle a lane, and the plane as the filter sees it (FilterPlane).
+template <bool unsnapped>
+class TinyPlane {
+  public:
+    HWY_INLINE TinyPlane(V64 v0, V64 v1, V64 v2) : v_{v0, v1, v2}, d1_{hn::Sub(v1, v0)}, d2_{hn::Sub(v2, v0)} {
+        if constexpr (unsnapped) return;
+        const V64 size = hn::Max(hn::Max(hn::Abs(v0), hn::Abs(v1)), hn::Abs(v2));
+        error_ = hn::Add(hn::Mul(set64(0x1p-47), size), set64(0x1p-1000));
+    }
+    // At each pixel, rounded once.
+    HWY_INLINE V32 at(const TinyPixels& pixels, const Weights& b, const Geometry& geometry,
+                      const std::uint32_t* triangles) const {
+        const V64 v = hn::Add(pixels.of(v_[0]), hn::Add(hn::Mul(b.b1, pixels.of(d1_)), hn::Mul(b.b2, pixels.of(d2_))));
+        if constexpr (unsnapped) return hn::DemoteTo(F32{}, v);
+        auto unsure = hn::Zero(U32{});
+        const V32 low = rounded(v, pixels.of(error_), unsure);
+        const auto open = hn::And(pixels.covered(), hn::RebindMask(F32{}, hn::Ne(unsure, hn::Zero(U32{}))));
+        return HWY_LIKELY(hn::AllFalse(F32{}, open)) ? low : decided(low, open, pixels, geometry, triangles);
+    }
+
+  private:
+    // The lanes of `open` by the exact sum.
+    HWY_NOINLINE V32 decided(V32 z, hn::Mask<F32> open, const TinyPixels& pixels, const Geometry& geometry,
+                             const std::uint32_t* triangles) const {
+        alignas(64) float values[tiny_lanes];
+        alignas(64) double v[3][tiny_lanes];
+        alignas(64) std::int32_t x[tiny_lanes], y[tiny_lanes];
+        alignas(64) std::uint32_t lane[tiny_lanes];
+        alignas(8) std::uint8_t bits[8] = {};
+        hn::Store(z, F32{}, values);
+        for (std::size_t i = 0; i < 3; ++i) hn::Store(v_[i], F64{}, v[i]);
+        hn::Store(pixels.x, I32{}, x);
+        hn::Store(pixels.y, I32{}, y);
+        hn::Store(pixels.lane, U32{}, lane);
+        hn::StoreMaskBits(F32{}, open, bits);
+        for (std::uint32_t i = 0; i < tiny_lanes; ++i) {
+            if ((bits[0] >> i & 1) == 0) continue;
+            const std::uint32_t k = lane[i];
+            decide_lanes({{v[0][k], v[1][k], v[2][k]}}, geometry, triangles[k], x, y, 1u << i, values);
+        }
+        return hn::Load(F32{}, values);
+    }
+
+    V64 v_[3], d1_, d2_, error_ = hn::Zero(F64{});
+};
+
+// As many tiny triangles as there are lanes.
+template <bool unsnapped>
+class TinyTriangles {
+  public:
+    // `triangles`: numbers in geometry.triangles, all tiny.
+    HWY_INLINE TinyTriangles(const Geometry& geometry, const std::uint32_t* triangles, const Rect& clip,
+                             const Rect& region)
+        : geometry_{geometry},
+          triangles_{triangles},
+          width_{hn::Set(U32{}, static_cast<std::uint32_t>(region.width()))} {
+        Loaded in;
+        for (std::uint32_t k = 0; k < tiny_lanes; ++k) load(k, in);
+        const V64 area = set_up_weights(in);
+        has_weights_ = hn::AllTrue(F64{}, hn::Ne(area, hn::Zero(F64{})));
+        r_ = hn::Div(set64(1.0), area);
+        find_pixels(in, clip, region);
+    }
+
+    // False if unsnapped corners lie on a line: their plane is another one (PixelWeights).
+    [[nodiscard]] HWY_INLINE bool has_weights() const { return has_weights_; }
+    [[nodiscard]] HWY_INLINE std::uint32_t count() const { return count_; }
+    [[nodiscard]] HWY_INLINE const Geometry& geometry() const { return geometry_; }
+    [[nodiscard]] HWY_INLINE const std::uint32_t* triangles() const { return triangles_; }
+    // Window z and 1 / w of corner i.
+    [[nodiscard]] HWY_INLINE V32 z(std::size_t i) const { return z_[i]; }
+    [[nodiscard]] HWY_INLINE V32 inverse_w(std::size_t i) const { return inverse_w_[i]; }
+
+    // Those from number `first` of all covered pixels on.
+    HWY_INLINE TinyPixels pixels(std::uint32_t first) const {
+        const U32 d;
+        const I32 di;
+        TinyPixels p;
+        p.count = count_ - first < tiny_lanes ? count_ - first : tiny_lanes;
+        const auto is_covered = hn::FirstN(d, p.count);
+        const auto number = hn::IfThenElseZero(is_covered, hn::LoadU(d, numbers_ + first));
+        const auto column = hn::And(number, hn::Set(d, tiny_size - 1));
+        const auto row = hn::And(hn::ShiftRight<2>(number), hn::Set(d, tiny_size - 1));
+        p.lane = hn::ShiftRight<4>(number);
+        const auto lane = hn::IndicesFromVec(d, p.lane);
+        p.x = hn::BitCast(di, hn::Add(hn::TableLookupLanes(x_, lane), column));
+        p.y = hn::BitCast(di, hn::Add(hn::TableLookupLanes(y_, lane), row));
+        const auto within = hn::Add(column, hn::Mul(row, width_));
+        p.pixel = hn::IfThenElseZero(is_covered, hn::Add(hn::TableLookupLanes(first_pixel_, lane), within));
+        return p;
+    }
+    // WeightsAt of each pixel's own triangle.
+    HWY_INLINE Weights weights(const TinyPixels& p) const {
+        const V64 x = hn::PromoteTo(F64{}, p.x), y = hn::PromoteTo(F64{}, p.y), r = p.of(r_);
+        if constexpr (unsnapped) {
+            const V64 dx = hn::Sub(hn::Add(x, set64(0.5)), p.of(a_[0])),
+                      dy = hn::Sub(hn::Add(y, set64(0.5)), p.of(b_[0]));
+            const V64 x1 = p.of(a_[1]), y1 = p.of(b_[1]), x2 = p.of(a_[2]), y2 = p.of(b_[2]);
+            return {hn::Mul(hn::Sub(hn::Mul(dx, y2), hn::Mul(dy, x2)), r),
+                    hn::Mul(hn::Sub(hn::Mul(dy, x1), hn::Mul(dx, y1)), r)};
+        } else {
+            const auto edge = [&](std::size_t i) HWY_ATTR {
+                return hn::Add(hn::Add(hn::Mul(x, p.of(a_[i])), hn::Mul(y, p.of(b_[i]))), p.of(constant_[i]));
+            };
+            return {hn::Mul(edge(1), r), hn::Mul(edge(2), r)};
+        }
+    }
+
+  private:
+    // Numbers of pixels: triangle above, row and column below.
+    static_assert(tiny_size == 4);
+    using Block = hn::CappedTag<std::uint32_t, 16>;
+    static constexpr std::uint32_t block = hn::MaxLanes(Block{}), none_left = 16;
+
+    struct Loaded {
+        alignas(64) float value[3][4 * tiny_lanes];  // unsnapped x and y, z, 1 / w of the corners
+        alignas(64) std::int32_t p[3][2 * tiny_lanes];
+        alignas(64) std::uint32_t x[tiny_lanes], y[tiny_lanes], covered[tiny_lanes];
+    };
+
+    HWY_INLINE void load(std::uint32_t k, Loaded& in) const {
+        const TriangleRecord& record = geometry_.triangles[triangles_[k]];
+        for (std::size_t i = 0; i < 3; ++i) {
+            static_assert(offsetof(WindowCorner, inverse_w) == offsetof(WindowCorner, unsnapped) + 3 * sizeof(float));
+            const WindowCorner& corner = geometry_.corners[record.vertex[i]];
+            std::memcpy(&in.value[i][4 * k], &corner.unsnapped, 4 * sizeof(float));
+            if (!unsnapped) std::memcpy(&in.p[i][2 * k], &corner.p, sizeof(SubpixelPoint));
+        }
+        in.x[k] = record.box.x0;
+        in.y[k] = record.box.y0;
+        in.covered[k] = record.covered;
+    }
+
+    // What of PixelWeights is not a pixel's. Returns the areas.
+    HWY_INLINE V64 set_up_weights(const Loaded& in) {
+        V32 x[3], y[3];
+        for (std::size_t i = 0; i < 3; ++i) hn::LoadInterleaved4(F32{}, in.value[i], x[i], y[i], z_[i], inverse_w_[i]);
+        if constexpr (unsnapped) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                a_[i] = hn::PromoteTo(F64{}, x[i]);
+                b_[i] = hn::PromoteTo(F64{}, y[i]);
+            }
+            for (std::size_t i = 1; i < 3; ++i) {
+                a_[i] = hn::Sub(a_[i], a_[0]);
+                b_[i] = hn::Sub(b_[i], b_[0]);
+            }
+            return hn::Sub(hn::Mul(a_[1], b_[2]), hn::Mul(a_[2], b_[1]));
+        } else {
+            return set_up_edges(in);
+        }
+    }
+    // Integers below 2^53 all the way.
+    HWY_INLINE V64 set_up_edges(const Loaded& in) {
+        V64 x[3], y[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            hn::Vec<I32> px, py;
+            hn::LoadInterleaved2(I32{}, in.p[i], px, py);
+            x[i] = hn::PromoteTo(F64{}, px);
+            y[i] = hn::PromoteTo(F64{}, py);
+        }
+        const V64 area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
+                                 hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
+        const V64 sign = hn::CopySign(set64(1.0), area);
+        const V64 unit = set64(1 << geometry_.rules.subpixel_bits), half = hn::Mul(unit, set64(0.5));
+        for (std::size_t i = 1; i < 3; ++i) {
+            const std::size_t from = (i + 1) % 3, to = (i + 2) % 3;
+            const V64 dx = hn::Mul(sign, hn::Sub(x[to], x[from])), dy = hn::Mul(sign, hn::Sub(y[to], y[from]));
+            constant_[i] = hn::Sub(hn::Mul(dx, hn::Sub(half, y[from])), hn::Mul(dy, hn::Sub(half, x[from])));
+            a_[i] = hn::Mul(hn::Sub(hn::Zero(F64{}), dy), unit);
+            b_[i] = hn::Mul(dx, unit);
+        }
+        return hn::Abs(area);
+    }
+
+    // The covered pixels of all triangles, less those outside `clip`, as numbers.
+    HWY_INLINE void find_pixels(const Loaded& in, const Rect& clip, const Rect& region) {
+        const U32 d;
+        const auto corner = [&](const std::uint32_t* c, int origin) HWY_ATTR {
+            return hn::Add(hn::Load(d, c), hn::Set(d, static_cast<std::uint32_t>(origin)));
+        };
+        x_ = corner(in.x, geometry_.state.viewport.x0);
+        y_ = corner(in.y, geometry_.state.viewport.y0);
+        first_pixel_ = hn::Add(hn::Mul(hn::Sub(y_, hn::Set(d, static_cast<std::uint32_t>(region.y0))), width_),
+                               hn::Sub(x_, hn::Set(d, static_cast<std::uint32_t>(region.x0))));
+        const auto columns = hn::Mul(bits_within(x_, clip.x0, clip.x1), hn::Set(d, 0x1111));
+        const auto rows = hn::Mul(spread(bits_within(y_, clip.y0, clip.y1)), hn::Set(d, 0xf));
+        alignas(64) std::uint32_t covered[tiny_lanes];
+        hn::Store(hn::And(hn::And(hn::Load(d, in.covered), columns), rows), d, covered);
+        const Block db;
+        for (std::uint32_t k = 0; k < tiny_lanes; ++k)
+            for (std::uint32_t part = 0; part < 16; part += block) {
+                const std::uint64_t own = covered[k] >> part & ((1u << block) - 1);
+                const auto number = hn::Add(hn::Load(db, pixel_numbers), hn::Set(db, 16 * k + part));
+                const auto mask = hn::LoadMaskBits(db, reinterpret_cast<const std::uint8_t*>(&own));
+                hn::StoreU(hn::Compress(number, mask), db, numbers_ + count_);
+                count_ += static_cast<std::uint32_t>(std::popcount(own));
+            }
+    }
+    // Bit i: place + i lies in [begin, end), of tiny_size places.
+    HWY_INLINE static hn::Vec<U32> bits_within(hn::Vec<U32> place, int begin, int end) {
+        const I32 di;
+        const auto power = [&](int limit) HWY_ATTR {
+            const auto distance = hn::Sub(hn::Set(di, limit), hn::BitCast(di, place));
+            const auto near = hn::Min(hn::Max(distance, hn::Zero(di)), hn::Set(di, tiny_size));
+            return hn::Shl(hn::Set(U32{}, 1), hn::BitCast(U32{}, near));
+        };
+        return hn::Sub(power(end), power(begin));
+    }
+    // Bit i to bit 4 i.
+    HWY_INLINE static hn::Vec<U32> spread(hn::Vec<U32> bits) {
+        const U32 d;
+        const auto at = [&](auto shifted, std::uint32_t bit) HWY_ATTR { return hn::And(shifted, hn::Set(d, bit)); };
+        return hn::Or(hn::Or(at(bits, 1), at(hn::ShiftLeft<3>(bits), 1u << 4)),
+                      hn::Or(at(hn::ShiftLeft<6>(bits), 1u << 8), at(hn::ShiftLeft<9>(bits), 1u << 12)));
+    }
+    alignas(64) static constexpr std::uint32_t pixel_numbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                                    8, 9, 10, 11, 12, 13, 14, 15};
+
+    const Geometry& geometry_;
+    const std::uint32_t* triangles_;
+    const hn::Vec<U32> width_;
+    hn::Vec<U32> x_, y_, first_pixel_;  // of the box's first pixel
+    V32 z_[3], inverse_w_[3];
+    V64 a_[3], b_[3], constant_[3],
+        r_;  // unsnapped: corner 0, and 1 and 2 seen from it; snapped: steps of edges 1 and 2
+    std::uint32_t count_ = 0;
+    bool has_weights_;
+    alignas(64) std::uint32_t numbers_[16 * tiny_lanes + 16];
+};
+
+}  // namespace strata::rasterizer::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif
