@@ -97,7 +97,9 @@ TEST_CASE(
     std::size_t wrong = 0, compared = 0;
     for (const DenseCase& dense : dense_cases()) {
         Geometry geometry = set_up(dense.soup, dense.state, dense.rules, 1);
-        add_ties(geometry);
+        // In places, depths of which 3/4 and 5/8 lie half way between two neighbours of binary32.
+        for (std::size_t v = 0; v < geometry.corners.size(); ++v)
+            if (v / 64 % 3 == 0) geometry.corners[v].z = v % 3 == 0 ? 0.0f : 6'000'001 * 0x1p-23f;
         for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f})
             for (const Rect& part : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}}) {
                 const Rect region = intersection(part, geometry.state.viewport);
