@@ -112,10 +112,8 @@ void Region::select_nearest_alone(const PassState& state) {
         passed += updates;
         const std::uint64_t word = words[first];
         if (depth != nullptr) depth[p] = static_cast<std::uint32_t>(word >> 32);
-        if (is_done)
-            ++done;
-        else
-            nearest.add(p, word);
+        done += is_done ? 1 : 0;
+        if (!is_done) nearest.add(p, word);
     });
     count_visits(done);
     selected.end_ranks<1>({nearest});
@@ -393,7 +391,8 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     FragmentNeeds fetched = state.needs;
     if (frame_.key == DepthKey::shader_z && fetched.shader_z)
         fetched.shader_z = put_depths(batch.code, count, batch.shader_z);
-    fetched.color &= !(state.selection.keys_suffice && is_inner(selected.rank));
+    const bool has_ends = state.selection.keeps == Keeps::ends;
+    fetched.color &= !(has_ends && state.selection.keys_suffice && is_inner(selected.rank));
     fetched.reference &= !is_reference_key;  // a program that asks by_reference looks at no other depth
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it
