@@ -1,5 +1,5 @@
-// pipeline/region/region_select_runs.cpp - which fragments passes visit that look for runs: fragments of a window that arrive in the
-// order of depth, what ends them, and what lies behind (execution.md 7.1).
+// pipeline/region/region_select_runs.cpp - which fragments passes visit that ask for the order of arrival: runs that arrive in the order of
+// depth, what ends them and what lies behind; and arrivals by their number, which a stencil counts (execution.md 7.1).
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -184,6 +184,85 @@ void Region::select_last_run(const PassState& state) {
         std::ranges::sort(kept, {}, [](std::uint64_t word) { return static_cast<std::uint32_t>(word); });
         for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
     });
+}
+
+// Decrements every sample's stencil by a number of fragments of its pixel, down to 0.
+template <class FragmentsAt>
+void Region::count_down(const PassState& state, const FragmentsAt& fragments_at) {
+    TargetStorage& stencil = at(state.stencil_target);
+    for (const std::uint32_t p : scratch_->sorted.present().occupied()) {
+        const auto fragments = static_cast<std::uint32_t>(fragments_at(p));
+        for (int sample = 0; fragments > 0 && sample < pass_samples_; ++sample) {
+            std::uint32_t& stored = stencil.stencil_plane(sample).words[p];
+            stored -= std::min(stored, fragments);
+        }
+    }
+}
+
+// Those before have counted the stencil down by the time that the kept ones come, and met no sample's test. Where sample s
+// waits for kept arrival s, that one goes through its sample alone: it fails the tests of the others.
+void Region::select_arrivals(const PassState& state) {
+    SortedFragments& sorted = scratch_->sorted.present();
+    SelectedFragments& selected = scratch_->selected;
+    const std::size_t past = state.selection.first_arrival;
+    for (const std::uint32_t p : sorted.occupied()) {
+        const auto words = sorted.of(p);
+        const std::size_t last = std::min(words.size(), past + samples_of_pass());
+        for (std::size_t k = past; k < last; ++k) selected.add(p, words[k], k - past);
+        selected.inside += last > past ? last - past : 0;
+    }
+    selected.is_routed = waits_in_order(state);
+    if (!selected.is_routed)
+        return count_down(state, [&](std::size_t p) { return std::min(sorted.of(p).size(), past); });
+    for (std::size_t rank = 0; rank < selected.ranks; ++rank) {
+        std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(rank)).words;
+        const SelectedFragments::Rank& kept = selected.of_rank[rank];
+        for (std::size_t k = 0; k < kept.count; ++k) stored[kept.pixel[k]] = state.stencil.front.ref;
+    }
+}
+
+// Whether sample s of every pixel with fragments takes arrival number first_arrival + s.
+bool Region::waits_in_order(const PassState& state) {
+    const SortedFragments& sorted = scratch_->sorted.present();
+    for (std::size_t s = 0; s < samples_of_pass(); ++s) {
+        const std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
+        const std::size_t expected = state.stencil.front.ref + state.selection.first_arrival + s;
+        if (!std::ranges::all_of(sorted.occupied(), [&](std::uint32_t p) { return stored[p] == expected; }))
+            return false;
+    }
+    return true;
+}
+
+// What all of a pixel's fragments leave of stencils that waited in order.
+void Region::finish_waiting(const PassState& state) {
+    const SortedFragments& sorted = scratch_->sorted.present();
+    for (std::size_t s = 0; s < samples_of_pass(); ++s) {
+        std::uint32_t* const stored = at(state.stencil_target).stencil_plane(static_cast<int>(s)).words;
+        const std::size_t before = state.stencil.front.ref + state.selection.first_arrival + s;
+        for (const std::uint32_t p : sorted.occupied())
+            stored[p] = static_cast<std::uint32_t>(before - std::min(before, sorted.of(p).size()));
+    }
+}
+
+// Stages have counted what was visited; the other fragments reach the stencil.
+Drawn Region::book_arrivals(const PassState& state, const Drawn& visited) {
+    const SortedFragments& sorted = scratch_->sorted.present();
+    const std::uint64_t kept = scratch_->selected.inside;
+    Counters& counters = record().counters;
+    count_unvisited(state, kept);
+    counters.discarded += sorted.hidden();
+    const std::uint64_t other_samples = scratch_->selected.is_routed ? kept * (samples_of_pass() - 1) : 0;
+    const std::uint64_t tests = (sorted.size() - kept) * samples_of_pass() + other_samples;
+    counters += {.stencil_killed = tests, .bytes_read = tests, .bytes_written = tests};
+    if (scratch_->selected.is_routed) {
+        finish_waiting(state);
+        return visited;
+    }
+    count_down(state, [&](std::size_t p) {
+        const std::size_t done = state.selection.first_arrival + samples_of_pass();
+        return sorted.of(p).size() - std::min(sorted.of(p).size(), done);
+    });
+    return visited;
 }
 
 }  // namespace strata::pipeline

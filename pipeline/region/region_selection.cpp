@@ -8,6 +8,7 @@
 #include "pipeline/frame/pass_counters.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/stages/alpha_test.h"
 #include "pipeline/stages/layer_pixels.h"
 
 namespace strata::pipeline {
@@ -240,27 +241,6 @@ Drawn Region::book_selected(const PassState& state, const Counters& before, cons
         if (state.color[k].exists() && state.blend[k].write_mask != 0)
             count_color_bytes(state.blend[k], at(state.color[k]), drawn.passed.own_);
     return drawn;
-}
-
-// Stages have counted what was visited; the other fragments reach the stencil.
-Drawn Region::book_arrivals(const PassState& state, const Drawn& visited) {
-    const SortedFragments& sorted = scratch_->sorted.present();
-    const std::uint64_t kept = scratch_->selected.inside;
-    Counters& counters = record().counters;
-    count_unvisited(state, kept);
-    counters.discarded += sorted.hidden();
-    const std::uint64_t other_samples = scratch_->selected.is_routed ? kept * (samples_of_pass() - 1) : 0;
-    const std::uint64_t tests = (sorted.size() - kept) * samples_of_pass() + other_samples;
-    counters += {.stencil_killed = tests, .bytes_read = tests, .bytes_written = tests};
-    if (scratch_->selected.is_routed) {
-        finish_waiting(state);
-        return visited;
-    }
-    count_down(state, [&](std::size_t p) {
-        const std::size_t done = state.selection.first_arrival + samples_of_pass();
-        return sorted.of(p).size() - std::min(sorted.of(p).size(), done);
-    });
-    return visited;
 }
 
 // The pixels that a pass with a layer visits; without an answer all.
