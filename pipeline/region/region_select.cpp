@@ -100,7 +100,7 @@ void Region::select_nearest_alone(const PassState& state) {
     std::uint32_t* const depth = depth_of_kept(state);
     const bool is_done =
         state.selection.keys_suffice && depth != nullptr && std::ranges::none_of(state.color, &Target::exists);
-    auto [nearest] = selected.begin_ranks<1>();
+    SelectedFragments::Filling nearest = selected.begin_ranks<1>()[0];
     std::uint64_t inside = 0, passed = 0, done = 0;
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
@@ -191,7 +191,7 @@ void Region::select_window(const PassState& state) {
 void Region::select_key(const KeyWindow& window) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    auto [alone] = selected.begin_ranks<1>();
+    SelectedFragments::Filling alone = selected.begin_ranks<1>()[0];
     std::uint64_t more = 0;
     for_some_columns(sorted, [&](std::size_t from, std::span<const std::uint32_t> pixels) {
         window.put_low(pixels, selected.windows);
@@ -250,12 +250,14 @@ void Region::select_ends(const PassState& state) {
         inner = {written.plane(0).words, written.plane(1).words};
     }
     std::uint64_t done = 0;
-    auto [nearest, after_nearest, before_farthest, farthest] = selected.begin_ranks<end_ranks>();
+    auto ranks = selected.begin_ranks<end_ranks>();
+    SelectedFragments::Filling &nearest = ranks[0], &after_nearest = ranks[1], &before_farthest = ranks[2],
+                               &farthest = ranks[3];
     for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
         const auto& [p, words, first, last, tested, low] = column;
         selected.inside += last - first;
         std::size_t rank = end_ranks;  // of what is tied with an end
-        const auto key = [&](std::uint32_t k) { return words[k] >> 32; };
+        const auto key = [&column](std::uint32_t k) { return column.words[k] >> 32; };
         std::uint32_t near_end = first, far_begin = last;
         if (first < last) nearest.add(p, words[near_end++]);
         while (near_end < last && key(near_end) == key(first)) selected.add(p, words[near_end++], rank++);
@@ -275,7 +277,7 @@ void Region::select_ends(const PassState& state) {
         if (selection.outside == Outside::one_value && near_end == last && last - first < words.size())
             after_nearest.add(p, words[first > 0 ? 0 : last]);
     });
-    selected.end_ranks<end_ranks>({nearest, after_nearest, before_farthest, farthest});
+    selected.end_ranks<end_ranks>(ranks);
     count_visits(done);
 }
 

@@ -15,6 +15,7 @@ GROUPS = {
     "replay: fragments captured and recalled": ["pipeline/fragments/fragment_store.*", "pipeline/region/region_replay.cpp"],
     "selections: passes visit what they keep": [
         "pipeline/fragments/sorted_*", "pipeline/fragments/stored_updates.cpp", "pipeline/fragments/selected_fragments.h",
+        "pipeline/fragments/compared_depths.cpp", "pipeline/fragments/first_that.h", "pipeline/region/region_select_compared.cpp",
         "pipeline/fragments/earliest_index.h", "pipeline/fragments/sort_arrivals.h",
         "pipeline/region/region_select_runs.cpp", "pipeline/fragments/key_windows.h",
         "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp",
