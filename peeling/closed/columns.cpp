@@ -3,7 +3,7 @@
 // Rule     Arrivals are put down band by band, a band being whole rows of the region whose fragments fit into a
 //          second-level cache. First the whole region is tried as one band, which most tiles are; a region that does not
 //          fit is counted and cut. One row that exceeds the fragment memory makes the closed form decline, and so does a
-//          depth beyond the range.
+//          depth beyond the range, of a fragment or of the surface.
 // Numbers  At most 2^24 - 1 fragments at a pixel, or the form declines, too. A place has 32 bits. Every column takes a
 //          word of 8 bytes for each fragment of the tallest one, and every place 16 bytes of colour: Band::bytes.
 #include "peeling/closed/columns.h"
@@ -62,6 +62,7 @@ class RegionColumns {
 
     // First as if all fitted into a cache: one walk. What does not is counted, and walked band by band.
     [[nodiscard]] std::optional<RegionFragments> run() {
+        if (!region_.has_ordered_surface()) return std::nullopt;
         const Band whole = as_much_as_is_cached();
         if (whole.ranks > 0) {
             take_memory(whole);

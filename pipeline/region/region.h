@@ -66,6 +66,8 @@ class Region {
     // background (without opaque geometry: depth 1, the background).
     [[nodiscard]] Target opaque_depth() const noexcept { return opaque_depth_; }
     [[nodiscard]] Target opaque_color() const noexcept { return opaque_color_; }
+    // Whether its depths lie within the range, as those do that are sorted: codes beyond it have no order (depth.md 2.9).
+    [[nodiscard]] bool has_ordered_surface() const;
 
     // What people call a target, for observers and alterations.
     void call(Target target, std::string_view name) const {

@@ -105,7 +105,7 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
                               instruments_.once_more == Effect::none && !instruments_.log_passes &&
                               frame_.replay.bytes > 0 && &list == frame_.repeated();
     if (!is_plain_run || has_foreign_stages(state) || !has_tests_of_its_kind(state, pass_samples_) ||
-        (wants_stored_codes(state) && frame_.key != DepthKey::stored_code))
+        (wants_stored_codes(state) && frame_.key != DepthKey::stored_code) || !has_ordered_surface())
         return false;
     rasterizer::FragmentNeeds kept = pass_needs(state, needs_of_tile(list), frame_.effects);
     kept.texcoord = state.needs.texcoord;
@@ -129,6 +129,14 @@ bool Region::may_select(const PassState& state, const PreparedDraw& list) {
     if (!scratch_->selected.is_ready) return true;
     select_window(state);
     return instruments_.check_selections || 2 * scratch_->selected.inside <= sorted.size();
+}
+
+bool Region::has_ordered_surface() const {
+    const TargetStorage& surface = storage(opaque_depth_);
+    const auto is_beyond = [format = depth_format(surface.format())](std::uint32_t code) {
+        return rasterizer::is_beyond_range(code, format);
+    };
+    return !wraps_depths() || std::none_of(surface.depth(0), surface.depth(0) + rect_.area(), is_beyond);
 }
 
 // The sorting that this pass looks into. Where the compared depth is every fragment's stored one, one sorting serves
