@@ -10,10 +10,13 @@
 // Source   execution.md 7.1.
 // Tests    tests/pipeline/fragments/sorted_fragments_test.cpp
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pipeline/device/state.h"
@@ -161,6 +164,8 @@ class SortedFragments {
     [[nodiscard]] std::uint64_t needed_bytes() const noexcept;
     [[nodiscard]] bool take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface);
     void place_columns();
+    template <class Visit>
+    void for_each_fetched(const FragmentStore& store, const rasterizer::FragmentNeeds& needs, const Visit& visit) const;
     void take_stored(const FragmentStore& store);
     [[nodiscard]] bool sort_compared(const FragmentStore& store, const std::uint32_t* surface);
     [[nodiscard]] bool take_compared(const FragmentStore& store);
@@ -212,5 +217,23 @@ class SortedFragments {
     std::vector<std::uint64_t> by_code_, by_place_;  // of one column, while it is counted
     std::vector<std::uint32_t> reach_;
 };
+
+// Calls visit(batch, lane, number of the word) for every word with what `needs` names of its fragment; of words between columns with any.
+template <class Visit>
+void SortedFragments::for_each_fetched(const FragmentStore& store, const rasterizer::FragmentNeeds& needs,
+                                       const Visit& visit) const {
+    if (size() == 0) return;  // not even a word between columns has a place then
+    const auto batch = std::make_unique<rasterizer::FragmentBatch>();
+    rasterizer::Lanes<std::uint32_t> places;
+    for (std::size_t first = 0; first < words_.size(); first += places.size()) {
+        const std::size_t count = std::min(places.size(), words_.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint64_t word = words_[first + i];
+            places[i] = word == ~std::uint64_t{0} ? 0 : static_cast<std::uint32_t>(word);
+        }
+        store.fetch({places.data(), count}, needs, FragmentStore::Numbers::no, *batch);
+        for (std::size_t i = 0; i < count; ++i) visit(std::as_const(*batch), i, first + i);
+    }
+}
 
 }  // namespace strata::pipeline

@@ -5,7 +5,6 @@
 //          for every i from one behind the last such g up to f's own number: an interval. Intervals are summed once a column.
 // Tests    tests/pipeline/fragments/sorted_fragments_test.cpp
 #include <algorithm>
-#include <memory>
 
 #include "pipeline/fragments/sorted_fragments.h"
 
@@ -58,20 +57,12 @@ void sort_if_needed(std::vector<std::uint64_t>& words) {
 void SortedFragments::take_stored(const FragmentStore& store) {
     stored_.resize(words_.size());
     least_stored_.resize(words_.size());
-    const auto batch = std::make_unique<rasterizer::FragmentBatch>();
     rasterizer::FragmentNeeds code_alone;
     code_alone.shader_z = code_alone.color = false;
     code_alone.code = true;
-    rasterizer::Lanes<std::uint32_t> places;
-    for (std::size_t first = 0; first < words_.size(); first += places.size()) {
-        const std::size_t count = std::min(places.size(), words_.size() - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint64_t word = words_[first + i];
-            places[i] = word == ~std::uint64_t{0} ? 0 : static_cast<std::uint32_t>(word);  // between columns: any
-        }
-        store.fetch({places.data(), count}, code_alone, FragmentStore::Numbers::no, *batch);
-        for (std::size_t i = 0; i < count; ++i) stored_[first + i] = std::uint64_t{batch->code[i]} << 32 | places[i];
-    }
+    for_each_fetched(store, code_alone, [&](const rasterizer::FragmentBatch& batch, std::size_t i, std::size_t number) {
+        stored_[number] = std::uint64_t{batch.code[i]} << 32 | static_cast<std::uint32_t>(words_[number]);
+    });
 }
 
 SortedFragments::Passing SortedFragments::passing_stored(std::size_t pixel, std::uint32_t first,

@@ -116,6 +116,24 @@ TEST_CASE("selections by another depth, with codes to spare and as published kee
     }
 }
 
+// In a range up to 2^-120 the depths between these ends are denormal: a profile that flushes them stores 0. Ends that are normal in every
+// pixel write no range, and so do not flush it again.
+TEST_CASE("what lies between a peel's ends is left as its blend leaves it, denormal depths among them") {
+    FragmentScene scene{8, 8};
+    Random random{93};
+    for (auto& pixel : scene.pixels)
+        for (const float depth : {0.0f, 0x1p-10f, 0x1p-8f, 0.5f})
+            pixel.fragments.push_back({depth, random_color(random)});
+    RenderOptions options = options_for(scene);
+    options.max_passes = 6;
+    options.raster.depth_far = 0x1p-120f;
+    const DrawList list = draw_list(scene);
+    for (const char* profile : {"geforce8_dx101", "ideal"}) {
+        INFO(profile);
+        CHECK_NOTHROW(render(list, {}, {profile, "dual_independent"}, options, {.check_selections = true}));
+    }
+}
+
 TEST_CASE("a selection that its program does not keep is found where selections are checked") {
     TestFrame frame{deep_scene(5), "geforce8"};
     frame.frame.replay = {std::uint64_t{1} << 20, {}};
