@@ -155,7 +155,7 @@ class RowWalk {
     }
 
   private:
-    void draw_any(std::span<const std::uint32_t> triangles) {
+    HWY_NOINLINE void draw_any(std::span<const std::uint32_t> triangles) {
         set_up_group(geometry_, rules_, kernels_, triangles, group_);
         draw_group(triangles);
     }

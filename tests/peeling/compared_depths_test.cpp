@@ -43,7 +43,7 @@ constexpr Comparison comparisons[]{
 
 }  // namespace
 
-TEST_CASE("what a peel visits grows with its layers and not with their square, whatever depth it compares") {
+TEST_CASE("what a peel visits grows with its layers and not with their square, whatever depth it compares", "[slow]") {
     const std::vector<std::pair<Machine, std::uint32_t>> most_a_layer{{{"geforce3", "depth_units"}, 3},
                                                                       {{"geforce3", "shadow_map"}, 3},
                                                                       {{"geforce8", "front_to_back"}, 3},

@@ -51,7 +51,7 @@ using strata::pipeline::Execution;
 
 }  // namespace
 
-TEST_CASE("meshes of triangles of a pixel or two execute alike, whatever is peeled, added and tested") {
+TEST_CASE("meshes of triangles of a pixel or two execute alike, whatever is peeled, added and tested", "[slow]") {
     const TriangleScene scene = sheets(811);
     const std::array profiles{*strata::pipeline::find_profile("geforce8"), *strata::pipeline::find_profile("ideal"),
                               with_unsnapped_planes()};

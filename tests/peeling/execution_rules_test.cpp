@@ -61,7 +61,8 @@ TEST_CASE("both ends peeled over a background of denormals and -0 execute alike 
 }
 
 // An offset moves most fragments below 0: in fixed point they wrap around and are farther than all others, in D32F nearer.
-TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole, and no tile trusts a bound") {
+TEST_CASE("depths beyond the range execute alike: the frame is drawn as a whole, and no tile trusts a bound",
+          "[slow]") {
     using namespace strata::pipeline;
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
     DeviceProfile wraps = *find_profile("llvmpipe"), clamps = wraps;
@@ -109,7 +110,8 @@ TEST_CASE("an opaque depth below 0 is no bound of what is sorted: such a frame e
 }
 
 // Tiles of 64 pixels that share a place in the cache: (5, 0) and (0, 1). Passes that blend a pixel several times.
-TEST_CASE("blends in cached tiles execute alike, in frames whose tiles throw one another out and in small ones") {
+TEST_CASE("blends in cached tiles execute alike, in frames whose tiles throw one another out and in small ones",
+          "[slow]") {
     using namespace strata::pipeline;
     const std::vector<Way> few{ways[0], ways[1], ways[3], ways[7], ways[8]};
     for (const int width : {40, 330})
@@ -129,7 +131,8 @@ TEST_CASE("blends in cached tiles execute alike, in frames whose tiles throw one
 // Mesa's drivers round each product of a blend and convert by binary32 products; other profiles may mix the rules. Random ones.
 TEST_CASE(
     "peels execute alike on devices that blend and convert by every rule, in every format, with ties and under "
-    "limits") {
+    "limits",
+    "[slow]") {
     Random random{81};
     const std::array<Way, 2> chosen{ways[7], ways[10]};
     using namespace strata::pipeline;

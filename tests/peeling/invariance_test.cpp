@@ -102,8 +102,8 @@ const Case with_ulps{"ideal", "front_to_back", DepthPath::float32, DepthPath::pe
 
 }  // namespace
 
-TEST_CASE(
-    "the machine peels without error at both ends of the adviser's epsilons, and not with the next ones outside") {
+TEST_CASE("the machine peels without error at both ends of the adviser's epsilons, and not with the next ones outside",
+          "[slow]") {
     Verdicts verdicts;
     int empty = 0;
     for (const float gap : {0.5f, 0x1p-12f, 0x1p-21f})
@@ -127,7 +127,7 @@ TEST_CASE(
     CHECK(verdicts.wrong == 0);
 }
 
-TEST_CASE("the same holds of absolute epsilons, to the last bit of a double") {
+TEST_CASE("the same holds of absolute epsilons, to the last bit of a double", "[slow]") {
     Verdicts verdicts;
     for (const float gap : {0.5f, 0x1p-12f})
         for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f}) {

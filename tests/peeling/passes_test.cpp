@@ -68,7 +68,7 @@ std::uint64_t peel_once(const std::vector<GivenFragment>& fragments, float& peel
 
 }  // namespace
 
-TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 layers") {
+TEST_CASE("geometry passes follow the formula of every algorithm for 0 to 9 layers", "[slow]") {
     for (int n = 0; n <= 9; ++n) {
         const int half = (n + 1) / 2;
         const std::vector<std::pair<Machine, int>> formulas{{{"geforce3", "unsorted"}, 1},

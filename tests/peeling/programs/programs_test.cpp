@@ -171,7 +171,7 @@ TEST_CASE("a visible fragment between the peeled depths is near, far or between,
     CHECK(wrong == 0);
 }
 
-TEST_CASE("every stored depth comes back from a float colour, and greater codes have greater values") {
+TEST_CASE("every stored depth comes back from a float colour, and greater codes have greater values", "[slow]") {
     using strata::rasterizer::DepthFormat;
     CHECK(wrong_codes(DepthFormat::d16, 1) == 0);
     CHECK(wrong_codes(DepthFormat::d24, 1) == 0);

@@ -95,7 +95,7 @@ TEST_CASE("a chain without an exact link follows every depth path and format, co
     }
 }
 
-TEST_CASE("exact blending alone, on exact depths, gives the picture of the A-buffer, to the bit") {
+TEST_CASE("exact blending alone, on exact depths, gives the picture of the A-buffer, to the bit", "[slow]") {
     RenderOptions options = chain_options();
     options.depth_path = DepthPath::exact;
     Chain chain = machine_chain;

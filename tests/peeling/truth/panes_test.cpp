@@ -95,7 +95,7 @@ Chain chain_of(unsigned bits) {
 
 }  // namespace
 
-TEST_CASE("every chain of links composites panes as a plain loop does, to what its formats round away") {
+TEST_CASE("every chain of links composites panes as a plain loop does, to what its formats round away", "[slow]") {
     std::vector<Pane> glass_alone;
     for (const Pane& pane : all_panes)
         if (pane.mode == AlphaMode::blend) glass_alone.push_back(pane);

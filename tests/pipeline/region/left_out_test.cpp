@@ -101,7 +101,8 @@ Outcome outcome_of(const Quad& quad, Effects effects = Effects::needed, const In
 }  // namespace
 
 TEST_CASE(
-    "a quad over a layer leaves and counts what it does at every pixel, whatever the target holds, and visits fewer") {
+    "a quad over a layer leaves and counts what it does at every pixel, whatever the target holds, and visits fewer",
+    "[slow]") {
     for (const char* profile : {"ideal", "geforce8_dx101", "llvmpipe"})
         for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f})
             for (Blend blend : {blend_mode::under, blend_mode::over})

@@ -182,7 +182,7 @@ TEST_CASE("SRC_ALPHA_SATURATE is min(As, 1 - Ad) for the colours and 1 for alpha
           std::array{100, 100, 100, 100});
 }
 
-TEST_CASE("zeros UNDER and OVER leave every code, by every rounding") {
+TEST_CASE("zeros UNDER and OVER leave every code, by every rounding", "[slow]") {
     static Colors src;
     static Codes codes;
     int wrong = 0;

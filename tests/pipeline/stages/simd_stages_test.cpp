@@ -145,7 +145,7 @@ TEST_CASE("the numbers at which two planes differ are found alike on every instr
     });
 }
 
-TEST_CASE("the depth test in a plane kills, counts and writes alike on every instruction set") {
+TEST_CASE("the depth test in a plane kills, counts and writes alike on every instruction set", "[slow]") {
     for_each_set([] {
         Random random{502};
         Tally tally;

@@ -36,7 +36,8 @@ using namespace strata::rasterizer;
 
 }  // namespace
 
-TEST_CASE("sixteen plain triangles at once become the records and counts of one after the other, on every set") {
+TEST_CASE("sixteen plain triangles at once become the records and counts of one after the other, on every set",
+          "[slow]") {
     std::uint64_t wrong = 0, tiny = 0, others = 0;
     for (const DenseCase& dense : dense_cases()) {
         const auto set_up_by = [&](strata::Simd simd) {
@@ -56,7 +57,8 @@ TEST_CASE("sixteen plain triangles at once become the records and counts of one 
     CHECK(others > 1'000);
 }
 
-TEST_CASE("a tiny triangle's record holds the pixels that it covers, and none of it is binned where there are none") {
+TEST_CASE("a tiny triangle's record holds the pixels that it covers, and none of it is binned where there are none",
+          "[slow]") {
     std::uint64_t wrong = 0, covered = 0, empty = 0;
     for (const DenseCase& dense : dense_cases()) {
         Geometry g = set_up(dense.soup, dense.state, dense.rules, 1);

@@ -169,7 +169,7 @@ TEST_CASE("the result of set-up does not depend on the number of threads") {
     }
 }
 
-TEST_CASE("every instruction set sets vertices up to the same bits, whatever is wrong with some of them") {
+TEST_CASE("every instruction set sets vertices up to the same bits, whatever is wrong with some of them", "[slow]") {
     TriangleSoup soup = random_soup(93, 2000, SoupKind::needs_clipping);
     Random random{94};
     for (int i = 0; i < 300; ++i) {

@@ -43,7 +43,7 @@ TEST_CASE("an edge value is cut to 24 bits toward zero on either side of its edg
     CHECK(wrong == 0);
 }
 
-TEST_CASE("weights by a cut reciprocal are those of rationals for areas and edge values of up to 48 bits") {
+TEST_CASE("weights by a cut reciprocal are those of rationals for areas and edge values of up to 48 bits", "[slow]") {
     Random random{72};
     std::size_t wrong = 0, large = 0;
     for (int i = 0; i < 4000; ++i) {

@@ -93,7 +93,8 @@ TEST_CASE("rows of depth leave the codes and the counts of fragments tested one 
 }
 
 TEST_CASE(
-    "tiny triangles side by side leave what their fragments leave one after the other, cut by regions and scissors") {
+    "tiny triangles side by side leave what their fragments leave one after the other, cut by regions and scissors",
+    "[slow]") {
     std::size_t wrong = 0, compared = 0;
     for (const DenseCase& dense : dense_cases()) {
         Geometry geometry = set_up(dense.soup, dense.state, dense.rules, 1);
