@@ -46,15 +46,12 @@ void composite_layer(Region& region, Target layer, Target depth, Target accumula
     PassState state;
     state.color[0] = accumulated;
     state.blend[0] = blend_mode::under;
-    state.reads = {layer, depth, region.opaque_depth()};
+    state.reads[0] = layer;
     state.layer = {.depth = depth, .surface = region.opaque_depth()};
-    static_cast<void>(region.full_screen(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+    const bool is_traced = trace_layer(state, region.frame());
+    static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves it alone
-        out.traced = true;
-        for (std::size_t i = 0; i < lanes(in); ++i) {
-            out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? Side::front : Side::none;
-            out.key[i] = own.depth(1)[i];
-        }
+        if (is_traced) trace_layer(own, lanes(in), Side::front, out);
     }));
 }
 

@@ -1,6 +1,6 @@
 #include "peeling/programs/layer_quads.h"
 
-#include "peeling/programs/programs.h"
+#include "peeling/programs/layer_target.h"
 
 namespace strata::peeling {
 
@@ -15,20 +15,13 @@ void composite_quads(Region& region, const SavedLayers& layers, Target result) {
         state.color[0] = result;
         state.blend[0] = blend_mode::over;
         state.blend[0].write_mask = 0x7;  // the final alpha stays 1
-        const bool is_traced = region.frame().trace;
         state.reads[0] = layers.color[layer];
         state.layer = {.depth = layers.depth[layer], .surface = region.opaque_depth()};
-        (is_traced ? state.reads[1] : state.textures[0]) = layers.depth[layer];
-        (is_traced ? state.reads[2] : state.textures[1]) = region.opaque_depth();
+        const bool is_traced = trace_layer(state, region.frame());
         static_cast<void>(
             region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
                 out.color[0] = own.color(0);
-                if (!is_traced) return;
-                out.traced = true;
-                for (std::size_t i = 0; i < lanes(in); ++i) {
-                    out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? Side::back : Side::none;
-                    out.key[i] = own.depth(1)[i];
-                }
+                if (is_traced) trace_layer(own, lanes(in), Side::back, out);
             }));
     }
 }

@@ -1,5 +1,6 @@
 // peeling/programs/layer_target.h - what one-layer-a-pass peels do with the layer.
 #pragma once
+#include "peeling/programs/programs.h"
 #include "pipeline/region/region.h"
 
 namespace strata::peeling {
@@ -7,5 +8,21 @@ namespace strata::peeling {
 // Full screen: a premultiplied layer UNDER what is accumulated. `depth` differs from the opaque depth where it has a fragment.
 void composite_layer(pipeline::Region& region, pipeline::Target layer, pipeline::Target depth,
                      pipeline::Target accumulated);
+
+// A quad that blends a layer reads the two depths that tell where it is. The trace alone looks at their values: without one they are
+// textures, as good as loads, which nobody samples. True with a trace: then a program calls the other of this name.
+[[nodiscard]] inline bool trace_layer(pipeline::PassState& state, const pipeline::Frame& frame) {
+    auto* const depths = frame.trace ? state.reads.data() + 1 : state.textures.data();
+    depths[0] = state.layer.depth;
+    depths[1] = state.layer.surface;
+    return frame.trace;
+}
+inline void trace_layer(const pipeline::Loads& own, std::size_t count, pipeline::Side side, pipeline::Outputs& out) {
+    out.traced = true;
+    for (std::size_t i = 0; i < count; ++i) {
+        out.side[i] = own.depth(1)[i] != own.depth(2)[i] ? side : pipeline::Side::none;
+        out.key[i] = own.depth(1)[i];
+    }
+}
 
 }  // namespace strata::peeling
