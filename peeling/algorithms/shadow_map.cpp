@@ -35,8 +35,6 @@ Drawn peel(Region& region, const Buffers& to) {
     state.needs.shader_z = false;
     state.needs.reference = !first;
     state.selection = nearest_behind(compare, to.map, Outside::alpha_test);
-    // The first pass, too: of one sorting it finds what it would of another.
-    state.selection.by_reference = !state.selection.compared;
     const List list = first ? List::first : List::second;
     return region.draw(state, list, [first, compare](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = in.color;

@@ -5,17 +5,12 @@
 #include "pipeline/region/region.h"
 
 namespace strata::peeling {
-// The window of a peel that keeps the nearest fragment behind `peeled`: by stored codes, by compared ones, or by compared depths.
+// The window of a peel that keeps the nearest fragment behind `peeled`, by whatever depth it compares.
 [[nodiscard]] inline pipeline::FragmentSelection nearest_behind(const pipeline::DepthCompare& compare,
                                                                 pipeline::Target peeled, pipeline::Outside outside) {
-    if (!peeled.exists()) return {.keeps = pipeline::Keeps::nearest, .outside = outside};
-    if (!compare.compares_codes())
-        return {.keeps = pipeline::Keeps::nearest, .outside = outside, .behind = peeled, .compared = compare};
-    return {.keeps = pipeline::Keeps::nearest,
-            .outside = outside,
-            .behind = peeled,
-            .behind_codes = static_cast<std::uint32_t>(compare.epsilon.ulps),
-            .by_reference = !compare.is_plain()};
+    pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::nearest, .outside = outside, .behind = peeled};
+    if (!compare.is_plain()) selection.compared = compare;
+    return selection;
 }
 
 inline namespace strict {

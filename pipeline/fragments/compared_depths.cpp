@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <tuple>
 #include <utility>
 
@@ -27,18 +28,28 @@ namespace {
 bool SortedFragments::take_compared(const FragmentStore& store) {
     const DepthCompare& compare = *request_.compared;
     compared_.resize(words_.size());
+    if (size() == 0) return true;  // not even what stands between columns has a place then
+    const auto batch = std::make_unique<rasterizer::FragmentBatch>();
     rasterizer::FragmentNeeds reference_alone;
     reference_alone.shader_z = reference_alone.code = reference_alone.color = false;
     reference_alone.reference = true;
-    const bool is_value = request_.key == DepthKey::shader_z;
+    rasterizer::Lanes<std::uint32_t> places;
     bool has_order = true;
-    for_each_fetched(store, reference_alone,
-                     [&](const rasterizer::FragmentBatch& batch, std::size_t i, std::size_t number) {
-                         const double z = batch.reference_z[i];
-                         const double own = is_value ? compare.own(z) : compare.own(batch.reference_code[i], z);
-                         compared_[number] = own;
-                         has_order &= !std::isnan(own);
-                     });
+    for (std::size_t first = 0; first < words_.size(); first += places.size()) {
+        const std::size_t count = std::min(places.size(), words_.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint64_t word = words_[first + i];
+            places[i] = word == ~std::uint64_t{0} ? 0 : static_cast<std::uint32_t>(word);  // between columns: any
+        }
+        store.fetch({places.data(), count}, reference_alone, FragmentStore::Numbers::no, *batch);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double z = batch->reference_z[i];
+            const double own =
+                request_.key == DepthKey::shader_z ? compare.own(z) : compare.own(batch->reference_code[i], z);
+            compared_[first + i] = own;
+            has_order &= !std::isnan(own);
+        }
+    }
     return has_order;
 }
 

@@ -205,7 +205,7 @@ KeyWindow window_of(const FragmentSelection& s, const Frame& frame, const Storag
             bound(s.up_to),
             value(s.behind_value),
             value(s.before_value),
-            s.behind_codes,
+            static_cast<std::uint64_t>(s.compared ? s.compared->epsilon.ulps : 0),
             greatest,
             s.range.exists() ? RangeBound{storage_of(s.range).texels(0)} : RangeBound{}};
 }

@@ -19,7 +19,7 @@ using rasterizer::Lanes;
 namespace {
 
 constexpr std::uint64_t bytes_per_fragment = sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t) + 1;  // and its index
-constexpr std::uint64_t more_by_reference = 2 * sizeof(std::uint64_t);
+constexpr std::uint64_t more_by_comparison = 2 * sizeof(std::uint64_t);
 constexpr std::uint64_t bytes_per_pixel = 72;  // its column, what finds it, a word of ones
 
 [[nodiscard]] bool is_at_most(float value, float most) noexcept {
@@ -61,7 +61,6 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
         if (!request.by_arrival && !request.compared)
             column.arrival = sort_arrivals({words_.data() + column.begin, column.size});
     }
-    if (request.by_reference) take_stored(store);
     if (request.compared && !sort_compared(store, surface)) return false;
     updates_.resize(words_.size());
     for (auto& [bounds, cursors] : cursors_) {
@@ -82,8 +81,7 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
     const auto batch = std::make_unique<FragmentBatch>();
     Lanes<std::uint32_t> alive;
     FragmentNeeds recalled{.shader_z = request_.key == DepthKey::shader_z,
-                           .code = request_.key == DepthKey::stored_code || request_.by_arrival,
-                           .reference = request_.by_reference};
+                           .code = request_.key == DepthKey::stored_code || request_.by_arrival};
     const auto numbers = request_.primitives.empty() ? FragmentStore::Numbers::no : FragmentStore::Numbers::yes;
     const std::span<const PrimitiveRange> ranges = request_.primitives;
     std::vector<bool> is_bright(store.batches());  // known to lose nothing by the alpha test: it is not made again
@@ -131,8 +129,8 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
     for (const std::uint32_t begin : begin_) words_[begin - 1] = ~std::uint64_t{0};
     return for_each_alive(
         [&](std::size_t number, std::size_t count, const Lanes<std::uint32_t>& is_alive, const Fates&) {
-            const bool is_value = !request_.by_reference && request_.key == DepthKey::shader_z;
-            Lanes<std::uint32_t>& key = request_.by_reference ? batch->reference_code : batch->code;
+            const bool is_value = request_.key == DepthKey::shader_z;
+            Lanes<std::uint32_t>& key = batch->code;
             for (std::size_t i = 0; is_value && i < count; ++i) key[i] = rasterizer::ordered_code(batch->shader_z[i]);
             std::uint32_t* const next = next_.data();
             std::uint64_t* const words = words_.data();
@@ -165,14 +163,11 @@ bool SortedFragments::has_sortable_keys(const FragmentBatch& batch) const noexce
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i)
         sortable &= request_.key == DepthKey::shader_z ? batch.shader_z[i] == batch.shader_z[i]
                                                        : !request_.is_float || batch.code[i] <= 0x7f800000u;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count) && request_.by_reference; ++i)
-        sortable &= !request_.is_float || batch.reference_code[i] <= 0x7f800000u;
     return sortable;
 }
 
 std::uint64_t SortedFragments::needed_bytes() const noexcept {
-    return size() * (bytes_per_fragment + (request_.by_reference || request_.compared ? more_by_reference : 0)) +
-           pixels() * bytes_per_pixel;
+    return size() * (bytes_per_fragment + (request_.compared ? more_by_comparison : 0)) + pixels() * bytes_per_pixel;
 }
 
 bool SortedFragments::has_plain_colors(const FragmentStore& store) {

@@ -10,13 +10,10 @@
 // Source   execution.md 7.1.
 // Tests    tests/pipeline/fragments/sorted_fragments_test.cpp
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "pipeline/device/state.h"
@@ -36,8 +33,7 @@ struct SortRequest {
     bool is_float = false;  // stored codes are bits of binary32
     AlphaTest alpha{};
     bool eight_bit_alpha = true;
-    bool by_arrival = false;    // not sorted by key, and without those that do not lie before `surface`
-    bool by_reference = false;  // sorted by the code that is compared; each has its stored code beside it
+    bool by_arrival = false;  // not sorted by key, and without those that do not lie before `surface`
     std::optional<DepthCompare>
         compared{};  // sorted by the depth that this compares; what is not before `surface` comes last
     std::vector<PrimitiveRange> primitives{};  // these alone, ascending and disjoint; empty: all
@@ -65,7 +61,8 @@ class SortedFragments {
     // Whether every colour is in [0, 1024] and every alpha in [0, 1], none of them -0: MAX of such has no order. Of the store that
     // is sorted; looked at once.
     [[nodiscard]] bool has_plain_colors(const FragmentStore& store);
-    [[nodiscard]] bool is_by_reference() const noexcept { return request_.by_reference; }
+    [[nodiscard]] bool is_compared() const noexcept { return request_.compared.has_value(); }
+    [[nodiscard]] const DepthCompare& compare() const noexcept { return *request_.compared; }
 
     [[nodiscard]] std::size_t pixels() const noexcept { return columns_.size(); }
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
@@ -148,7 +145,7 @@ class SortedFragments {
     // Bytes that the present sorting takes.
     [[nodiscard]] std::uint64_t bytes() const noexcept { return state_ == State::sorted ? needed_bytes() : 0; }
 
-    // Of a request by reference or by a compared depth: the fragments from number `first` on, before `surface`, under the same test of their stored
+    // Of a request by a compared depth: the fragments from number `first` on, before `surface`, under the same test of their stored
     // codes. `word` is (stored code, place) of the last that passes; without one nothing passes.
     struct Passing {
         std::uint64_t word = 0;
@@ -164,9 +161,6 @@ class SortedFragments {
     [[nodiscard]] std::uint64_t needed_bytes() const noexcept;
     [[nodiscard]] bool take(const FragmentStore& store, std::uint64_t limit, const std::uint32_t* surface);
     void place_columns();
-    template <class Visit>
-    void for_each_fetched(const FragmentStore& store, const rasterizer::FragmentNeeds& needs, const Visit& visit) const;
-    void take_stored(const FragmentStore& store);
     [[nodiscard]] bool sort_compared(const FragmentStore& store, const std::uint32_t* surface);
     [[nodiscard]] bool take_compared(const FragmentStore& store);
     void take_extremes();
@@ -212,28 +206,10 @@ class SortedFragments {
     UninitializedVector<double> compared_;
     UninitializedVector<std::uint32_t> least_key_, greatest_key_;
     std::array<std::vector<std::uint32_t>, 4> compared_cursors_;
-    // Of a request by reference, by word: the fragment's own (stored code, place), and the least of it and those behind.
-    UninitializedVector<std::uint64_t> stored_, least_stored_;
+    UninitializedVector<std::uint64_t>
+        least_stored_;  // by word, where keys are stored codes: the least of it and those behind
     std::vector<std::uint64_t> by_code_, by_place_;  // of one column, while it is counted
     std::vector<std::uint32_t> reach_;
 };
-
-// Calls visit(batch, lane, number of the word) for every word with what `needs` names of its fragment; of words between columns with any.
-template <class Visit>
-void SortedFragments::for_each_fetched(const FragmentStore& store, const rasterizer::FragmentNeeds& needs,
-                                       const Visit& visit) const {
-    if (size() == 0) return;  // not even a word between columns has a place then
-    const auto batch = std::make_unique<rasterizer::FragmentBatch>();
-    rasterizer::Lanes<std::uint32_t> places;
-    for (std::size_t first = 0; first < words_.size(); first += places.size()) {
-        const std::size_t count = std::min(places.size(), words_.size() - first);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint64_t word = words_[first + i];
-            places[i] = word == ~std::uint64_t{0} ? 0 : static_cast<std::uint32_t>(word);
-        }
-        store.fetch({places.data(), count}, needs, FragmentStore::Numbers::no, *batch);
-        for (std::size_t i = 0; i < count; ++i) visit(std::as_const(*batch), i, first + i);
-    }
-}
 
 }  // namespace strata::pipeline

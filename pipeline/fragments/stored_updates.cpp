@@ -53,18 +53,6 @@ void sort_if_needed(std::vector<std::uint64_t>& words) {
 
 }  // namespace
 
-// The stored code of every word, which its own place in the store leads to.
-void SortedFragments::take_stored(const FragmentStore& store) {
-    stored_.resize(words_.size());
-    least_stored_.resize(words_.size());
-    rasterizer::FragmentNeeds code_alone;
-    code_alone.shader_z = code_alone.color = false;
-    code_alone.code = true;
-    for_each_fetched(store, code_alone, [&](const rasterizer::FragmentBatch& batch, std::size_t i, std::size_t number) {
-        stored_[number] = std::uint64_t{batch.code[i]} << 32 | static_cast<std::uint32_t>(words_[number]);
-    });
-}
-
 SortedFragments::Passing SortedFragments::passing_stored(std::size_t pixel, std::uint32_t first,
                                                          std::uint32_t surface) {
     if (first >= of(pixel).size() || surface == 0) return {};
@@ -78,7 +66,7 @@ SortedFragments::Passing SortedFragments::passing_stored(std::size_t pixel, std:
 void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surface) {
     const std::uint32_t begin = columns_[pixel].begin;
     const auto size = static_cast<std::uint32_t>(of(pixel).size());
-    const std::uint64_t* const stored = (request_.compared ? words_ : stored_).data() + begin;
+    const std::uint64_t* const stored = words_.data() + begin;
     std::uint32_t* const updates = updates_.data() + begin;
     by_code_.clear();
     by_place_.clear();

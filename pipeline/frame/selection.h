@@ -48,7 +48,7 @@ enum class Outside : std::uint8_t {
 struct FragmentSelection {
     Keeps keeps = Keeps::everything;
     Outside outside = Outside::discarded;
-    Target behind{};                 // depth target: keys greater than its code raised by `behind_codes`
+    Target behind{};                 // depth target: keys greater than its code
     Target from{};                   // depth target: keys not less than its code
     Target at{};                     // depth target: keys equal to its code
     Target before{}, also_before{};  // depth targets: keys less than their codes
@@ -61,13 +61,12 @@ struct FragmentSelection {
     };
     Channel behind_value{}, before_value{};  // keys with a greater and with a lesser value
     std::uint32_t least = 0, most = ~0u;     // keys, both included
-    std::uint32_t behind_codes = 0;
     std::uint32_t first_arrival = 0;
     // What the pass leaves of a kept fragment follows from its key: of `nearest` the depth alone; of `ends` what lies between is
     // (-z, z) in color[0], of two binary32 channels under MAX, and the program looks at no colour there.
     bool keys_suffice = false;
-    bool by_reference = false;               // `behind` bounds reference_code, and the program looks at no other depth
-    std::optional<DepthCompare> compared{};  // `behind` or `range` bounds the depth that this compares, and no key
+    // `behind` or `range` bounds the depth that this compares, and no key; the program looks at no other depth.
+    std::optional<DepthCompare> compared{};
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;
 };
 

@@ -226,7 +226,6 @@ class Region {
         std::uint32_t first, last, end;  // a window [first, end), of which [first, last) lies before the stored depth
     };
     void select_previous(const PassState& state, std::size_t pixel, const ColumnPart& part, std::uint32_t updates);
-    void select_nearest_stored(const PassState& state);
     void select_nearest_compared(const PassState& state);
     void select_ends_compared(const PassState& state);
     void count_up(const PassState& state, std::size_t pixel, std::uint32_t by);
@@ -242,6 +241,7 @@ class Region {
     void count_down(const PassState& state, const FragmentsAt& fragments_at);
     void count_unvisited(const PassState& state, std::uint64_t visited);
     [[nodiscard]] Drawn book_arrivals(const PassState& state, const Drawn& visited);
+    [[nodiscard]] bool is_compared_apart(const FragmentSelection& selection) const;
     [[nodiscard]] bool sort_for(const PassState& state);
     [[nodiscard]] bool find_or_sort(const PassState& state, const SortRequest& request);
     [[nodiscard]] std::size_t samples_of_pass() const noexcept { return static_cast<std::size_t>(pass_samples_); }

@@ -37,13 +37,12 @@ std::span<const std::uint64_t> in_order_of_arrival(std::span<const std::uint64_t
 void Region::select(const PassState& state) {
     if (std::exchange(scratch_->selected.is_ready, false)) return;
     scratch_->selected.start(scratch_->sorted.present().occupied().size());
-    if (state.selection.compared)
+    if (scratch_->sorted.present().is_compared())
         return state.selection.keeps == Keeps::ends ? select_ends_compared(state) : select_nearest_compared(state);
     switch (state.selection.keeps) {
         case Keeps::nearest:
         case Keeps::last_two:
-        case Keeps::previous:
-            return scratch_->sorted.present().is_by_reference() ? select_nearest_stored(state) : select_nearest(state);
+        case Keeps::previous: return select_nearest(state);
         case Keeps::window: return select_window(state);
         case Keeps::arrivals: return select_arrivals(state);
         case Keeps::ends: return select_ends(state);
@@ -147,25 +146,6 @@ void Region::select_previous(const PassState& state, std::size_t pixel, const Co
     selected.passed += made;
     at(state.stencil_target).stencil_plane(0).words[pixel] = 2;  // before it is visited
     selected.add(pixel, sorted.of(pixel)[kept], 0);
-}
-
-// The window bounds the depth that is compared, and the test looks at the one that is stored.
-void Region::select_nearest_stored(const PassState& state) {
-    SortedFragments& sorted = scratch_->sorted.present();
-    SelectedFragments& selected = scratch_->selected;
-    const KeyWindow window =
-        window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    const StoredDepth stored = stored_depth(state);
-    std::uint32_t* const depth = depth_of_kept(state);
-    for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, tested, low] = column;
-        selected.inside += end - first;
-        const SortedFragments::Passing found = sorted.passing_stored(p, first, stored.of(p));
-        if (found.passed == 0) return;
-        selected.passed += found.passed;
-        if (depth != nullptr) depth[p] = static_cast<std::uint32_t>(found.word >> 32);
-        selected.add(p, found.word, 0);
-    });
 }
 
 void Region::select_window(const PassState& state) {
@@ -327,7 +307,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     std::copy_n(all.pixel.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.pixel.begin());
     std::copy_n(all.key.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.code.begin());
     find_positions(batch, count);
-    const bool is_reference_key = state.selection.by_reference && !scratch_->sorted.present().is_by_reference();
+    const bool is_reference_key = state.selection.compared && !scratch_->sorted.present().is_compared();
     if (is_reference_key) std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
     selected.next += count;
     batch.count = static_cast<int>(count);
@@ -337,7 +317,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
         fetched.shader_z = put_depths(batch.code, count, batch.shader_z);
     const bool has_ends = state.selection.keeps == Keeps::ends;
     fetched.color &= !(has_ends && state.selection.keys_suffice && is_inner(selected.rank));
-    fetched.reference &= !is_reference_key;  // a program that asks by_reference looks at no other depth
+    fetched.reference &= !is_reference_key;  // of a comparison of codes, which are the keys
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it
     store().fetch(places, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);

@@ -34,17 +34,21 @@ Parts parts_of(SortedFragments& sorted, std::size_t column, const DepthCompare& 
 void Region::select_nearest_compared(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    const DepthCompare& compare = *state.selection.compared;
-    const std::uint32_t* const peeled = codes_of(state.selection.behind);
-    const StoredDepth stored{codes_of(state.depth_target), storage(state.depth_target).format() == Format::d32f};
+    const DepthCompare& compare = sorted.compare();
+    const std::uint32_t* const peeled = state.selection.behind.exists() ? codes_of(state.selection.behind) : nullptr;
+    const StoredDepth stored = stored_depth(state);
+    std::uint32_t* const depth = depth_of_kept(state);
     for (std::size_t column = 0; column < sorted.occupied().size(); ++column) {
         const std::uint32_t p = sorted.occupied()[column];
-        const double bound = compare.bound(peeled[p]);
-        const std::uint32_t first = sorted.first_compared(column, 0, [&](double own) { return own > bound; });
+        const auto is_behind = [bound = peeled == nullptr ? 0.0 : compare.bound(peeled[p])](double own) {
+            return own > bound;
+        };
+        const std::uint32_t first = peeled == nullptr ? 0 : sorted.first_compared(column, 0, is_behind);
         selected.inside += sorted.column(column).size() - first;
         const SortedFragments::Passing found = sorted.passing_stored(p, first, stored.of(p));
         if (found.passed == 0) continue;
         selected.passed += found.passed;
+        if (depth != nullptr) depth[p] = static_cast<std::uint32_t>(found.word >> 32);
         selected.add(p, found.word, 0);
     }
 }

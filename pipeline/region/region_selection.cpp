@@ -139,8 +139,16 @@ bool Region::has_ordered_surface() const {
     return !wraps_depths() || std::none_of(surface.depth(0), surface.depth(0) + rect_.area(), is_beyond);
 }
 
-// The sorting that this pass looks into. Where the compared depth is every fragment's stored one, one sorting serves
-// both.
+// Whether what is compared is not the key itself: where codes are compared, and every fragment's is its stored one, one sorting serves
+// both. A first pass compares nothing, and may have no reference: but where others will, of their sorting it finds the same.
+bool Region::is_compared_apart(const FragmentSelection& selection) const {
+    if (!selection.compared) return false;
+    const bool is_of_codes = selection.keeps == Keeps::nearest && selection.compared->compares_codes();
+    if (is_of_codes) return scratch_->store.has_references_apart();
+    return selection.behind.exists() || selection.range.exists() || scratch_->store.needs().reference;
+}
+
+// The sorting that this pass looks into.
 bool Region::sort_for(const PassState& state) {
     const FragmentSelection& selection = state.selection;
     SortRequest request{.key = frame_.key,
@@ -152,10 +160,9 @@ bool Region::sort_for(const PassState& state) {
         const ChannelType type = state.color[0].exists() ? info(at(state.color[0]).format()).type : ChannelType::unorm8;
         request.eight_bit_alpha = is_eight_bit_alpha(profile().alpha_test, type);
     }
-    request.compared = selection.compared;
-    request.by_reference = selection.by_reference && store().has_references_apart();
-    if (!request.compared && !request.by_reference) return find_or_sort(state, request);
-    if (request.compared && selection.keeps == Keeps::ends)
+    if (is_compared_apart(selection)) request.compared = *selection.compared;
+    if (!request.compared) return find_or_sort(state, request);
+    if (selection.keeps == Keeps::ends)
         return selection.range.exists() && frame_.key == DepthKey::shader_z && find_or_sort(state, request);
     const bool is_bounded = selection.before.exists() || selection.also_before.exists() || selection.up_to.exists() ||
                             selection.most != ~0u;

@@ -47,11 +47,13 @@ struct DepthCompare {
     }
     // In the buffer's own units; exact.
     [[nodiscard]] double value(std::uint32_t code) const noexcept { return rasterizer::buffer_value(code, format); }
-    // What is compared of a fragment, in the same units, and what lies behind a stored code is greater than.
+    // What is compared of a fragment, and what lies behind a stored code is greater than: codes as numbers, or values.
     [[nodiscard]] double own(std::uint32_t code, double z) const noexcept {
+        if (compares_codes()) return code;
         return quantizes ? value(code) : std::min(z > 0.0 ? z : 0.0, rasterizer::buffer_units(format));
     }
     [[nodiscard]] double bound(std::uint32_t stored) const noexcept {
+        if (compares_codes()) return raised(stored);
         return value(raised(stored)) + epsilon.absolute * rasterizer::buffer_units(format);
     }
     [[nodiscard]] bool is_behind(std::uint32_t code, double z, std::uint32_t stored) const noexcept {

@@ -306,7 +306,8 @@ TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffe
         auto one = std::make_unique<strata::rasterizer::FragmentBatch>();
         int wrong = 0;
         SortedFragments sorted;
-        REQUIRE(sorted.sort(given.store, {.by_reference = true}, column_pixels, std::uint64_t{64} << 20));
+        const DepthCompare compare{.format = strata::rasterizer::DepthFormat::d24, .has_reference = true};
+        REQUIRE(sorted.sort(given.store, {.compared = compare}, column_pixels, std::uint64_t{64} << 20));
         for (std::size_t p = 0; p < column_pixels; ++p) {
             struct Arrival {
                 std::uint32_t place, compared, code;
@@ -317,7 +318,7 @@ TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffe
                 given.store.fetch({&place, 1}, {.code = true, .color = false, .reference = true},
                                   strata::pipeline::FragmentStore::Numbers::no, *one);
                 arrivals.push_back({place, one->reference_code[0], one->code[0]});
-                wrong += word >> 32 == one->reference_code[0] ? 0 : 1;
+                wrong += word >> 32 == one->code[0] ? 0 : 1;
             }
             wrong += std::ranges::is_sorted(arrivals, {}, &Arrival::compared) ? 0 : 1;
             const auto surface = static_cast<std::uint32_t>(codes - codes / 3);

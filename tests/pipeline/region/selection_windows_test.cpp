@@ -111,7 +111,7 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
     bound(up_to, s.up_to, 5);
     if ((bounds & behind_value) != 0) state.reads[6] = s.behind_value.target = value_bounds(region, 6);
     if ((bounds & before_value) != 0) state.reads[7] = s.before_value.target = value_bounds(region, 8);
-    s.behind_codes = (bounds & behind) != 0 ? 3 : 0;
+    if ((bounds & behind) != 0) s.compared = DepthCompare{.format = format, .epsilon = {.ulps = 3}};
     if ((bounds & keys) != 0) {
         s.least = as_code(0.25f, format);
         s.most = as_code(0.75f, format);
@@ -210,7 +210,10 @@ std::string reference_difference(const Changed& change, std::uint64_t bytes = st
         region.clear(peeled, {.depth = 0.4f});
         state.reads = {peeled, region.opaque_depth()};
         state.needs.reference = true;
-        state.selection = {.keeps = Keeps::nearest, .behind = peeled, .behind_codes = 2, .by_reference = true};
+        state.selection = {
+            .keeps = Keeps::nearest,
+            .behind = peeled,
+            .compared = DepthCompare{.format = DepthFormat::d24, .epsilon = {.ulps = 2}, .has_reference = true}};
         change(state, region);
         const FragmentSelection window = state.selection;
         static_cast<void>(region.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
