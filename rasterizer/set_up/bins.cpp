@@ -41,7 +41,6 @@ class TileWalk {
 
     template <class Visit>
     void visit(const TriangleRecord& triangle, Visit&& visit) const {
-        if (triangle.is_tiny && triangle.covered == 0) return;
         const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
         const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
         if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly

@@ -68,6 +68,7 @@ void add(SetupCounters& sum, const SetupCounters& part) {
     sum.clipped += part.clipped;
     sum.outside += part.outside;
     sum.degenerate += part.degenerate;
+    sum.uncovered += part.uncovered;
     sum.non_finite += part.non_finite;
 }
 

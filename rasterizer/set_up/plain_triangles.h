@@ -23,7 +23,7 @@ struct PlainTriangleRules {
 };
 
 struct PlainFates {
-    std::uint32_t kept = 0, culled = 0, outside = 0, degenerate = 0;
+    std::uint32_t kept = 0, culled = 0, outside = 0, degenerate = 0, uncovered = 0;
 };
 
 // Sixteen triangles, three of `indices` each, submitted from number `primitive` on. False if one of them is not plain: then nothing
@@ -35,8 +35,8 @@ using SetUpPlainTriangles = bool (*)(const PlainTriangleRules& rules, const std:
 // The kernel of the chosen instruction set; null for scalar, and where records are not words of little endian.
 [[nodiscard]] SetUpPlainTriangles set_up_plain_triangles() noexcept;
 
-// Makes a record tiny if its box, pixels of the surface, and its corners are.
-void find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
+// Makes a record tiny if its box, pixels of the surface, and its corners are. False if it is, and covers none of its pixels.
+[[nodiscard]] bool find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
                TriangleRecord& record) noexcept;
 
 }  // namespace strata::rasterizer

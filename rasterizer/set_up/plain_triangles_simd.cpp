@@ -151,19 +151,21 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_
     const Mask is_culled = hn::AndNot(is_degenerate, is_dropped);
     const Mask is_gone = hn::Or(is_degenerate, is_culled);
     const Mask has_no_box = hn::Or(hn::Eq(b.width, zero), hn::Eq(b.height, zero));
-    const Mask is_kept = hn::Not(hn::Or(is_gone, has_no_box));
+    const Mask has_box = hn::Not(hn::Or(is_gone, has_no_box));
     fates.degenerate += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_degenerate));
     fates.culled += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_culled));
     fates.outside += static_cast<std::uint32_t>(hn::CountTrue(I{}, hn::AndNot(is_gone, has_no_box)));
-    kept_bits |= bits_of(is_kept) << first;
 
     EdgeLanes edge[3];
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t from = (i + 1) % 3, to = (i + 2) % 3;
         edge[i] = edge_of(rules.group, b, x[from], y[from], x[to], y[to], turned);
     }
-    const Mask is_tiny = hn::And(is_kept, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
+    const Mask is_tiny = hn::And(has_box, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
     const VI covered = coverage_of(b, edge, is_tiny);
+    const Mask is_uncovered = hn::And(is_tiny, hn::Eq(covered, zero));
+    fates.uncovered += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_uncovered));
+    kept_bits |= bits_of(hn::AndNot(is_uncovered, has_box)) << first;
     const VI left = hn::Sub(b.x0, set(rules.x0)), above = hn::Sub(b.y0, set(rules.y0));
     const auto pair = [](VI low, VI high) HWY_ATTR { return hn::BitCast(U{}, hn::Or(low, hn::ShiftLeft<16>(high))); };
     const VI facing = hn::IfThenElseZero(is_front, set(1)), tiny = hn::IfThenElseZero(is_tiny, set(2));
@@ -214,13 +216,13 @@ SetUpPlainTriangles set_up_plain_triangles() noexcept {
     return kernel_of(HWY_DISPATCH_TABLE(plain_triangles_table))();
 }
 
-void find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
+bool find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
                TriangleRecord& record) noexcept {
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
     record.is_tiny = std::max(box.width(), box.height()) <= tiny_size &&
                      std::max(right - left, bottom - top) <= TriangleGroup::max_extent;
-    if (!record.is_tiny) return;
+    if (!record.is_tiny) return true;
     const TriangleEdges edges{p, rules.tie_rule};
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x) {
@@ -229,6 +231,7 @@ void find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const Ras
             const int bit = (y - box.y0) * tiny_size + (x - box.x0);
             record.covered |= static_cast<std::uint16_t>((is_covered ? 1u : 0u) << bit);
         }
+    return record.covered != 0;
 }
 
 }  // namespace strata::rasterizer

@@ -154,8 +154,11 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
                              .box = in_viewport(box, state_.viewport),
                              .front_facing = front,
                              .negative_w = negative});
-    if (!state_.window_positions && rules_.coverage == CoverageRule::snapped_edges)
-        find_tiny({a->p, b->p, c->p}, box, rules_, out.triangles.back());
+    if (!state_.window_positions && rules_.coverage == CoverageRule::snapped_edges &&
+        !find_tiny({a->p, b->p, c->p}, box, rules_, out.triangles.back())) {
+        out.triangles.pop_back();
+        return Fate::uncovered;
+    }
     if (state_.polygon_offset.enabled) out.offset_z.push_back(with_offset(piece.corner));
     return Fate::kept;
 }
@@ -209,8 +212,10 @@ TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, con
     const PixelBox box = in_viewport(group.box(k), state_.viewport);
     out.triangles.push_back({triangle.vertex, triangle.primitive, triangle.run->material, box, front});
     const auto& [a, b, c] = triangle.vertex;
-    find_tiny({corners_[a].p, corners_[b].p, corners_[c].p}, group.box(k), rules_, out.triangles.back());
-    return Fate::kept;
+    if (find_tiny({corners_[a].p, corners_[b].p, corners_[c].p}, group.box(k), rules_, out.triangles.back()))
+        return Fate::kept;
+    out.triangles.pop_back();
+    return Fate::uncovered;
 }
 
 ClipPolygon TriangleSetup::polygon(const SourceTriangle& triangle) const noexcept {
@@ -319,6 +324,7 @@ bool TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primit
     out.counters.culled += fates.culled;
     out.counters.outside += fates.outside;
     out.counters.degenerate += fates.degenerate;
+    out.counters.uncovered += fates.uncovered;
     return is_done;
 }
 
@@ -329,6 +335,7 @@ void TriangleSetup::count(Fate fate, const SourceTriangle& triangle, SetupCounte
         case Fate::culled: ++counters.culled; break;
         case Fate::outside: ++counters.outside; break;
         case Fate::degenerate: ++counters.degenerate; break;
+        case Fate::uncovered: ++counters.uncovered; break;
         case Fate::non_finite:
             if (counters.non_finite++ == 0) counters.first_non_finite = triangle.number;
             break;

@@ -3,7 +3,7 @@
 // Rule     In this order: a vertex that is not finite drops the triangle, and so does a window position, 1 / w or u / w
 //          that is not (non_finite); clipping (clipped, outside); per piece: zero area after snapping (degenerate),
 //          facing by the sign of the snapped area (culled), no pixel centre of the viewport in its bounding box
-//          (outside, if all its pieces go that way).
+//          (outside, if all its pieces go that way), a tiny one's box of which no pixel is covered (uncovered).
 // Source   coverage.md 6, 7 and 11; D3D 11.3 15.11 (facing after snapping).
 // Tests    tests/rasterizer/set_up/setup_test.cpp
 #pragma once
@@ -73,7 +73,7 @@ class TriangleSetup {
 
   private:
     // The outcome of set-up for a source triangle or for a piece of a clipped one (coverage.md 7.1).
-    enum class Fate : std::uint8_t { kept, culled, outside, degenerate, non_finite };
+    enum class Fate : std::uint8_t { kept, culled, outside, degenerate, uncovered, non_finite };
 
     // Three vertices in the window, and all that is marked at any of them.
     struct Piece {
