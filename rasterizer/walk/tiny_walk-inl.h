@@ -1,12 +1,14 @@
 // rasterizer/walk/tiny_walk-inl.h - tiny triangles side by side, one a lane of binary64, and their pixels side by side behind them: a
-// triangle of a pixel or two does not pay for a row. For *_simd.cpp alone, as weights-inl.h.
+// triangle of a pixel or two does not pay for a row. So do those between them that lie in 8 by 8 pixels.
+// For *_simd.cpp alone, as weights-inl.h.
 //
 // Rule     The pixels, weights and planes of RowWalk, in its order: triangle after triangle, row after row.
-// Numbers  As of small triangles; corners and boxes of TriangleRecord::is_tiny.
+// Numbers  As of small triangles.
 // Tests    tests/rasterizer/walk/rows_test.cpp
 #include <cstring>
 
 #include "hwy/highway.h"
+#include "rasterizer/coverage/small_coverage-inl.h"
 #include "rasterizer/values/fragment_values.h"
 #include "rasterizer/values/weights-inl.h"
 #include "rasterizer/walk/rows.h"
@@ -86,22 +88,24 @@ class TinyPlane {
     V64 v_[3], d1_, d2_, error_ = hn::Zero(F64{});
 };
 
-// As many tiny triangles as there are lanes.
+// As many triangles as there are lanes.
 template <bool unsnapped>
 class TinyTriangles {
   public:
-    // `triangles`: numbers in geometry.triangles, all tiny.
+    // `triangles`: numbers in geometry.triangles. All are tiny; or they stand in `group` from triangle `at` on, in boxes of at most 8
+    // by 8 pixels.
     HWY_INLINE TinyTriangles(const Geometry& geometry, const std::uint32_t* triangles, const Rect& clip,
-                             const Rect& region)
+                             const Rect& region, const TriangleGroup* group, std::size_t at)
         : geometry_{geometry},
           triangles_{triangles},
           width_{hn::Set(U32{}, static_cast<std::uint32_t>(region.width()))} {
         Loaded in;
         for (std::uint32_t k = 0; k < tiny_lanes; ++k) load(k, in);
+        if (group != nullptr) place(*group, at, in);
         const V64 area = set_up_weights(in);
         has_weights_ = hn::AllTrue(F64{}, hn::Ne(area, hn::Zero(F64{})));
         r_ = hn::Div(set64(1.0), area);
-        find_pixels(in, clip, region);
+        find_pixels(in, clip, region, group, at);
     }
 
     // False if unsnapped corners lie on a line: their plane is another one (PixelWeights).
@@ -121,9 +125,8 @@ class TinyTriangles {
         p.count = count_ - first < tiny_lanes ? count_ - first : tiny_lanes;
         const auto is_covered = hn::FirstN(d, p.count);
         const auto number = hn::IfThenElseZero(is_covered, hn::LoadU(d, numbers_ + first));
-        const auto column = hn::And(number, hn::Set(d, tiny_size - 1));
-        const auto row = hn::And(hn::ShiftRight<2>(number), hn::Set(d, tiny_size - 1));
-        p.lane = hn::ShiftRight<4>(number);
+        const auto column = hn::And(number, hn::Set(d, 7)), row = hn::And(hn::ShiftRight<3>(number), hn::Set(d, 7));
+        p.lane = hn::ShiftRight<6>(number);
         const auto lane = hn::IndicesFromVec(d, p.lane);
         p.x = hn::BitCast(di, hn::Add(hn::TableLookupLanes(x_, lane), column));
         p.y = hn::BitCast(di, hn::Add(hn::TableLookupLanes(y_, lane), row));
@@ -149,15 +152,13 @@ class TinyTriangles {
     }
 
   private:
-    // Numbers of pixels: triangle above, row and column below.
+    // Numbers of pixels: triangle above, row and column below, eight of each.
     static_assert(tiny_size == 4);
-    using Block = hn::CappedTag<std::uint32_t, 16>;
-    static constexpr std::uint32_t block = hn::MaxLanes(Block{}), none_left = 16;
 
     struct Loaded {
         alignas(64) float value[3][4 * tiny_lanes];  // unsnapped x and y, z, 1 / w of the corners
         alignas(64) std::int32_t p[3][2 * tiny_lanes];
-        alignas(64) std::uint32_t x[tiny_lanes], y[tiny_lanes], covered[tiny_lanes];
+        alignas(64) std::uint32_t x[tiny_lanes], y[tiny_lanes], covered[tiny_lanes];  // of tiny ones; of others 0
     };
 
     HWY_INLINE void load(std::uint32_t k, Loaded& in) const {
@@ -171,6 +172,15 @@ class TinyTriangles {
         in.x[k] = record.box.x0;
         in.y[k] = record.box.y0;
         in.covered[k] = record.covered;
+    }
+
+    // Where the boxes of those that are not tiny begin.
+    HWY_INLINE void place(const TriangleGroup& group, std::size_t at, Loaded& in) const {
+        for (std::uint32_t k = 0; k < tiny_lanes; ++k) {
+            if (in.covered[k] != 0) continue;
+            in.x[k] = group.x0[at + k] - static_cast<std::uint32_t>(geometry_.state.viewport.x0);
+            in.y[k] = group.y0[at + k] - static_cast<std::uint32_t>(geometry_.state.viewport.y0);
+        }
     }
 
     // What of PixelWeights is not a pixel's. Returns the areas.
@@ -215,7 +225,8 @@ class TinyTriangles {
     }
 
     // The covered pixels of all triangles, less those outside `clip`, as numbers.
-    HWY_INLINE void find_pixels(const Loaded& in, const Rect& clip, const Rect& region) {
+    HWY_INLINE void find_pixels(const Loaded& in, const Rect& clip, const Rect& region, const TriangleGroup* group,
+                                std::size_t at) {
         const U32 d;
         const auto corner = [&](const std::uint32_t* c, int origin) HWY_ATTR {
             return hn::Add(hn::Load(d, c), hn::Set(d, static_cast<std::uint32_t>(origin)));
@@ -228,15 +239,25 @@ class TinyTriangles {
         const auto rows = hn::Mul(spread(bits_within(y_, clip.y0, clip.y1)), hn::Set(d, 0xf));
         alignas(64) std::uint32_t covered[tiny_lanes];
         hn::Store(hn::And(hn::And(hn::Load(d, in.covered), columns), rows), d, covered);
-        const Block db;
         for (std::uint32_t k = 0; k < tiny_lanes; ++k)
-            for (std::uint32_t part = 0; part < 16; part += block) {
-                const std::uint64_t own = covered[k] >> part & ((1u << block) - 1);
-                const auto number = hn::Add(hn::Load(db, pixel_numbers), hn::Set(db, 16 * k + part));
-                const auto mask = hn::LoadMaskBits(db, reinterpret_cast<const std::uint8_t*>(&own));
-                hn::StoreU(hn::Compress(number, mask), db, numbers_ + count_);
-                count_ += static_cast<std::uint32_t>(std::popcount(own));
-            }
+            if (HWY_LIKELY(in.covered[k] != 0))
+                add_tiny(k, covered[k]);
+            else if (group->reached[at + k] != 0)
+                add_larger(k, SmallCoverage<true>{*group, at + k});
+    }
+    HWY_INLINE void add_tiny(std::uint32_t k, std::uint32_t covered) {
+        const Block32 d;
+        for (std::uint32_t part = 0; part < 16; part += block_part) {
+            const std::uint64_t own = covered >> part & ((1u << block_part) - 1);
+            const auto number = hn::Add(hn::Load(d, pixel_numbers + part), hn::Set(d, 64 * k));
+            const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&own));
+            hn::StoreU(hn::Compress(number, mask), d, numbers_ + count_);
+            count_ += static_cast<std::uint32_t>(std::popcount(own));
+        }
+    }
+    HWY_INLINE void add_larger(std::uint32_t k, const SmallCoverage<true>& coverage) {
+        coverage.write_numbers(numbers_ + count_, 64 * k);
+        count_ += static_cast<std::uint32_t>(coverage.pixels());
     }
     // Bit i: place + i lies in [begin, end), of tiny_size places.
     HWY_INLINE static hn::Vec<U32> bits_within(hn::Vec<U32> place, int begin, int end) {
@@ -255,8 +276,8 @@ class TinyTriangles {
         return hn::Or(hn::Or(at(bits, 1), at(hn::ShiftLeft<3>(bits), 1u << 4)),
                       hn::Or(at(hn::ShiftLeft<6>(bits), 1u << 8), at(hn::ShiftLeft<9>(bits), 1u << 12)));
     }
-    alignas(64) static constexpr std::uint32_t pixel_numbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                                    8, 9, 10, 11, 12, 13, 14, 15};
+    alignas(64) static constexpr std::uint32_t pixel_numbers[16] = {0,  1,  2,  3,  8,  9,  10, 11,
+                                                                    16, 17, 18, 19, 24, 25, 26, 27};
 
     const Geometry& geometry_;
     const std::uint32_t* triangles_;
@@ -267,7 +288,7 @@ class TinyTriangles {
         r_;  // unsnapped: corner 0, and 1 and 2 seen from it; snapped: steps of edges 1 and 2
     std::uint32_t count_ = 0;
     bool has_weights_;
-    alignas(64) std::uint32_t numbers_[16 * tiny_lanes + 16];
+    alignas(64) std::uint32_t numbers_[64 * tiny_lanes + 16];
 };
 
 }  // namespace strata::rasterizer::HWY_NAMESPACE
