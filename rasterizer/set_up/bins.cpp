@@ -1,5 +1,5 @@
 // rasterizer/set_up/bins.cpp - which tiles a set-up triangle may touch: its box of pixel centres, less the tiles wholly
-// outside an edge; of a small triangle the box is enough, and a tiny one that covers nothing is in none. Two walks, one that counts and one that fills, so the lists
+// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists
 // have exactly the memory that they need.
 // Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
 #include <algorithm>

@@ -110,20 +110,29 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
 
 // Snapped positions: a corner is three words of 64 bits, and the first holds x and y.
 static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0);
-HWY_INLINE void gather(const WindowCorner* corners, VU vertex, VI& x, VI& y) {
-    using Half = hn::Half<U>;
-    using Wide = hn::Rebind<std::uint64_t, Half>;
-    const auto points = [&](hn::Vec<Half> vertices) HWY_ATTR {
-        const auto number = hn::PromoteTo(Wide{}, vertices);
-        const auto index = hn::BitCast(hn::RebindToSigned<Wide>{}, hn::Add(number, hn::Add(number, number)));
-        return hn::GatherIndex(Wide{}, reinterpret_cast<const std::uint64_t*>(corners), index);
+using Words = hn::Repartition<std::uint64_t, U>;
+// The first two words of some corners, of every second triangle from the one of `index` on: a load each, where a gather takes as long
+// as three.
+template <class D>
+HWY_INLINE hn::Vec<D> load_words(D d, const std::uint64_t* corners, const std::uint32_t* index) {
+    if constexpr (hn::MaxLanes(D{}) == 2) {
+        return hn::LoadU(d, corners + 3 * std::size_t{*index});
+    } else {
+        const hn::Half<D> half;
+        constexpr std::size_t next = 3 * hn::MaxLanes(half);
+        return hn::Combine(d, load_words(half, corners, index + next), load_words(half, corners, index));
+    }
+}
+// Of corner `index` of `lanes` triangles.
+HWY_INLINE void load_positions(const WindowCorner* corners, const std::uint32_t* index, VI& x, VI& y) {
+    const auto* const words = reinterpret_cast<const std::uint64_t*>(corners);
+    const auto points = [&](const std::uint32_t* from) HWY_ATTR {
+        return hn::BitCast(I{}, hn::InterleaveLower(Words{}, load_words(Words{}, words, from),
+                                                    load_words(Words{}, words, from + 3)));
     };
-    const auto low = points(hn::LowerHalf(Half{}, vertex)), high = points(hn::UpperHalf(Half{}, vertex));
-    const auto joined = [](auto first, auto second) HWY_ATTR {
-        return hn::BitCast(I{}, hn::Combine(U{}, hn::TruncateTo(Half{}, second), hn::TruncateTo(Half{}, first)));
-    };
-    x = joined(low, high);
-    y = joined(hn::ShiftRight<32>(low), hn::ShiftRight<32>(high));
+    const VI low = points(index), high = points(index + 3 * lanes / 2);
+    x = hn::ConcatEven(I{}, high, low);
+    y = hn::ConcatOdd(I{}, high, low);
 }
 
 // `lanes` triangles from number `first` of the group on: their records, their fates, and as bits which are kept. False if one is not
@@ -134,7 +143,7 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_
     VU vertex[3];
     VI x[3], y[3];
     hn::LoadInterleaved3(U{}, indices + 3 * first, vertex[0], vertex[1], vertex[2]);
-    for (int i = 0; i < 3; ++i) gather(corners, vertex[i], x[i], y[i]);
+    for (int i = 0; i < 3; ++i) load_positions(corners, indices + 3 * first + i, x[i], y[i]);
     const Boxes b = boxes_of(rules.group, x, y);
     const Mask is_large =
         hn::Or(hn::Or(hn::Gt(b.width, set(TriangleGroup::max_width)), hn::Gt(b.height, set(TriangleGroup::max_height))),
