@@ -27,7 +27,8 @@ struct PlainFates {
 };
 
 // Sixteen triangles, three of `indices` each, submitted from number `primitive` on. False if one of them is not plain: then nothing
-// is said. `marks` are those of the vertices, null if none has any. Else the first `fates.kept` of `out`, which has room for sixteen, are what is left of them.
+// is said. `marks` are those of the vertices, null if none has any. Else what is left of them stands at `out`, which has room for sixteen,
+// and `fates` have grown by theirs.
 using SetUpPlainTriangles = bool (*)(const PlainTriangleRules& rules, const std::uint32_t* indices,
                                      std::uint32_t primitive, std::span<const WindowCorner> corners,
                                      const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates);

@@ -193,16 +193,17 @@ bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::
     if (marked != 0) return false;
     Records records;
     std::uint32_t kept = 0;
-    PlainFates found;
+    PlainFates found = fates;
     for (std::size_t first = 0; first < group_size; first += lanes)
         if (!set_up_lanes(rules, indices, primitive, corners.data(), first, records, found, kept)) return false;
     for (std::size_t k = 0; k < group_size; ++k) {
         // Written whether it is kept or not: the next one takes its place.
-        auto* const bytes = reinterpret_cast<std::byte*>(out + found.kept);
+        auto* const bytes = reinterpret_cast<std::byte*>(out);
         std::memcpy(bytes, &records.first[k], sizeof records.first[k]);
         std::memcpy(bytes + sizeof records.first[k], &records.second[k], sizeof records.second[k]);
-        found.kept += kept >> k & 1;
+        out += kept >> k & 1;
     }
+    found.kept += static_cast<std::uint32_t>(std::popcount(kept));
     fates = found;
     return true;
 }

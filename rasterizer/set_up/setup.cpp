@@ -303,9 +303,10 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     }
 }
 
-bool TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primitive, const TriangleRun& run,
-                              SetupChunk& out) const {
-    if (set_up_plain_triangles_ == nullptr) return false;
+std::size_t TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primitive, std::size_t groups,
+                                     const TriangleRun& run, SetupChunk& out) const {
+    if (set_up_plain_triangles_ == nullptr) return 0;
+    constexpr std::size_t size = TriangleGroup::size;
     const Rect& viewport = state_.viewport;
     const PlainTriangleRules rules{.group = {viewport, rules_.subpixel_bits, rules_.tie_rule},
                                    .x0 = viewport.x0,
@@ -314,18 +315,22 @@ bool TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primit
                                    .positive_is_front = is_front(1, run.mirrored),
                                    .drops_front = !run.double_sided && is_culled(true),
                                    .drops_back = !run.double_sided && is_culled(false)};
+    const VertexMarks* const marks = any_marked_ ? marks_.data() : nullptr;
     const std::size_t before = out.triangles.size();
     PlainFates fates;
-    out.triangles.resize(before + TriangleGroup::size);
-    const bool is_done = set_up_plain_triangles_(rules, indices, primitive, corners_,
-                                                 any_marked_ ? marks_.data() : nullptr, &out.triangles[before], fates);
+    out.triangles.resize(before + groups * size);
+    std::size_t done = 0;
+    while (done < groups &&
+           set_up_plain_triangles_(rules, indices + 3 * size * done, primitive + static_cast<std::uint32_t>(size * done),
+                                   corners_, marks, &out.triangles[before + fates.kept], fates))
+        ++done;
     out.triangles.resize(before + fates.kept);
-    out.counters.triangles_in += is_done ? TriangleGroup::size : 0;
+    out.counters.triangles_in += size * done;
     out.counters.culled += fates.culled;
     out.counters.outside += fates.outside;
     out.counters.degenerate += fates.degenerate;
     out.counters.uncovered += fates.uncovered;
-    return is_done;
+    return done;
 }
 
 void TriangleSetup::count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept {

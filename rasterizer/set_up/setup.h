@@ -64,10 +64,10 @@ class TriangleSetup {
     // Adds up to TriangleGroup::size triangles in their order; boxes and areas are found for all of them at once.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
 
-    // Adds TriangleGroup::size triangles of a run, three of `indices` each, submitted from number `primitive` on, all at once;
-    // false, and nothing is added, if one of them is not plain.
-    [[nodiscard]] bool add_plain(const std::uint32_t* indices, std::uint32_t primitive, const TriangleRun& run,
-                                 SetupChunk& out) const;
+    // Adds up to `groups` times TriangleGroup::size triangles of a run, three of `indices` each, submitted from number `primitive` on, a
+    // group at once; returns how many groups, up to the first one with a triangle that is not plain.
+    [[nodiscard]] std::size_t add_plain(const std::uint32_t* indices, std::uint32_t primitive, std::size_t groups,
+                                        const TriangleRun& run, SetupChunk& out) const;
 
     [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
 

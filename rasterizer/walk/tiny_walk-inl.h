@@ -29,6 +29,35 @@ using U64 = hn::Rebind<std::uint64_t, F64>;
 
 HWY_INLINE V64 set64(double v) { return hn::Set(F64{}, v); }
 
+// The four words at from(k), for every lane k: a vector a word. They go from register to register: through memory a wide load
+// would wait for narrow stores.
+template <class From>
+HWY_INLINE void load_fours(const From& from, V32 (&word)[4]) {
+    const F32 d;
+    if constexpr (tiny_lanes < 4) {  // no set that walks rows
+        alignas(16) float words[4 * tiny_lanes];
+        for (std::uint32_t k = 0; k < tiny_lanes; ++k) std::memcpy(words + 4 * k, from(k), 4 * sizeof(float));
+        hn::LoadInterleaved4(d, words, word[0], word[1], word[2], word[3]);
+    } else {
+        const hn::CappedTag<float, 4> four;
+        const auto load = [&](std::uint32_t k)
+                              HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const float*>(from(k))); };
+        const auto lanes = [&](std::uint32_t k) HWY_ATTR {
+            if constexpr (tiny_lanes == 4)
+                return load(k);
+            else
+                return hn::Combine(d, load(k + 4), load(k));
+        };
+        const V32 a = lanes(0), b = lanes(1), c = lanes(2), e = lanes(3);
+        const V32 even = hn::InterleaveLower(d, a, c), odd = hn::InterleaveLower(d, b, e);
+        const V32 later_even = hn::InterleaveUpper(d, a, c), later_odd = hn::InterleaveUpper(d, b, e);
+        word[0] = hn::InterleaveLower(d, even, odd);
+        word[1] = hn::InterleaveUpper(d, even, odd);
+        word[2] = hn::InterleaveLower(d, later_even, later_odd);
+        word[3] = hn::InterleaveUpper(d, later_even, later_odd);
+    }
+}
+
 // Pixels of several triangles: the covered ones come first, the other lanes are the region's first. `of` fetches a triangle's value for each of its pixels.
 class TinyPixels {
   public:
@@ -99,13 +128,10 @@ class TinyTriangles {
         : geometry_{geometry},
           triangles_{triangles},
           width_{hn::Set(U32{}, static_cast<std::uint32_t>(region.width()))} {
-        Loaded in;
-        for (std::uint32_t k = 0; k < tiny_lanes; ++k) load(k, in);
-        if (group != nullptr) place(*group, at, in);
-        const V64 area = set_up_weights(in);
+        find_pixels(clip, region, group, at);
+        const V64 area = set_up_weights();
         has_weights_ = hn::AllTrue(F64{}, hn::Ne(area, hn::Zero(F64{})));
         r_ = hn::Div(set64(1.0), area);
-        find_pixels(in, clip, region, group, at);
     }
 
     // False if unsnapped corners lie on a line: their plane is another one (PixelWeights).
@@ -155,38 +181,25 @@ class TinyTriangles {
     // Numbers of pixels: triangle above, row and column below, eight of each.
     static_assert(tiny_size == 4);
 
-    struct Loaded {
-        alignas(64) float value[3][4 * tiny_lanes];  // unsnapped x and y, z, 1 / w of the corners
-        alignas(64) std::int32_t p[3][2 * tiny_lanes];
-        alignas(64) std::uint32_t x[tiny_lanes], y[tiny_lanes], covered[tiny_lanes];  // of tiny ones; of others 0
-    };
-
-    HWY_INLINE void load(std::uint32_t k, Loaded& in) const {
-        const TriangleRecord& record = geometry_.triangles[triangles_[k]];
-        for (std::size_t i = 0; i < 3; ++i) {
-            static_assert(offsetof(WindowCorner, inverse_w) == offsetof(WindowCorner, unsnapped) + 3 * sizeof(float));
-            const WindowCorner& corner = geometry_.corners[record.vertex[i]];
-            std::memcpy(&in.value[i][4 * k], &corner.unsnapped, 4 * sizeof(float));
-            if (!unsnapped) std::memcpy(&in.p[i][2 * k], &corner.p, sizeof(SubpixelPoint));
-        }
-        in.x[k] = record.box.x0;
-        in.y[k] = record.box.y0;
-        in.covered[k] = record.covered;
+    [[nodiscard]] HWY_INLINE const TriangleRecord& record(std::uint32_t k) const {
+        return geometry_.triangles[triangles_[k]];
     }
-
-    // Where the boxes of those that are not tiny begin.
-    HWY_INLINE void place(const TriangleGroup& group, std::size_t at, Loaded& in) const {
-        for (std::uint32_t k = 0; k < tiny_lanes; ++k) {
-            if (in.covered[k] != 0) continue;
-            in.x[k] = group.x0[at + k] - static_cast<std::uint32_t>(geometry_.state.viewport.x0);
-            in.y[k] = group.y0[at + k] - static_cast<std::uint32_t>(geometry_.state.viewport.y0);
-        }
+    // Of corner `i` of all triangles.
+    template <class Member>
+    HWY_INLINE void load_corners(std::size_t i, Member member, V32 (&word)[4]) const {
+        const WindowCorner* const corners = geometry_.corners.data();
+        load_fours([&](std::uint32_t k) { return &(corners[record(k).vertex[i]].*member); }, word);
     }
 
     // What of PixelWeights is not a pixel's. Returns the areas.
-    HWY_INLINE V64 set_up_weights(const Loaded& in) {
+    HWY_INLINE V64 set_up_weights() {
         V32 x[3], y[3];
-        for (std::size_t i = 0; i < 3; ++i) hn::LoadInterleaved4(F32{}, in.value[i], x[i], y[i], z_[i], inverse_w_[i]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            static_assert(offsetof(WindowCorner, inverse_w) == offsetof(WindowCorner, unsnapped) + 3 * sizeof(float));
+            V32 word[4];
+            load_corners(i, &WindowCorner::unsnapped, word);
+            x[i] = word[0], y[i] = word[1], z_[i] = word[2], inverse_w_[i] = word[3];
+        }
         if constexpr (unsnapped) {
             for (std::size_t i = 0; i < 3; ++i) {
                 a_[i] = hn::PromoteTo(F64{}, x[i]);
@@ -198,17 +211,17 @@ class TinyTriangles {
             }
             return hn::Sub(hn::Mul(a_[1], b_[2]), hn::Mul(a_[2], b_[1]));
         } else {
-            return set_up_edges(in);
+            return set_up_edges();
         }
     }
     // Integers below 2^53 all the way.
-    HWY_INLINE V64 set_up_edges(const Loaded& in) {
+    HWY_INLINE V64 set_up_edges() {
         V64 x[3], y[3];
         for (std::size_t i = 0; i < 3; ++i) {
-            hn::Vec<I32> px, py;
-            hn::LoadInterleaved2(I32{}, in.p[i], px, py);
-            x[i] = hn::PromoteTo(F64{}, px);
-            y[i] = hn::PromoteTo(F64{}, py);
+            V32 word[4];
+            load_corners(i, &WindowCorner::p, word);
+            x[i] = hn::PromoteTo(F64{}, hn::BitCast(I32{}, word[0]));
+            y[i] = hn::PromoteTo(F64{}, hn::BitCast(I32{}, word[1]));
         }
         const V64 area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
                                  hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
@@ -225,22 +238,32 @@ class TinyTriangles {
     }
 
     // The covered pixels of all triangles, less those outside `clip`, as numbers.
-    HWY_INLINE void find_pixels(const Loaded& in, const Rect& clip, const Rect& region, const TriangleGroup* group,
-                                std::size_t at) {
+    HWY_INLINE void find_pixels(const Rect& clip, const Rect& region, const TriangleGroup* group, std::size_t at) {
+        static_assert(offsetof(TriangleRecord, box) == offsetof(TriangleRecord, material) + 4 &&
+                      offsetof(TriangleRecord, covered) == offsetof(TriangleRecord, material) + 14);
         const U32 d;
-        const auto corner = [&](const std::uint32_t* c, int origin) HWY_ATTR {
-            return hn::Add(hn::Load(d, c), hn::Set(d, static_cast<std::uint32_t>(origin)));
+        V32 word[4];
+        load_fours([&](std::uint32_t k) { return &record(k).material; }, word);
+        const auto box = hn::BitCast(d, word[1]), own = hn::ShiftRight<16>(hn::BitCast(d, word[3]));
+        const auto place = [&](auto corner, int origin) HWY_ATTR {
+            return hn::Add(corner, hn::Set(d, static_cast<std::uint32_t>(origin)));
         };
-        x_ = corner(in.x, geometry_.state.viewport.x0);
-        y_ = corner(in.y, geometry_.state.viewport.y0);
+        x_ = place(hn::And(box, hn::Set(d, 0xffff)), geometry_.state.viewport.x0);
+        y_ = place(hn::ShiftRight<16>(box), geometry_.state.viewport.y0);
+        const auto is_tiny = hn::Ne(own, hn::Zero(d));  // others hold no pixels
+        if (group != nullptr) {
+            x_ = hn::IfThenElse(is_tiny, x_, hn::LoadU(d, group->x0.data() + at));
+            y_ = hn::IfThenElse(is_tiny, y_, hn::LoadU(d, group->y0.data() + at));
+        }
         first_pixel_ = hn::Add(hn::Mul(hn::Sub(y_, hn::Set(d, static_cast<std::uint32_t>(region.y0))), width_),
                                hn::Sub(x_, hn::Set(d, static_cast<std::uint32_t>(region.x0))));
         const auto columns = hn::Mul(bits_within(x_, clip.x0, clip.x1), hn::Set(d, 0x1111));
         const auto rows = hn::Mul(spread(bits_within(y_, clip.y0, clip.y1)), hn::Set(d, 0xf));
-        alignas(64) std::uint32_t covered[tiny_lanes];
-        hn::Store(hn::And(hn::And(hn::Load(d, in.covered), columns), rows), d, covered);
+        alignas(64) std::uint32_t held[tiny_lanes], covered[tiny_lanes];
+        hn::Store(own, d, held);
+        hn::Store(hn::And(hn::And(own, columns), rows), d, covered);
         for (std::uint32_t k = 0; k < tiny_lanes; ++k)
-            if (HWY_LIKELY(in.covered[k] != 0))
+            if (HWY_LIKELY(held[k] != 0))
                 add_tiny(k, covered[k]);
             else if (group->reached[at + k] != 0)
                 add_larger(k, SmallCoverage<true>{*group, at + k});
