@@ -84,6 +84,8 @@ class TinyColors {
 
   private:
     // r g b a of the shown side, a triangle a lane, by corner.
+    static_assert(offsetof(rasterizer::ClipVertex, back) ==
+                  offsetof(rasterizer::ClipVertex, front) + 4 * sizeof(float));
     struct Corners {
         HWY_INLINE explicit Corners(const raster::TinyTriangles<unsnapped>& triangles) {
             const rasterizer::Geometry& g = triangles.geometry();
@@ -93,7 +95,8 @@ class TinyColors {
                     [&](std::uint32_t k) {
                         const rasterizer::TriangleRecord& t = g.triangles[triangles.triangles()[k]];
                         const rasterizer::ClipVertex& v = g.vertices[t.vertex[i]];
-                        return t.front_facing ? &v.front : &v.back;
+                        // Counted, not chosen: a branch could not be guessed where both sides show.
+                        return &v.front + (t.front_facing ? 0 : 1);
                     },
                     color);
                 for (std::size_t c = 0; c < 4; ++c) channel[c][i] = color[c];

@@ -44,9 +44,9 @@ class Listing {
         const std::uint32_t number = soup_.order.empty() ? primitive : soup_.order[primitive];
         if (number < start_[run] || number >= start_[run + 1])
             run = static_cast<std::size_t>(std::ranges::upper_bound(start_, number) - start_.begin()) - 1;
-        const std::uint32_t* index =
-            &soup_.indices[soup_.runs[run].first_index + std::size_t{3} * (number - start_[run])];
-        return {{index[0], index[1], index[2]}, number, primitive, &soup_.runs[run]};
+        const std::uint32_t* const index = indices(number, run);
+        const std::uint32_t first = first_vertex(soup_.runs[run]);
+        return {{first + index[0], first + index[1], first + index[2]}, number, primitive, &soup_.runs[run]};
     }
 
     // How many triangles of run `run` stand side by side from `primitive` on, in submission order, and where their indices do.
@@ -55,8 +55,10 @@ class Listing {
                    ? start_[run + 1] - primitive
                    : 0;
     }
-    [[nodiscard]] const std::uint32_t* indices(std::size_t primitive, std::size_t run) const {
-        return &soup_.indices[soup_.runs[run].first_index + 3 * (primitive - start_[run])];
+    // Of triangle `number` of the listing.
+    [[nodiscard]] const std::uint32_t* indices(std::size_t number, std::size_t run) const {
+        const TriangleRun& its = soup_.runs[run];
+        return (its.lent != nullptr ? its.lent : &soup_.indices[its.first_index]) + 3 * (number - start_[run]);
     }
 
   private:

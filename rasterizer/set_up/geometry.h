@@ -46,9 +46,12 @@ struct TriangleRun {
     std::uint32_t object = 0;  // whose triangles these are: the caller's number
     bool double_sided = true;
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
+    // Where its indices stand if not in the soup: lent by somebody who has checked them, and counted from `first_vertex`.
+    const std::uint32_t* lent = nullptr;
+    std::uint32_t first_vertex = 0;
 };
 
-// The input of one draw. Runs cover triples of `indices`; triangles are numbered through the runs, in their order.
+// The input of one draw. Runs cover triples of `indices`, or lent ones; triangles are numbered through the runs, in their order.
 struct TriangleSoup {
     UninitializedVector<ClipVertex> vertices;
     UninitializedVector<std::uint32_t> indices;

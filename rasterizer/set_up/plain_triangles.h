@@ -18,7 +18,8 @@ struct PlainTriangleRules {
     GroupRules group;
     int x0 = 0, y0 = 0;  // the viewport's corner: boxes count from it
     std::uint32_t material = 0;
-    bool positive_is_front = true;  // a positive area faces front
+    std::uint32_t first_vertex = 0;  // what indices, corners and marks are counted from
+    bool positive_is_front = true;   // a positive area faces front
     bool drops_front = false, drops_back = false;
 };
 
@@ -38,6 +39,6 @@ using SetUpPlainTriangles = bool (*)(const PlainTriangleRules& rules, const std:
 
 // Makes a record tiny if its box, pixels of the surface, and its corners are. False if it is, and covers none of its pixels.
 [[nodiscard]] bool find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
-               TriangleRecord& record) noexcept;
+                             TriangleRecord& record) noexcept;
 
 }  // namespace strata::rasterizer

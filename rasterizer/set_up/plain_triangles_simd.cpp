@@ -127,8 +127,8 @@ HWY_INLINE hn::Vec<D> load_words(D d, const std::uint64_t* corners, const std::u
 HWY_INLINE void load_positions(const WindowCorner* corners, const std::uint32_t* index, VI& x, VI& y) {
     const auto* const words = reinterpret_cast<const std::uint64_t*>(corners);
     const auto points = [&](const std::uint32_t* from) HWY_ATTR {
-        return hn::BitCast(I{}, hn::InterleaveLower(Words{}, load_words(Words{}, words, from),
-                                                    load_words(Words{}, words, from + 3)));
+        return hn::BitCast(
+            I{}, hn::InterleaveLower(Words{}, load_words(Words{}, words, from), load_words(Words{}, words, from + 3)));
     };
     const VI low = points(index), high = points(index + 3 * lanes / 2);
     x = hn::ConcatEven(I{}, high, low);
@@ -143,6 +143,7 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_
     VU vertex[3];
     VI x[3], y[3];
     hn::LoadInterleaved3(U{}, indices + 3 * first, vertex[0], vertex[1], vertex[2]);
+    for (VU& v : vertex) v = hn::Add(v, hn::Set(U{}, rules.first_vertex));
     for (int i = 0; i < 3; ++i) load_positions(corners, indices + 3 * first + i, x[i], y[i]);
     const Boxes b = boxes_of(rules.group, x, y);
     const Mask is_large =

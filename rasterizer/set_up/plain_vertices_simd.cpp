@@ -76,9 +76,8 @@ static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(Wind
 template <class V>
 HWY_INLINE auto paired(V low, V high) {
     using Wide = hn::Rebind<std::uint64_t, hn::Half<F>>;
-    const auto wide = [](auto v) HWY_ATTR {
-        return hn::PromoteTo(Wide{}, hn::BitCast(hn::Rebind<std::uint32_t, Wide>{}, v));
-    };
+    const auto wide = [](auto v)
+                          HWY_ATTR { return hn::PromoteTo(Wide{}, hn::BitCast(hn::Rebind<std::uint32_t, Wide>{}, v)); };
     return hn::Or(wide(low), hn::ShiftLeft<32>(wide(high)));
 }
 HWY_INLINE void store_corners(hn::Vec<I> x, hn::Vec<I> y, const VF (&value)[4], WindowCorner* corners) {

@@ -312,17 +312,19 @@ std::size_t TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t
                                    .x0 = viewport.x0,
                                    .y0 = viewport.y0,
                                    .material = run.material,
+                                   .first_vertex = first_vertex(run),
                                    .positive_is_front = is_front(1, run.mirrored),
                                    .drops_front = !run.double_sided && is_culled(true),
                                    .drops_back = !run.double_sided && is_culled(false)};
-    const VertexMarks* const marks = any_marked_ ? marks_.data() : nullptr;
+    const VertexMarks* const marks = any_marked_ ? marks_.data() + rules.first_vertex : nullptr;
+    const auto corners = std::span{corners_}.subspan(rules.first_vertex);
     const std::size_t before = out.triangles.size();
     PlainFates fates;
     out.triangles.resize(before + groups * size);
     std::size_t done = 0;
-    while (done < groups &&
-           set_up_plain_triangles_(rules, indices + 3 * size * done, primitive + static_cast<std::uint32_t>(size * done),
-                                   corners_, marks, &out.triangles[before + fates.kept], fates))
+    while (done < groups && set_up_plain_triangles_(rules, indices + 3 * size * done,
+                                                    primitive + static_cast<std::uint32_t>(size * done), corners, marks,
+                                                    &out.triangles[before + fates.kept], fates))
         ++done;
     out.triangles.resize(before + fates.kept);
     out.counters.triangles_in += size * done;

@@ -37,6 +37,11 @@ struct SourceTriangle {
     const TriangleRun* run = nullptr;
 };
 
+// What the indices of a run count from.
+[[nodiscard]] inline std::uint32_t first_vertex(const TriangleRun& run) noexcept {
+    return run.lent != nullptr ? run.first_vertex : 0;
+}
+
 // The triangles that set-up makes of a run of source triangles. Vertices made by clipping are numbered from the soup's
 // last one on.
 struct SetupChunk {

@@ -168,7 +168,7 @@ class RowWalk {
         for (const std::uint32_t t : group) tiny += geometry_.triangles[t].is_tiny ? 1 : 0;
         if (HWY_LIKELY(tiny == group.size())) return draw_tiny<unsnapped>(group, nullptr);
         set_up_group(geometry_, rules_, kernels_, group, group_);
-        if (2 * tiny >= group.size() && lies_within_8())
+        if (tiny > 0 && lies_within_8())
             draw_tiny<unsnapped>(group, &group_);
         else
             draw_group(group, 0);

@@ -245,9 +245,8 @@ class TinyTriangles {
         V32 word[4];
         load_fours([&](std::uint32_t k) { return &record(k).material; }, word);
         const auto box = hn::BitCast(d, word[1]), own = hn::ShiftRight<16>(hn::BitCast(d, word[3]));
-        const auto place = [&](auto corner, int origin) HWY_ATTR {
-            return hn::Add(corner, hn::Set(d, static_cast<std::uint32_t>(origin)));
-        };
+        const auto place = [&](auto corner, int origin)
+                               HWY_ATTR { return hn::Add(corner, hn::Set(d, static_cast<std::uint32_t>(origin))); };
         x_ = place(hn::And(box, hn::Set(d, 0xffff)), geometry_.state.viewport.x0);
         y_ = place(hn::ShiftRight<16>(box), geometry_.state.viewport.y0);
         const auto is_tiny = hn::Ne(own, hn::Zero(d));  // others hold no pixels
