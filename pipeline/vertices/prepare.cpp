@@ -79,7 +79,8 @@ void append(const DrawList& list, const Instance& instance, const View& view, co
         const std::size_t begin = c * chunk, end = std::min(copied, begin + chunk);
         for (std::size_t i = begin; i < end; ++i) soup.indices[first_index + i] = base + mesh.indices[i];
     });
-    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(first_index),
+    // An empty mesh lends nothing.
+    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(copied > 0 ? first_index : 0),
                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
                          .material = instance.material,
                          .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
