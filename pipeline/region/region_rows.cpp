@@ -88,7 +88,10 @@ bool Region::sums_suit_rows(const PassState& state) {
 Drawn Region::draw_sum_rows(const PassState& state) {
     const PreparedDraw& list = *frame_.transparent;
     begin_pass(state, PassKind::geometry);
-    const bool is_open = depth_outcome(state, list) == DepthOutcome::open, has_count_target = state.color[1].exists();
+    // Of triangles of few pixels a test of each fragment takes less than a bound of all triangles.
+    const bool has_few_pixels = 4 * list.geometry.bin(tile_).size() > rect_.area();
+    const bool is_open = has_few_pixels || depth_outcome(state, list) == DepthOutcome::open;
+    const bool has_count_target = state.color[1].exists();
     const Texels sums = at(state.color[0]).texels(0);
     SumPlanes planes{sums.words() == 4 ? SumWords::binary32 : SumWords::halves,
                      {},

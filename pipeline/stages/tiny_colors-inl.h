@@ -3,7 +3,6 @@
 //
 // Rule     ColorPlanes of each pixel's own triangle.
 // Tests    tests/peeling/dense_meshes_test.cpp: against literal execution
-#include <cstring>
 #include <limits>
 
 #include "hwy/highway.h"
@@ -85,17 +84,22 @@ class TinyColors {
 
   private:
     // r g b a of the shown side, a triangle a lane, by corner.
+    static_assert(offsetof(rasterizer::ClipVertex, back) ==
+                  offsetof(rasterizer::ClipVertex, front) + 4 * sizeof(float));
     struct Corners {
         HWY_INLINE explicit Corners(const raster::TinyTriangles<unsnapped>& triangles) {
             const rasterizer::Geometry& g = triangles.geometry();
             for (std::size_t i = 0; i < 3; ++i) {
-                alignas(64) float values[4 * raster::tiny_lanes];
-                for (std::uint32_t k = 0; k < raster::tiny_lanes; ++k) {
-                    const rasterizer::TriangleRecord& t = g.triangles[triangles.triangles()[k]];
-                    const rasterizer::ClipVertex& v = g.vertices[t.vertex[i]];
-                    std::memcpy(values + 4 * k, t.front_facing ? &v.front : &v.back, 4 * sizeof(float));
-                }
-                hn::LoadInterleaved4(F32{}, values, channel[0][i], channel[1][i], channel[2][i], channel[3][i]);
+                V32 color[4];
+                raster::load_fours(
+                    [&](std::uint32_t k) {
+                        const rasterizer::TriangleRecord& t = g.triangles[triangles.triangles()[k]];
+                        const rasterizer::ClipVertex& v = g.vertices[t.vertex[i]];
+                        // Counted, not chosen: a branch could not be guessed where both sides show.
+                        return &v.front + (t.front_facing ? 0 : 1);
+                    },
+                    color);
+                for (std::size_t c = 0; c < 4; ++c) channel[c][i] = color[c];
                 w[i] = triangles.inverse_w(i);
                 wide_w[i] = hn::PromoteTo(raster::F64{}, w[i]);
             }

@@ -62,41 +62,48 @@ class SoupVertices {
 
 constexpr std::size_t chunk = 1024;  // vertices or indices that a thread writes
 
-// Appends an instance's vertices, its indices from number soup.indices[first_index] on, and its run.
+// Whether a soup has a copy of its meshes' indices, or they lend them to it.
+enum class Indices : std::uint8_t { copied, lent };
+
+// Appends an instance's vertices, its indices from number soup.indices[first_index] on if they are copied, and its run.
 void append(const DrawList& list, const Instance& instance, const View& view, const PrepareOptions& options,
-            SoupVertices& vertices, std::size_t first_index, rasterizer::TriangleSoup& soup) {
+            Indices indices, SoupVertices& vertices, std::size_t first_index, rasterizer::TriangleSoup& soup) {
     const Mesh& mesh = list.meshes[instance.mesh];
     const Material& material = list.materials[instance.material];
     const auto base = static_cast<std::uint32_t>(vertices.count());
     vertices.add(
         {mesh, material, view, instance.model, material.alpha_mode == AlphaMode::mask ? 1.0f : options.alpha_scale},
         mesh.positions.size());
-    parallel_for((mesh.indices.size() + chunk - 1) / chunk, options.threads, [&](std::size_t c) {
-        const std::size_t begin = c * chunk, end = std::min(mesh.indices.size(), begin + chunk);
+    const std::size_t copied = indices == Indices::copied ? mesh.indices.size() : 0;
+    parallel_for((copied + chunk - 1) / chunk, options.threads, [&](std::size_t c) {
+        const std::size_t begin = c * chunk, end = std::min(copied, begin + chunk);
         for (std::size_t i = begin; i < end; ++i) soup.indices[first_index + i] = base + mesh.indices[i];
     });
-    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(first_index),
+    // An empty mesh lends nothing.
+    soup.runs.push_back({.first_index = static_cast<std::uint32_t>(copied > 0 ? first_index : 0),
                          .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
                          .material = instance.material,
                          .object = static_cast<std::uint32_t>(&instance - list.instances.data()),
                          .double_sided = material.double_sided,
-                         .mirrored = linear_determinant(instance.model) < 0});
+                         .mirrored = linear_determinant(instance.model) < 0,
+                         .lent = indices == Indices::lent ? mesh.indices.data() : nullptr,
+                         .first_vertex = base});
 }
 
 // The soup of the selected instances, whose vertices have no values yet.
-rasterizer::TriangleSoup lay_out(const DrawList& list, const View& view, const PrepareOptions& options,
+rasterizer::TriangleSoup lay_out(const DrawList& list, const View& view, const PrepareOptions& options, Indices indices,
                                  SoupVertices& vertices) {
     rasterizer::TriangleSoup soup;
     const auto for_each_selected = [&](auto visit) {
         for (const Instance& instance : list.instances)
             if (is_selected(list.materials[instance.material], options.selection)) visit(instance);
     };
-    std::size_t indices = 0;
-    for_each_selected([&](const Instance& i) { indices += list.meshes[i.mesh].indices.size(); });
-    soup.indices.resize(indices);
+    std::size_t count = 0;
+    for_each_selected([&](const Instance& i) { count += list.meshes[i.mesh].indices.size(); });
+    if (indices == Indices::copied) soup.indices.resize(count);
     std::size_t at = 0;
     for_each_selected([&](const Instance& instance) {
-        append(list, instance, view, options, vertices, at, soup);
+        append(list, instance, view, options, indices, vertices, at, soup);
         at += list.meshes[instance.mesh].indices.size();
     });
     soup.vertices.resize(vertices.count());
@@ -192,7 +199,7 @@ rasterizer::TriangleSoup transform(const DrawList& list, const View& view, const
     check(list);
     check(view);
     SoupVertices vertices;
-    rasterizer::TriangleSoup soup = lay_out(list, view, options, vertices);
+    rasterizer::TriangleSoup soup = lay_out(list, view, options, Indices::copied, vertices);
     write_all(vertices, options.threads, soup);
     return soup;
 }
@@ -206,10 +213,11 @@ PreparedDraw prepare(const DrawList& list, const View& view, const rasterizer::R
     if (!options.is_checked) check(list);
     check(view);
     SoupVertices vertices;
-    rasterizer::TriangleSoup soup = lay_out(list, view, options, vertices);
-    // Vertices that nobody asks for before are written while they are set up.
+    // Vertices that nobody asks for before are written while they are set up, and nobody needs indices of all of them.
     const bool alters = options.alteration != nullptr && options.alteration->vertices;
     const bool is_written = alters || options.order;
+    rasterizer::TriangleSoup soup =
+        lay_out(list, view, options, is_written ? Indices::copied : Indices::lent, vertices);
     if (is_written) write_all(vertices, options.threads, soup);
     if (alters) options.alteration->vertices(soup);
     SubmissionOrder order;

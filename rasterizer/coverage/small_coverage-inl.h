@@ -84,13 +84,13 @@ class SmallCoverage {
     HWY_INLINE std::uint32_t end_row(std::uint32_t height) const {
         return within_8 ? 8 - static_cast<std::uint32_t>(std::countl_zero(bits_[0])) / 8 : height;
     }
-    // The numbers of the covered pixels, ascending: pixels() of them, and room for block_part more.
-    HWY_INLINE void write_numbers(std::uint32_t* numbers) const {
+    // `base` and the numbers of the covered pixels, ascending: pixels() of them, and room for block_part more.
+    HWY_INLINE void write_numbers(std::uint32_t* numbers, std::uint32_t base = 0) const {
         const Block32 d;
         for (std::uint32_t first = 0; first < 16 * count(); first += block_part) {
             const std::uint64_t own = bits_[first / 64] >> first % 64 & ((1u << block_part) - 1);
             const auto covered = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&own));
-            const auto number = hn::Add(hn::Load(d, shapes[2].column), hn::Set(d, first));
+            const auto number = hn::Add(hn::Load(d, shapes[2].column), hn::Set(d, base + first));
             hn::StoreU(hn::Compress(number, covered), d, numbers);
             numbers += std::popcount(own);
         }

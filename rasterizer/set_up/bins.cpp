@@ -1,5 +1,5 @@
 // rasterizer/set_up/bins.cpp - which tiles a set-up triangle may touch: its box of pixel centres, less the tiles wholly
-// outside an edge; of a small triangle the box is enough, and a tiny one that covers nothing is in none. Two walks, one that counts and one that fills, so the lists
+// outside an edge; of a small triangle the box is enough. Two walks, one that counts and one that fills, so the lists
 // have exactly the memory that they need.
 // Chunks of triangles are walked in parallel: in a tile each chunk's place follows from the counts of those before it.
 #include <algorithm>
@@ -41,7 +41,6 @@ class TileWalk {
 
     template <class Visit>
     void visit(const TriangleRecord& triangle, Visit&& visit) const {
-        if (triangle.is_tiny && triangle.covered == 0) return;
         const int x0 = triangle.box.x0 >> shift_, x1 = (triangle.box.x1 - 1) >> shift_;
         const int y0 = triangle.box.y0 >> shift_, y1 = (triangle.box.y1 - 1) >> shift_;
         if (x0 == x1 && y0 == y1) return visit(number(x0, y0));  // as mostly
@@ -67,6 +66,30 @@ class TileWalk {
 
     const Geometry& geometry_;
     int shift_;
+};
+
+// Counts what goes into each tile. Neighbours mostly go into the same one, whose count is kept at hand.
+class TileCounter {
+  public:
+    explicit TileCounter(std::uint32_t* counts) : counts_{counts}, count_{counts[0]} {}
+    ~TileCounter() { counts_[tile_] = count_; }
+    TileCounter(const TileCounter&) = delete;
+    TileCounter& operator=(const TileCounter&) = delete;
+
+    // The tile's count before this one.
+    std::uint32_t add(std::size_t tile) noexcept {
+        if (tile != tile_) {
+            counts_[tile_] = count_;
+            tile_ = tile;
+            count_ = counts_[tile];
+        }
+        return count_++;
+    }
+
+  private:
+    std::uint32_t* const counts_;
+    std::size_t tile_ = 0;
+    std::uint32_t count_;
 };
 
 // The triangles in chunks and what each chunk has in each tile: first its count there, then where it writes next.
@@ -132,11 +155,12 @@ void bin_triangles(Geometry& geometry, int tile_size, int threads) {
     // The one tile of a triangle, for the second walk; `several` also stands for none.
     constexpr std::uint32_t several = ~0u;
     UninitializedVector<std::uint32_t> only_tile(geometry.triangles.size());
-    bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* count) {
+    bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* counts) {
+        TileCounter count{counts};
         for (std::size_t i = begin; i < end; ++i) {
             std::uint32_t visits = 0;
             walk.visit(geometry.triangles[i], [&](std::size_t tile) {
-                ++count[tile];
+                count.add(tile);
                 only_tile[i] = ++visits == 1 ? static_cast<std::uint32_t>(tile) : several;
             });
             if (visits == 0) only_tile[i] = several;
@@ -144,9 +168,10 @@ void bin_triangles(Geometry& geometry, int tile_size, int threads) {
     });
     bins.to_offsets(geometry.bin_start);
     geometry.bin_triangles.resize(geometry.bin_start[tiles]);
-    bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* next) {
+    bins.for_chunks(threads, [&](std::size_t begin, std::size_t end, std::uint32_t* places) {
+        TileCounter next{places};
         const auto put = [&](std::size_t tile, std::size_t i) {
-            geometry.bin_triangles[next[tile]++] = static_cast<std::uint32_t>(i);
+            geometry.bin_triangles[next.add(tile)] = static_cast<std::uint32_t>(i);
         };
         for (std::size_t i = begin; i < end; ++i)
             if (only_tile[i] != several)

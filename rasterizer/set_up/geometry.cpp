@@ -44,16 +44,21 @@ class Listing {
         const std::uint32_t number = soup_.order.empty() ? primitive : soup_.order[primitive];
         if (number < start_[run] || number >= start_[run + 1])
             run = static_cast<std::size_t>(std::ranges::upper_bound(start_, number) - start_.begin()) - 1;
-        const std::uint32_t* index =
-            &soup_.indices[soup_.runs[run].first_index + std::size_t{3} * (number - start_[run])];
-        return {{index[0], index[1], index[2]}, number, primitive, &soup_.runs[run]};
+        const std::uint32_t* const index = indices(number, run);
+        const std::uint32_t first = first_vertex(soup_.runs[run]);
+        return {{first + index[0], first + index[1], first + index[2]}, number, primitive, &soup_.runs[run]};
     }
 
-    // The indices of `count` triangles from `primitive` on, in submission order; none if they do not lie side by side in the run
-    // where the last one was found.
-    [[nodiscard]] const std::uint32_t* side_by_side(std::size_t primitive, std::size_t count, std::size_t run) const {
-        if (!soup_.order.empty() || primitive < start_[run] || primitive + count > start_[run + 1]) return nullptr;
-        return &soup_.indices[soup_.runs[run].first_index + 3 * (primitive - start_[run])];
+    // How many triangles of run `run` stand side by side from `primitive` on, in submission order, and where their indices do.
+    [[nodiscard]] std::size_t side_by_side(std::size_t primitive, std::size_t run) const {
+        return soup_.order.empty() && primitive >= start_[run] && primitive < start_[run + 1]
+                   ? start_[run + 1] - primitive
+                   : 0;
+    }
+    // Of triangle `number` of the listing.
+    [[nodiscard]] const std::uint32_t* indices(std::size_t number, std::size_t run) const {
+        const TriangleRun& its = soup_.runs[run];
+        return (its.lent != nullptr ? its.lent : &soup_.indices[its.first_index]) + 3 * (number - start_[run]);
     }
 
   private:
@@ -68,6 +73,7 @@ void add(SetupCounters& sum, const SetupCounters& part) {
     sum.clipped += part.clipped;
     sum.outside += part.outside;
     sum.degenerate += part.degenerate;
+    sum.uncovered += part.uncovered;
     sum.non_finite += part.non_finite;
 }
 
@@ -158,14 +164,16 @@ Geometry set_up(TriangleSoup soup, const RasterState& state, const RasterRules& 
         chunk.triangles.reserve(end - begin);
         std::size_t run = 0;
         std::array<SourceTriangle, TriangleGroup::size> group;
-        for (std::size_t at = begin; at < end; at += group.size()) {
-            const std::uint32_t* const plain = listing.side_by_side(at, group.size(), run);
-            if (plain != nullptr && at + group.size() <= end &&
-                setup.add_plain(plain, static_cast<std::uint32_t>(at), soup.runs[run], chunk))
-                continue;
+        for (std::size_t at = begin; at < end;) {
+            const std::size_t groups = std::min(listing.side_by_side(at, run), end - at) / group.size();
+            if (groups > 0)
+                at += group.size() * setup.add_plain(listing.indices(at, run), static_cast<std::uint32_t>(at), groups,
+                                                     soup.runs[run], chunk);
             const std::size_t count = std::min(group.size(), end - at);
+            if (count == 0) break;
             for (std::size_t k = 0; k < count; ++k) group[k] = listing.at(static_cast<std::uint32_t>(at + k), run);
             setup.add(std::span{group}.first(count), chunk);
+            at += count;
         }
         chunks[c] = std::move(chunk);
     });

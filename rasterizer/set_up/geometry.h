@@ -46,9 +46,12 @@ struct TriangleRun {
     std::uint32_t object = 0;  // whose triangles these are: the caller's number
     bool double_sided = true;
     bool mirrored = false;  // the model matrix has a negative determinant: facing is exchanged
+    // Where its indices stand if not in the soup: lent by somebody who has checked them, and counted from `first_vertex`.
+    const std::uint32_t* lent = nullptr;
+    std::uint32_t first_vertex = 0;
 };
 
-// The input of one draw. Runs cover triples of `indices`; triangles are numbered through the runs, in their order.
+// The input of one draw. Runs cover triples of `indices`, or lent ones; triangles are numbered through the runs, in their order.
 struct TriangleSoup {
     UninitializedVector<ClipVertex> vertices;
     UninitializedVector<std::uint32_t> indices;
@@ -66,7 +69,7 @@ struct TriangleRecord {
     PixelBox box;  // the pixels of the viewport whose centres lie in its bounding box: there are some
     bool front_facing : 1 = true;
     // The box has at most tiny_size pixels either way, the corners lie at most TriangleGroup::max_extent apart, and `covered` says
-    // which pixels of the box are covered: row by row, tiny_size bits a row.
+    // which pixels of the box are covered: row by row, tiny_size bits a row. Some are.
     bool is_tiny : 1 = false;
     std::uint8_t negative_w = 0;  // bit i: w of corner i is negative (WSigns::by_corner)
     std::uint16_t covered = 0;
@@ -88,10 +91,10 @@ struct SetupTriangle {
 };
 
 // Exact counts of the triangles that were dropped, by reason; `first_non_finite` is a source triangle.
-// A source triangle is in triangles_in and in at most one of culled, outside, degenerate and non_finite; `clipped`
+// A source triangle is in triangles_in and in at most one of culled, outside, degenerate, uncovered and non_finite; `clipped`
 // counts those that were cut and not found outside (coverage.md 7.1).
 struct SetupCounters {
-    std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, non_finite = 0;
+    std::uint64_t triangles_in = 0, culled = 0, clipped = 0, outside = 0, degenerate = 0, uncovered = 0, non_finite = 0;
     std::uint32_t first_non_finite = 0;
     friend bool operator==(const SetupCounters&, const SetupCounters&) = default;
 };

@@ -110,20 +110,29 @@ HWY_INLINE std::uint32_t bits_of(Mask mask) {
 
 // Snapped positions: a corner is three words of 64 bits, and the first holds x and y.
 static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0);
-HWY_INLINE void gather(const WindowCorner* corners, VU vertex, VI& x, VI& y) {
-    using Half = hn::Half<U>;
-    using Wide = hn::Rebind<std::uint64_t, Half>;
-    const auto points = [&](hn::Vec<Half> vertices) HWY_ATTR {
-        const auto number = hn::PromoteTo(Wide{}, vertices);
-        const auto index = hn::BitCast(hn::RebindToSigned<Wide>{}, hn::Add(number, hn::Add(number, number)));
-        return hn::GatherIndex(Wide{}, reinterpret_cast<const std::uint64_t*>(corners), index);
+using Words = hn::Repartition<std::uint64_t, U>;
+// The first two words of some corners, of every second triangle from the one of `index` on: a load each, where a gather takes as long
+// as three.
+template <class D>
+HWY_INLINE hn::Vec<D> load_words(D d, const std::uint64_t* corners, const std::uint32_t* index) {
+    if constexpr (hn::MaxLanes(D{}) == 2) {
+        return hn::LoadU(d, corners + 3 * std::size_t{*index});
+    } else {
+        const hn::Half<D> half;
+        constexpr std::size_t next = 3 * hn::MaxLanes(half);
+        return hn::Combine(d, load_words(half, corners, index + next), load_words(half, corners, index));
+    }
+}
+// Of corner `index` of `lanes` triangles.
+HWY_INLINE void load_positions(const WindowCorner* corners, const std::uint32_t* index, VI& x, VI& y) {
+    const auto* const words = reinterpret_cast<const std::uint64_t*>(corners);
+    const auto points = [&](const std::uint32_t* from) HWY_ATTR {
+        return hn::BitCast(
+            I{}, hn::InterleaveLower(Words{}, load_words(Words{}, words, from), load_words(Words{}, words, from + 3)));
     };
-    const auto low = points(hn::LowerHalf(Half{}, vertex)), high = points(hn::UpperHalf(Half{}, vertex));
-    const auto joined = [](auto first, auto second) HWY_ATTR {
-        return hn::BitCast(I{}, hn::Combine(U{}, hn::TruncateTo(Half{}, second), hn::TruncateTo(Half{}, first)));
-    };
-    x = joined(low, high);
-    y = joined(hn::ShiftRight<32>(low), hn::ShiftRight<32>(high));
+    const VI low = points(index), high = points(index + 3 * lanes / 2);
+    x = hn::ConcatEven(I{}, high, low);
+    y = hn::ConcatOdd(I{}, high, low);
 }
 
 // `lanes` triangles from number `first` of the group on: their records, their fates, and as bits which are kept. False if one is not
@@ -134,7 +143,8 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_
     VU vertex[3];
     VI x[3], y[3];
     hn::LoadInterleaved3(U{}, indices + 3 * first, vertex[0], vertex[1], vertex[2]);
-    for (int i = 0; i < 3; ++i) gather(corners, vertex[i], x[i], y[i]);
+    for (VU& v : vertex) v = hn::Add(v, hn::Set(U{}, rules.first_vertex));
+    for (int i = 0; i < 3; ++i) load_positions(corners, indices + 3 * first + i, x[i], y[i]);
     const Boxes b = boxes_of(rules.group, x, y);
     const Mask is_large =
         hn::Or(hn::Or(hn::Gt(b.width, set(TriangleGroup::max_width)), hn::Gt(b.height, set(TriangleGroup::max_height))),
@@ -151,19 +161,21 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_
     const Mask is_culled = hn::AndNot(is_degenerate, is_dropped);
     const Mask is_gone = hn::Or(is_degenerate, is_culled);
     const Mask has_no_box = hn::Or(hn::Eq(b.width, zero), hn::Eq(b.height, zero));
-    const Mask is_kept = hn::Not(hn::Or(is_gone, has_no_box));
+    const Mask has_box = hn::Not(hn::Or(is_gone, has_no_box));
     fates.degenerate += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_degenerate));
     fates.culled += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_culled));
     fates.outside += static_cast<std::uint32_t>(hn::CountTrue(I{}, hn::AndNot(is_gone, has_no_box)));
-    kept_bits |= bits_of(is_kept) << first;
 
     EdgeLanes edge[3];
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t from = (i + 1) % 3, to = (i + 2) % 3;
         edge[i] = edge_of(rules.group, b, x[from], y[from], x[to], y[to], turned);
     }
-    const Mask is_tiny = hn::And(is_kept, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
+    const Mask is_tiny = hn::And(has_box, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
     const VI covered = coverage_of(b, edge, is_tiny);
+    const Mask is_uncovered = hn::And(is_tiny, hn::Eq(covered, zero));
+    fates.uncovered += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_uncovered));
+    kept_bits |= bits_of(hn::AndNot(is_uncovered, has_box)) << first;
     const VI left = hn::Sub(b.x0, set(rules.x0)), above = hn::Sub(b.y0, set(rules.y0));
     const auto pair = [](VI low, VI high) HWY_ATTR { return hn::BitCast(U{}, hn::Or(low, hn::ShiftLeft<16>(high))); };
     const VI facing = hn::IfThenElseZero(is_front, set(1)), tiny = hn::IfThenElseZero(is_tiny, set(2));
@@ -182,16 +194,17 @@ bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::
     if (marked != 0) return false;
     Records records;
     std::uint32_t kept = 0;
-    PlainFates found;
+    PlainFates found = fates;
     for (std::size_t first = 0; first < group_size; first += lanes)
         if (!set_up_lanes(rules, indices, primitive, corners.data(), first, records, found, kept)) return false;
     for (std::size_t k = 0; k < group_size; ++k) {
         // Written whether it is kept or not: the next one takes its place.
-        auto* const bytes = reinterpret_cast<std::byte*>(out + found.kept);
+        auto* const bytes = reinterpret_cast<std::byte*>(out);
         std::memcpy(bytes, &records.first[k], sizeof records.first[k]);
         std::memcpy(bytes + sizeof records.first[k], &records.second[k], sizeof records.second[k]);
-        found.kept += kept >> k & 1;
+        out += kept >> k & 1;
     }
+    found.kept += static_cast<std::uint32_t>(std::popcount(kept));
     fates = found;
     return true;
 }
@@ -214,13 +227,13 @@ SetUpPlainTriangles set_up_plain_triangles() noexcept {
     return kernel_of(HWY_DISPATCH_TABLE(plain_triangles_table))();
 }
 
-void find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
+bool find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,
                TriangleRecord& record) noexcept {
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y});
     record.is_tiny = std::max(box.width(), box.height()) <= tiny_size &&
                      std::max(right - left, bottom - top) <= TriangleGroup::max_extent;
-    if (!record.is_tiny) return;
+    if (!record.is_tiny) return true;
     const TriangleEdges edges{p, rules.tie_rule};
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x) {
@@ -229,6 +242,7 @@ void find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const Ras
             const int bit = (y - box.y0) * tiny_size + (x - box.x0);
             record.covered |= static_cast<std::uint16_t>((is_covered ? 1u : 0u) << bit);
         }
+    return record.covered != 0;
 }
 
 }  // namespace strata::rasterizer

@@ -2,7 +2,7 @@
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
-#include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "hwy/foreach_target.h"  // compiles this file once a target
@@ -20,39 +20,33 @@ using I = hn::RebindToSigned<F>;
 using VF = hn::Vec<F>;
 constexpr std::size_t lanes = hn::MaxLanes(F{});
 
-// A vertex is 14 floats: x y z w, then what is interpolated.
-constexpr std::size_t components = sizeof(ClipVertex) / sizeof(float), first_attribute = 4;
+// A vertex is 14 floats: x y z w, then what is interpolated. A corner is three pairs of words.
+constexpr std::size_t components = sizeof(ClipVertex) / sizeof(float);
 
 // The greatest magnitude yet, as bits: infinities and NaN are the greatest.
-template <class D>
 class Magnitude {
   public:
-    HWY_INLINE Magnitude() : greatest_{hn::Zero(Integers{})} {}
-    HWY_INLINE void add(hn::Vec<D> v) { greatest_ = hn::Max(greatest_, hn::BitCast(Integers{}, hn::Abs(v))); }
-    HWY_INLINE hn::Mask<D> is_finite() const {
-        return hn::RebindMask(D{}, hn::Lt(greatest_, hn::Set(Integers{}, 0x7f800000)));
+    HWY_INLINE Magnitude() : greatest_{hn::Zero(I{})} {}
+    HWY_INLINE void add(VF v) { greatest_ = hn::Max(greatest_, hn::BitCast(I{}, hn::Abs(v))); }
+    HWY_INLINE hn::Mask<F> is_finite() const {
+        return hn::RebindMask(F{}, hn::Lt(greatest_, hn::Set(I{}, 0x7f800000)));
     }
+    // Of all lanes.
+    HWY_INLINE VF greatest() const { return hn::BitCast(F{}, hn::MaxOfLanes(I{}, greatest_)); }
 
   private:
-    using Integers = hn::RebindToSigned<D>;
-    hn::Vec<Integers> greatest_;
+    hn::Vec<I> greatest_;
 };
 
-// Whether the attributes of `lanes` vertices are finite, and what they are over w: all of them together, for they nearly always are.
-HWY_INLINE bool attributes_are_finite(const float* vertices, const float* inverse_w) {
-    using D = hn::CappedTag<float, 8>;
-    constexpr std::size_t step = hn::MaxLanes(D{});
-    Magnitude<D> magnitude;
-    for (std::size_t k = 0; k < lanes; ++k) {
-        const float* const vertex = vertices + k * components;
-        const auto factor = hn::Set(D{}, inverse_w[k]);
-        for (std::size_t c = first_attribute; c < components; c += step) {
-            const auto value = hn::LoadU(D{}, vertex + std::min(c, components - step));
-            magnitude.add(value);
-            magnitude.add(hn::Mul(value, factor));
-        }
-    }
-    return hn::AllTrue(D{}, magnitude.is_finite());
+// Whether the attributes of `lanes` vertices are surely finite, and what they are over w: if the greatest number of all vertices is, over the
+// least w. They nearly always are.
+HWY_INLINE bool attributes_are_finite(const float* vertices, VF inverse_w) {
+    Magnitude values, factors, products;
+    for (std::size_t i = 0; i < lanes * components; i += lanes) values.add(hn::LoadU(F{}, vertices + i));
+    factors.add(inverse_w);
+    products.add(values.greatest());
+    products.add(hn::Mul(values.greatest(), factors.greatest()));
+    return hn::AllTrue(F{}, products.is_finite());
 }
 
 HWY_INLINE hn::Mask<F> within(VF low, VF c, VF high) { return hn::And(hn::Ge(c, low), hn::Le(c, high)); }
@@ -76,14 +70,30 @@ HWY_INLINE hn::Vec<I> snapped(const PlainVertexRules& r, VF c) {
     return r.rounds ? hn::NearestInt(scaled) : hn::ConvertTo(I{}, scaled);
 }
 
-struct CornerLanes {
-    alignas(64) std::int32_t x[lanes], y[lanes];
-    alignas(64) float unsnapped_x[lanes], unsnapped_y[lanes], z[lanes], inverse_w[lanes];
-};
+// Writes `lanes` corners: pairs of words, then three pairs a corner.
+static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0 &&
+              offsetof(WindowCorner, unsnapped) == 8 && offsetof(WindowCorner, z) == 16);
+template <class V>
+HWY_INLINE auto paired(V low, V high) {
+    using Wide = hn::Rebind<std::uint64_t, hn::Half<F>>;
+    const auto wide = [](auto v)
+                          HWY_ATTR { return hn::PromoteTo(Wide{}, hn::BitCast(hn::Rebind<std::uint32_t, Wide>{}, v)); };
+    return hn::Or(wide(low), hn::ShiftLeft<32>(wide(high)));
+}
+HWY_INLINE void store_corners(hn::Vec<I> x, hn::Vec<I> y, const VF (&value)[4], WindowCorner* corners) {
+    using Wide = hn::Rebind<std::uint64_t, hn::Half<F>>;
+    auto* const words = reinterpret_cast<std::uint64_t*>(corners);
+    const auto store = [&](auto half_of, std::uint64_t* to) HWY_ATTR {
+        hn::StoreInterleaved3(paired(half_of(x), half_of(y)), paired(half_of(value[0]), half_of(value[1])),
+                              paired(half_of(value[2]), half_of(value[3])), Wide{}, to);
+    };
+    store([](auto v) HWY_ATTR { return hn::LowerHalf(v); }, words);
+    store([](auto v) HWY_ATTR { return hn::UpperHalf(hn::Half<hn::DFromV<decltype(v)>>{}, v); }, words + 3 * lanes / 2);
+}
 
 // The corners of `lanes` vertices, and which of them are plain.
 // The others may hold anything: set_up_vertex writes them anew.
-HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vertices, CornerLanes& out) {
+HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vertices, WindowCorner* corners) {
     const F d;
     alignas(64) float positions[4 * lanes];
     for (std::size_t k = 0; k < lanes; ++k)
@@ -91,31 +101,22 @@ HWY_INLINE hn::Mask<F> set_up_lanes(const PlainVertexRules& r, const float* vert
     VF p[4];
     hn::LoadInterleaved4(d, positions, p[0], p[1], p[2], p[3]);
     const VF inverse_w = hn::Div(hn::Set(d, 1.0f), p[3]), guard = hn::Set(d, r.guard);
-    Magnitude<F> magnitude;
+    Magnitude magnitude;
     const VF x = map(r, 0, p[0], p[3], inverse_w), y = map(r, 1, p[1], p[3], inverse_w);
     const VF z = map(r, 2, p[2], p[3], inverse_w);
     for (const VF v : {p[0], p[1], p[2], p[3], inverse_w, x, y, z}) magnitude.add(v);
     const VF guarded_x = hn::Clamp(x, hn::Neg(guard), guard), guarded_y = hn::Clamp(y, hn::Neg(guard), guard);
-    hn::Store(guarded_x, d, out.unsnapped_x);
-    hn::Store(guarded_y, d, out.unsnapped_y);
-    hn::Store(snapped(r, guarded_x), I{}, out.x);
-    hn::Store(snapped(r, guarded_y), I{}, out.y);
-    hn::Store(z, d, out.z);
-    hn::Store(inverse_w, d, out.inverse_w);
-    if (HWY_UNLIKELY(!attributes_are_finite(vertices, out.inverse_w))) return hn::Lt(guard, guard);
+    store_corners(snapped(r, guarded_x), snapped(r, guarded_y), {guarded_x, guarded_y, z, inverse_w}, corners);
+    if (HWY_UNLIKELY(!attributes_are_finite(vertices, inverse_w))) return hn::Lt(guard, guard);
     return hn::And(magnitude.is_finite(), within_planes(p, r));
 }
 
 std::uint32_t set_up(const PlainVertexRules& rules, const ClipVertex* vertices, WindowCorner* corners) {
     std::uint32_t plain = 0;
     for (std::size_t first = 0; first < plain_vertex_count; first += lanes) {
-        CornerLanes own;
         alignas(8) std::uint8_t bits[8] = {};
-        hn::StoreMaskBits(F{}, set_up_lanes(rules, &vertices[first].x, own), bits);
+        hn::StoreMaskBits(F{}, set_up_lanes(rules, &vertices[first].x, corners + first), bits);
         plain |= (static_cast<std::uint32_t>(bits[1]) << 8 | bits[0]) << first;
-        for (std::size_t i = 0; i < lanes; ++i)
-            corners[first + i] = {
-                {own.x[i], own.y[i]}, {own.unsnapped_x[i], own.unsnapped_y[i]}, own.z[i], own.inverse_w[i]};
     }
     return plain;
 }

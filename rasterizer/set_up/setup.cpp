@@ -154,8 +154,11 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
                              .box = in_viewport(box, state_.viewport),
                              .front_facing = front,
                              .negative_w = negative});
-    if (!state_.window_positions && rules_.coverage == CoverageRule::snapped_edges)
-        find_tiny({a->p, b->p, c->p}, box, rules_, out.triangles.back());
+    if (!state_.window_positions && rules_.coverage == CoverageRule::snapped_edges &&
+        !find_tiny({a->p, b->p, c->p}, box, rules_, out.triangles.back())) {
+        out.triangles.pop_back();
+        return Fate::uncovered;
+    }
     if (state_.polygon_offset.enabled) out.offset_z.push_back(with_offset(piece.corner));
     return Fate::kept;
 }
@@ -209,8 +212,10 @@ TriangleSetup::Fate TriangleSetup::add_small(const SourceTriangle& triangle, con
     const PixelBox box = in_viewport(group.box(k), state_.viewport);
     out.triangles.push_back({triangle.vertex, triangle.primitive, triangle.run->material, box, front});
     const auto& [a, b, c] = triangle.vertex;
-    find_tiny({corners_[a].p, corners_[b].p, corners_[c].p}, group.box(k), rules_, out.triangles.back());
-    return Fate::kept;
+    if (find_tiny({corners_[a].p, corners_[b].p, corners_[c].p}, group.box(k), rules_, out.triangles.back()))
+        return Fate::kept;
+    out.triangles.pop_back();
+    return Fate::uncovered;
 }
 
 ClipPolygon TriangleSetup::polygon(const SourceTriangle& triangle) const noexcept {
@@ -298,28 +303,36 @@ void TriangleSetup::add(std::span<const SourceTriangle> triangles, SetupChunk& o
     }
 }
 
-bool TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primitive, const TriangleRun& run,
-                              SetupChunk& out) const {
-    if (set_up_plain_triangles_ == nullptr) return false;
+std::size_t TriangleSetup::add_plain(const std::uint32_t* indices, std::uint32_t primitive, std::size_t groups,
+                                     const TriangleRun& run, SetupChunk& out) const {
+    if (set_up_plain_triangles_ == nullptr) return 0;
+    constexpr std::size_t size = TriangleGroup::size;
     const Rect& viewport = state_.viewport;
     const PlainTriangleRules rules{.group = {viewport, rules_.subpixel_bits, rules_.tie_rule},
                                    .x0 = viewport.x0,
                                    .y0 = viewport.y0,
                                    .material = run.material,
+                                   .first_vertex = first_vertex(run),
                                    .positive_is_front = is_front(1, run.mirrored),
                                    .drops_front = !run.double_sided && is_culled(true),
                                    .drops_back = !run.double_sided && is_culled(false)};
+    const VertexMarks* const marks = any_marked_ ? marks_.data() + rules.first_vertex : nullptr;
+    const auto corners = std::span{corners_}.subspan(rules.first_vertex);
     const std::size_t before = out.triangles.size();
     PlainFates fates;
-    out.triangles.resize(before + TriangleGroup::size);
-    const bool is_done = set_up_plain_triangles_(rules, indices, primitive, corners_,
-                                                 any_marked_ ? marks_.data() : nullptr, &out.triangles[before], fates);
+    out.triangles.resize(before + groups * size);
+    std::size_t done = 0;
+    while (done < groups && set_up_plain_triangles_(rules, indices + 3 * size * done,
+                                                    primitive + static_cast<std::uint32_t>(size * done), corners, marks,
+                                                    &out.triangles[before + fates.kept], fates))
+        ++done;
     out.triangles.resize(before + fates.kept);
-    out.counters.triangles_in += is_done ? TriangleGroup::size : 0;
+    out.counters.triangles_in += size * done;
     out.counters.culled += fates.culled;
     out.counters.outside += fates.outside;
     out.counters.degenerate += fates.degenerate;
-    return is_done;
+    out.counters.uncovered += fates.uncovered;
+    return done;
 }
 
 void TriangleSetup::count(Fate fate, const SourceTriangle& triangle, SetupCounters& counters) noexcept {
@@ -329,6 +342,7 @@ void TriangleSetup::count(Fate fate, const SourceTriangle& triangle, SetupCounte
         case Fate::culled: ++counters.culled; break;
         case Fate::outside: ++counters.outside; break;
         case Fate::degenerate: ++counters.degenerate; break;
+        case Fate::uncovered: ++counters.uncovered; break;
         case Fate::non_finite:
             if (counters.non_finite++ == 0) counters.first_non_finite = triangle.number;
             break;

@@ -3,7 +3,7 @@
 // Rule     In this order: a vertex that is not finite drops the triangle, and so does a window position, 1 / w or u / w
 //          that is not (non_finite); clipping (clipped, outside); per piece: zero area after snapping (degenerate),
 //          facing by the sign of the snapped area (culled), no pixel centre of the viewport in its bounding box
-//          (outside, if all its pieces go that way).
+//          (outside, if all its pieces go that way), a tiny one's box of which no pixel is covered (uncovered).
 // Source   coverage.md 6, 7 and 11; D3D 11.3 15.11 (facing after snapping).
 // Tests    tests/rasterizer/set_up/setup_test.cpp
 #pragma once
@@ -37,6 +37,11 @@ struct SourceTriangle {
     const TriangleRun* run = nullptr;
 };
 
+// What the indices of a run count from.
+[[nodiscard]] inline std::uint32_t first_vertex(const TriangleRun& run) noexcept {
+    return run.lent != nullptr ? run.first_vertex : 0;
+}
+
 // The triangles that set-up makes of a run of source triangles. Vertices made by clipping are numbered from the soup's
 // last one on.
 struct SetupChunk {
@@ -64,16 +69,16 @@ class TriangleSetup {
     // Adds up to TriangleGroup::size triangles in their order; boxes and areas are found for all of them at once.
     void add(std::span<const SourceTriangle> triangles, SetupChunk& out) const;
 
-    // Adds TriangleGroup::size triangles of a run, three of `indices` each, submitted from number `primitive` on, all at once;
-    // false, and nothing is added, if one of them is not plain.
-    [[nodiscard]] bool add_plain(const std::uint32_t* indices, std::uint32_t primitive, const TriangleRun& run,
-                                 SetupChunk& out) const;
+    // Adds up to `groups` times TriangleGroup::size triangles of a run, three of `indices` each, submitted from number `primitive` on, a
+    // group at once; returns how many groups, up to the first one with a triangle that is not plain.
+    [[nodiscard]] std::size_t add_plain(const std::uint32_t* indices, std::uint32_t primitive, std::size_t groups,
+                                        const TriangleRun& run, SetupChunk& out) const;
 
     [[nodiscard]] UninitializedVector<WindowCorner>& corners() noexcept { return corners_; }
 
   private:
     // The outcome of set-up for a source triangle or for a piece of a clipped one (coverage.md 7.1).
-    enum class Fate : std::uint8_t { kept, culled, outside, degenerate, non_finite };
+    enum class Fate : std::uint8_t { kept, culled, outside, degenerate, uncovered, non_finite };
 
     // Three vertices in the window, and all that is marked at any of them.
     struct Piece {

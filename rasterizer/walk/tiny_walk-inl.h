@@ -1,12 +1,14 @@
 // rasterizer/walk/tiny_walk-inl.h - tiny triangles side by side, one a lane of binary64, and their pixels side by side behind them: a
-// triangle of a pixel or two does not pay for a row. For *_simd.cpp alone, as weights-inl.h.
+// triangle of a pixel or two does not pay for a row. So do those between them that lie in 8 by 8 pixels.
+// For *_simd.cpp alone, as weights-inl.h.
 //
 // Rule     The pixels, weights and planes of RowWalk, in its order: triangle after triangle, row after row.
-// Numbers  As of small triangles; corners and boxes of TriangleRecord::is_tiny.
+// Numbers  As of small triangles.
 // Tests    tests/rasterizer/walk/rows_test.cpp
 #include <cstring>
 
 #include "hwy/highway.h"
+#include "rasterizer/coverage/small_coverage-inl.h"
 #include "rasterizer/values/fragment_values.h"
 #include "rasterizer/values/weights-inl.h"
 #include "rasterizer/walk/rows.h"
@@ -26,6 +28,35 @@ constexpr std::uint32_t tiny_lanes = hn::MaxLanes(F64{});
 using U64 = hn::Rebind<std::uint64_t, F64>;
 
 HWY_INLINE V64 set64(double v) { return hn::Set(F64{}, v); }
+
+// The four words at from(k), for every lane k: a vector a word. They go from register to register: through memory a wide load
+// would wait for narrow stores.
+template <class From>
+HWY_INLINE void load_fours(const From& from, V32 (&word)[4]) {
+    const F32 d;
+    if constexpr (tiny_lanes < 4) {  // no set that walks rows
+        alignas(16) float words[4 * tiny_lanes];
+        for (std::uint32_t k = 0; k < tiny_lanes; ++k) std::memcpy(words + 4 * k, from(k), 4 * sizeof(float));
+        hn::LoadInterleaved4(d, words, word[0], word[1], word[2], word[3]);
+    } else {
+        const hn::CappedTag<float, 4> four;
+        const auto load = [&](std::uint32_t k)
+                              HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const float*>(from(k))); };
+        const auto lanes = [&](std::uint32_t k) HWY_ATTR {
+            if constexpr (tiny_lanes == 4)
+                return load(k);
+            else
+                return hn::Combine(d, load(k + 4), load(k));
+        };
+        const V32 a = lanes(0), b = lanes(1), c = lanes(2), e = lanes(3);
+        const V32 even = hn::InterleaveLower(d, a, c), odd = hn::InterleaveLower(d, b, e);
+        const V32 later_even = hn::InterleaveUpper(d, a, c), later_odd = hn::InterleaveUpper(d, b, e);
+        word[0] = hn::InterleaveLower(d, even, odd);
+        word[1] = hn::InterleaveUpper(d, even, odd);
+        word[2] = hn::InterleaveLower(d, later_even, later_odd);
+        word[3] = hn::InterleaveUpper(d, later_even, later_odd);
+    }
+}
 
 // Pixels of several triangles: the covered ones come first, the other lanes are the region's first. `of` fetches a triangle's value for each of its pixels.
 class TinyPixels {
@@ -86,22 +117,21 @@ class TinyPlane {
     V64 v_[3], d1_, d2_, error_ = hn::Zero(F64{});
 };
 
-// As many tiny triangles as there are lanes.
+// As many triangles as there are lanes.
 template <bool unsnapped>
 class TinyTriangles {
   public:
-    // `triangles`: numbers in geometry.triangles, all tiny.
+    // `triangles`: numbers in geometry.triangles. All are tiny; or they stand in `group` from triangle `at` on, in boxes of at most 8
+    // by 8 pixels.
     HWY_INLINE TinyTriangles(const Geometry& geometry, const std::uint32_t* triangles, const Rect& clip,
-                             const Rect& region)
+                             const Rect& region, const TriangleGroup* group, std::size_t at)
         : geometry_{geometry},
           triangles_{triangles},
           width_{hn::Set(U32{}, static_cast<std::uint32_t>(region.width()))} {
-        Loaded in;
-        for (std::uint32_t k = 0; k < tiny_lanes; ++k) load(k, in);
-        const V64 area = set_up_weights(in);
+        find_pixels(clip, region, group, at);
+        const V64 area = set_up_weights();
         has_weights_ = hn::AllTrue(F64{}, hn::Ne(area, hn::Zero(F64{})));
         r_ = hn::Div(set64(1.0), area);
-        find_pixels(in, clip, region);
     }
 
     // False if unsnapped corners lie on a line: their plane is another one (PixelWeights).
@@ -121,9 +151,8 @@ class TinyTriangles {
         p.count = count_ - first < tiny_lanes ? count_ - first : tiny_lanes;
         const auto is_covered = hn::FirstN(d, p.count);
         const auto number = hn::IfThenElseZero(is_covered, hn::LoadU(d, numbers_ + first));
-        const auto column = hn::And(number, hn::Set(d, tiny_size - 1));
-        const auto row = hn::And(hn::ShiftRight<2>(number), hn::Set(d, tiny_size - 1));
-        p.lane = hn::ShiftRight<4>(number);
+        const auto column = hn::And(number, hn::Set(d, 7)), row = hn::And(hn::ShiftRight<3>(number), hn::Set(d, 7));
+        p.lane = hn::ShiftRight<6>(number);
         const auto lane = hn::IndicesFromVec(d, p.lane);
         p.x = hn::BitCast(di, hn::Add(hn::TableLookupLanes(x_, lane), column));
         p.y = hn::BitCast(di, hn::Add(hn::TableLookupLanes(y_, lane), row));
@@ -149,34 +178,28 @@ class TinyTriangles {
     }
 
   private:
-    // Numbers of pixels: triangle above, row and column below.
+    // Numbers of pixels: triangle above, row and column below, eight of each.
     static_assert(tiny_size == 4);
-    using Block = hn::CappedTag<std::uint32_t, 16>;
-    static constexpr std::uint32_t block = hn::MaxLanes(Block{}), none_left = 16;
 
-    struct Loaded {
-        alignas(64) float value[3][4 * tiny_lanes];  // unsnapped x and y, z, 1 / w of the corners
-        alignas(64) std::int32_t p[3][2 * tiny_lanes];
-        alignas(64) std::uint32_t x[tiny_lanes], y[tiny_lanes], covered[tiny_lanes];
-    };
-
-    HWY_INLINE void load(std::uint32_t k, Loaded& in) const {
-        const TriangleRecord& record = geometry_.triangles[triangles_[k]];
-        for (std::size_t i = 0; i < 3; ++i) {
-            static_assert(offsetof(WindowCorner, inverse_w) == offsetof(WindowCorner, unsnapped) + 3 * sizeof(float));
-            const WindowCorner& corner = geometry_.corners[record.vertex[i]];
-            std::memcpy(&in.value[i][4 * k], &corner.unsnapped, 4 * sizeof(float));
-            if (!unsnapped) std::memcpy(&in.p[i][2 * k], &corner.p, sizeof(SubpixelPoint));
-        }
-        in.x[k] = record.box.x0;
-        in.y[k] = record.box.y0;
-        in.covered[k] = record.covered;
+    [[nodiscard]] HWY_INLINE const TriangleRecord& record(std::uint32_t k) const {
+        return geometry_.triangles[triangles_[k]];
+    }
+    // Of corner `i` of all triangles.
+    template <class Member>
+    HWY_INLINE void load_corners(std::size_t i, Member member, V32 (&word)[4]) const {
+        const WindowCorner* const corners = geometry_.corners.data();
+        load_fours([&](std::uint32_t k) { return &(corners[record(k).vertex[i]].*member); }, word);
     }
 
     // What of PixelWeights is not a pixel's. Returns the areas.
-    HWY_INLINE V64 set_up_weights(const Loaded& in) {
+    HWY_INLINE V64 set_up_weights() {
         V32 x[3], y[3];
-        for (std::size_t i = 0; i < 3; ++i) hn::LoadInterleaved4(F32{}, in.value[i], x[i], y[i], z_[i], inverse_w_[i]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            static_assert(offsetof(WindowCorner, inverse_w) == offsetof(WindowCorner, unsnapped) + 3 * sizeof(float));
+            V32 word[4];
+            load_corners(i, &WindowCorner::unsnapped, word);
+            x[i] = word[0], y[i] = word[1], z_[i] = word[2], inverse_w_[i] = word[3];
+        }
         if constexpr (unsnapped) {
             for (std::size_t i = 0; i < 3; ++i) {
                 a_[i] = hn::PromoteTo(F64{}, x[i]);
@@ -188,17 +211,17 @@ class TinyTriangles {
             }
             return hn::Sub(hn::Mul(a_[1], b_[2]), hn::Mul(a_[2], b_[1]));
         } else {
-            return set_up_edges(in);
+            return set_up_edges();
         }
     }
     // Integers below 2^53 all the way.
-    HWY_INLINE V64 set_up_edges(const Loaded& in) {
+    HWY_INLINE V64 set_up_edges() {
         V64 x[3], y[3];
         for (std::size_t i = 0; i < 3; ++i) {
-            hn::Vec<I32> px, py;
-            hn::LoadInterleaved2(I32{}, in.p[i], px, py);
-            x[i] = hn::PromoteTo(F64{}, px);
-            y[i] = hn::PromoteTo(F64{}, py);
+            V32 word[4];
+            load_corners(i, &WindowCorner::p, word);
+            x[i] = hn::PromoteTo(F64{}, hn::BitCast(I32{}, word[0]));
+            y[i] = hn::PromoteTo(F64{}, hn::BitCast(I32{}, word[1]));
         }
         const V64 area = hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])),
                                  hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
@@ -215,28 +238,48 @@ class TinyTriangles {
     }
 
     // The covered pixels of all triangles, less those outside `clip`, as numbers.
-    HWY_INLINE void find_pixels(const Loaded& in, const Rect& clip, const Rect& region) {
+    HWY_INLINE void find_pixels(const Rect& clip, const Rect& region, const TriangleGroup* group, std::size_t at) {
+        static_assert(offsetof(TriangleRecord, box) == offsetof(TriangleRecord, material) + 4 &&
+                      offsetof(TriangleRecord, covered) == offsetof(TriangleRecord, material) + 14);
         const U32 d;
-        const auto corner = [&](const std::uint32_t* c, int origin) HWY_ATTR {
-            return hn::Add(hn::Load(d, c), hn::Set(d, static_cast<std::uint32_t>(origin)));
-        };
-        x_ = corner(in.x, geometry_.state.viewport.x0);
-        y_ = corner(in.y, geometry_.state.viewport.y0);
+        V32 word[4];
+        load_fours([&](std::uint32_t k) { return &record(k).material; }, word);
+        const auto box = hn::BitCast(d, word[1]), own = hn::ShiftRight<16>(hn::BitCast(d, word[3]));
+        const auto place = [&](auto corner, int origin)
+                               HWY_ATTR { return hn::Add(corner, hn::Set(d, static_cast<std::uint32_t>(origin))); };
+        x_ = place(hn::And(box, hn::Set(d, 0xffff)), geometry_.state.viewport.x0);
+        y_ = place(hn::ShiftRight<16>(box), geometry_.state.viewport.y0);
+        const auto is_tiny = hn::Ne(own, hn::Zero(d));  // others hold no pixels
+        if (group != nullptr) {
+            x_ = hn::IfThenElse(is_tiny, x_, hn::LoadU(d, group->x0.data() + at));
+            y_ = hn::IfThenElse(is_tiny, y_, hn::LoadU(d, group->y0.data() + at));
+        }
         first_pixel_ = hn::Add(hn::Mul(hn::Sub(y_, hn::Set(d, static_cast<std::uint32_t>(region.y0))), width_),
                                hn::Sub(x_, hn::Set(d, static_cast<std::uint32_t>(region.x0))));
         const auto columns = hn::Mul(bits_within(x_, clip.x0, clip.x1), hn::Set(d, 0x1111));
         const auto rows = hn::Mul(spread(bits_within(y_, clip.y0, clip.y1)), hn::Set(d, 0xf));
-        alignas(64) std::uint32_t covered[tiny_lanes];
-        hn::Store(hn::And(hn::And(hn::Load(d, in.covered), columns), rows), d, covered);
-        const Block db;
+        alignas(64) std::uint32_t held[tiny_lanes], covered[tiny_lanes];
+        hn::Store(own, d, held);
+        hn::Store(hn::And(hn::And(own, columns), rows), d, covered);
         for (std::uint32_t k = 0; k < tiny_lanes; ++k)
-            for (std::uint32_t part = 0; part < 16; part += block) {
-                const std::uint64_t own = covered[k] >> part & ((1u << block) - 1);
-                const auto number = hn::Add(hn::Load(db, pixel_numbers), hn::Set(db, 16 * k + part));
-                const auto mask = hn::LoadMaskBits(db, reinterpret_cast<const std::uint8_t*>(&own));
-                hn::StoreU(hn::Compress(number, mask), db, numbers_ + count_);
-                count_ += static_cast<std::uint32_t>(std::popcount(own));
-            }
+            if (HWY_LIKELY(held[k] != 0))
+                add_tiny(k, covered[k]);
+            else if (group->reached[at + k] != 0)
+                add_larger(k, SmallCoverage<true>{*group, at + k});
+    }
+    HWY_INLINE void add_tiny(std::uint32_t k, std::uint32_t covered) {
+        const Block32 d;
+        for (std::uint32_t part = 0; part < 16; part += block_part) {
+            const std::uint64_t own = covered >> part & ((1u << block_part) - 1);
+            const auto number = hn::Add(hn::Load(d, pixel_numbers + part), hn::Set(d, 64 * k));
+            const auto mask = hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&own));
+            hn::StoreU(hn::Compress(number, mask), d, numbers_ + count_);
+            count_ += static_cast<std::uint32_t>(std::popcount(own));
+        }
+    }
+    HWY_INLINE void add_larger(std::uint32_t k, const SmallCoverage<true>& coverage) {
+        coverage.write_numbers(numbers_ + count_, 64 * k);
+        count_ += static_cast<std::uint32_t>(coverage.pixels());
     }
     // Bit i: place + i lies in [begin, end), of tiny_size places.
     HWY_INLINE static hn::Vec<U32> bits_within(hn::Vec<U32> place, int begin, int end) {
@@ -255,8 +298,8 @@ class TinyTriangles {
         return hn::Or(hn::Or(at(bits, 1), at(hn::ShiftLeft<3>(bits), 1u << 4)),
                       hn::Or(at(hn::ShiftLeft<6>(bits), 1u << 8), at(hn::ShiftLeft<9>(bits), 1u << 12)));
     }
-    alignas(64) static constexpr std::uint32_t pixel_numbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                                    8, 9, 10, 11, 12, 13, 14, 15};
+    alignas(64) static constexpr std::uint32_t pixel_numbers[16] = {0,  1,  2,  3,  8,  9,  10, 11,
+                                                                    16, 17, 18, 19, 24, 25, 26, 27};
 
     const Geometry& geometry_;
     const std::uint32_t* triangles_;
@@ -267,7 +310,7 @@ class TinyTriangles {
         r_;  // unsnapped: corner 0, and 1 and 2 seen from it; snapped: steps of edges 1 and 2
     std::uint32_t count_ = 0;
     bool has_weights_;
-    alignas(64) std::uint32_t numbers_[16 * tiny_lanes + 16];
+    alignas(64) std::uint32_t numbers_[64 * tiny_lanes + 16];
 };
 
 }  // namespace strata::rasterizer::HWY_NAMESPACE

@@ -64,7 +64,7 @@ using namespace strata::rasterizer;
 TEST_CASE("every source triangle has one fate: it is drawn, or counted once among those that are not") {
     const TriangleSoup soup = mixed_soup(631, 600);
     std::uint64_t wrong = 0;
-    std::array<std::uint64_t, 4> seen{};
+    std::array<std::uint64_t, 5> seen{};
     for (const RasterState& state : fate_states())
         for (const WClip w_clip : {WClip::clip, WClip::drop})
             for (const int bits : {4, 8}) {
@@ -73,9 +73,10 @@ TEST_CASE("every source triangle has one fate: it is drawn, or counted once amon
                 for (const TriangleRecord& t : g.triangles) drawn.insert(t.primitive);
                 const SetupCounters& c = g.counters;
                 wrong += c.triangles_in != 600 ? 1 : 0;
-                wrong += drawn.size() + c.culled + c.outside + c.degenerate + c.non_finite != 600 ? 1 : 0;
+                wrong += drawn.size() + c.culled + c.outside + c.degenerate + c.uncovered + c.non_finite != 600 ? 1 : 0;
                 wrong += c.non_finite != 600 / 29 + 1 ? 1 : 0;
                 seen[0] += c.culled, seen[1] += c.outside, seen[2] += c.degenerate, seen[3] += c.clipped;
+                seen[4] += c.uncovered;
             }
     CHECK(wrong == 0);
     for (const std::uint64_t count : seen) CHECK(count > 100);
@@ -193,8 +194,10 @@ TEST_CASE("a clipped triangle of which any piece is drawn is kept, whatever beco
         const Geometry g = set_up(fate_soup(v), state, {.guard_band_px = 6}, 1);
         // A sliver of which every piece snaps to no area is degenerate, and clipped all the same.
         const SetupCounters kept{.triangles_in = 1, .clipped = 1}, outside{.triangles_in = 1, .outside = 1},
-            sliver{.triangles_in = 1, .clipped = 1, .degenerate = 1};
-        const bool is_right = g.triangles.empty() ? g.counters == outside || g.counters == sliver : g.counters == kept;
+            sliver{.triangles_in = 1, .clipped = 1, .degenerate = 1},
+            between{.triangles_in = 1, .clipped = 1, .uncovered = 1};
+        const bool is_lost = g.counters == outside || g.counters == sliver || g.counters == between;
+        const bool is_right = g.triangles.empty() ? is_lost : g.counters == kept;
         slivers += g.counters == sliver ? 1 : 0;
         if (g.counters.clipped == 0 && !g.triangles.empty()) continue;  // nothing cut it
         in_parts += g.triangles.size() > 1 ? 1 : 0;
