@@ -281,7 +281,7 @@ class TinyTriangles {
         coverage.write_numbers(numbers_ + count_, 64 * k);
         count_ += static_cast<std::uint32_t>(coverage.pixels());
     }
-    // Bit i: place + i lies in [begin, end), of tiny_size places.
+    // Bit i: place + i lies in [begin, end), of tiny_size places; none if a scissor beside the region leaves an end before its beginning.
     HWY_INLINE static hn::Vec<U32> bits_within(hn::Vec<U32> place, int begin, int end) {
         const I32 di;
         const auto power = [&](int limit) HWY_ATTR {
@@ -289,7 +289,8 @@ class TinyTriangles {
             const auto near = hn::Min(hn::Max(distance, hn::Zero(di)), hn::Set(di, tiny_size));
             return hn::Shl(hn::Set(U32{}, 1), hn::BitCast(U32{}, near));
         };
-        return hn::Sub(power(end), power(begin));
+        const auto bits = hn::BitCast(di, hn::Sub(power(end), power(begin)));
+        return hn::BitCast(U32{}, hn::Max(bits, hn::Zero(di)));
     }
     // Bit i to bit 4 i.
     HWY_INLINE static hn::Vec<U32> spread(hn::Vec<U32> bits) {

@@ -102,7 +102,9 @@ TEST_CASE(
         for (std::size_t v = 0; v < geometry.corners.size(); ++v)
             if (v / 64 % 3 == 0) geometry.corners[v].z = v % 3 == 0 ? 0.0f : 6'000'001 * 0x1p-23f;
         for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d32f})
-            for (const Rect& part : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}}) {
+            // The last ones lie beside the scissor.
+            for (const Rect& part :
+                 {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{61, 0, 70, 40}, Rect{0, 34, 70, 40}}) {
                 const Rect region = intersection(part, geometry.state.viewport);
                 const DepthRequest depth{DepthPath::float32, format};
                 const strata::SimdScope twins{strata::Simd::scalar};
