@@ -140,12 +140,11 @@ bool Region::has_ordered_surface() const {
 }
 
 // Whether what is compared is not the key itself: where codes are compared, and every fragment's is its stored one, one sorting serves
-// both. A first pass compares nothing, and may have no reference: but where others will, of their sorting it finds the same.
+// both. A first pass, which compares nothing, finds the same in either.
 bool Region::is_compared_apart(const FragmentSelection& selection) const {
     if (!selection.compared) return false;
     const bool is_of_codes = selection.keeps == Keeps::nearest && selection.compared->compares_codes();
-    if (is_of_codes) return scratch_->store.has_references_apart();
-    return selection.behind.exists() || selection.range.exists() || scratch_->store.needs().reference;
+    return !is_of_codes || scratch_->store.has_references_apart();
 }
 
 // The sorting that this pass looks into.
