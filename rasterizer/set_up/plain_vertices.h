@@ -27,7 +27,7 @@ struct PlainVertexRules {
 // Bit i of the answer: vertex i of the sixteen is plain, and its corner is written.
 using SetUpPlain = std::uint32_t (*)(const PlainVertexRules& rules, const ClipVertex* vertices, WindowCorner* corners);
 
-// The kernel of the chosen instruction set; null for scalar, which has none. A draw asks once.
+// The kernel of the chosen instruction set; null for scalar, which has none, and where corners are not words of little endian. A draw asks once.
 [[nodiscard]] SetUpPlain set_up_plain() noexcept;
 
 }  // namespace strata::rasterizer

@@ -2,6 +2,7 @@
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/setup_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_vertices_simd.cpp"
+#include <bit>
 #include <cstddef>
 #include <cstring>
 
@@ -134,7 +135,10 @@ HWY_AFTER_NAMESPACE();
 namespace strata::rasterizer {
 HWY_EXPORT(plain_table);
 
-SetUpPlain set_up_plain() noexcept { return simd_is_scalar() ? nullptr : kernel_of(HWY_DISPATCH_TABLE(plain_table))(); }
+SetUpPlain set_up_plain() noexcept {
+    if (simd_is_scalar() || std::endian::native != std::endian::little) return nullptr;
+    return kernel_of(HWY_DISPATCH_TABLE(plain_table))();
+}
 
 }  // namespace strata::rasterizer
 #endif
