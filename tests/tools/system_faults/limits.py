@@ -17,6 +17,7 @@ import tempfile
 
 USER = 61000 + os.getpid() % 4000  # of whom no process runs
 MB = 1 << 20
+MAIN_BEGINS = 21 * MB  # address space that the program and its libraries take before it begins
 FRAME = ["render", "random:triangles=300", "--size", "96x64", "--no-audit"]
 OUTPUTS = [["--stats", "out.json"], ["-o", "out.png"], ["-o", "out.exr"]]
 
@@ -53,8 +54,10 @@ def fault(program, root, words, limit, whole):
     if status == 0:
         wrong = left != whole or len(lines) > 1
     else:
-        # The loader of programs has no address space for our libraries: then it speaks.
-        is_loader = status == 127 and "error while loading shared libraries" in told
+        # The loader of programs has no address space for our libraries, or one of them none for its initializer, and none for an exception
+        # either: then they speak.
+        is_loader = status == 127 and "error while loading shared libraries" in told or (
+            status == -6 and told.startswith("terminate called without an active exception") and limit[1] < MAIN_BEGINS)
         wrong = left or not (is_loader or (status == 3 and len(lines) == 1))
     return f"{status}: {told}, leaves {sorted(left)}" if wrong else "", status
 
