@@ -92,6 +92,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     is_chip_path_ = chip_kernels_ != nullptr && depth.path == DepthPath::window_z && is_chip(depth.path);
     is_chip_plain_ = is_chip_path_ && rules_.plane_rule == PlaneRule::exact && !needs.exact_code &&
                      (!needs.reference || is_quotient(depth.reference.value_or(depth.path)));
+    const DepthPath compared = depth.reference.value_or(depth.path);
+    reference_is_stored_ = needs.reference && is_value(depth.path, rules_.hypothesis) &&
+                           (compared == depth.path || (is_quotient(compared) && is_quotient(depth.path)));
     const InterpolationHypothesis& interpolation = rules_.interpolation;
     const bool cuts_all = interpolation.texture_coordinates == CoordinateRule::cut_weights &&
                           interpolation.perspective_coordinates == PerspectiveCoordinates::cut_products;
@@ -255,11 +258,12 @@ int FragmentValues::fill_value_codes(const SetupTriangle& t, const DrawnTriangle
                                      FragmentBatch& batch, WeightLanes& weights) const {
     const auto f = static_cast<std::size_t>(first);
     const TriangleEdges edges = triangle.edges();
-    Lanes<double> depth;
+    Lanes<double> own;
+    double* const depth = reference_is_stored_ ? &batch.reference_z[f] : own.data();
     const int fallbacks = fill_depth_values(depth_.path, t, triangle, lanes(triangle, edges, first, batch, weights),
-                                            &batch.shader_z[f], depth.data());
-    if (rejects_) drop_rejected(first, batch, weights, depth.data());
-    if (needs_.code) fill_value_codes(depth.data(), batch.count - first, &batch.code[f]);
+                                            &batch.shader_z[f], depth);
+    if (rejects_) drop_rejected(first, batch, weights, depth);
+    if (needs_.code) fill_value_codes(depth, batch.count - first, &batch.code[f]);
     return fallbacks;
 }
 
@@ -270,6 +274,10 @@ int FragmentValues::fill_reference(const SetupTriangle& t, const DrawnTriangle& 
     const DepthPath path = depth_.reference.value_or(depth_.path);
     const TriangleEdges edges = triangle.edges();
     const TriangleLanes own = lanes(triangle, edges, first, batch, weights);
+    if (reference_is_stored_) {  // with the stored code, fill_value_codes
+        std::copy_n(&batch.code[f], own.count, &batch.reference_code[f]);
+        return 0;
+    }
     int fallbacks = fill_depth_values(path, t, triangle, own, &batch.shader_z[f], &batch.reference_z[f]);
     if (path == depth_.path) {
         std::copy_n(&batch.code[f], own.count, &batch.reference_code[f]);

@@ -154,6 +154,8 @@ class FragmentValues {
     // The stored depth is the chip's window z and has a kernel; and no more is asked for than shader_z and its code.
     // needs_plane_weights_: some attribute goes by planes.
     bool is_chip_path_, is_chip_plain_, needs_plane_weights_;
+    // The compared depth is the stored one, in binary64: found once (depth.md 6.1).
+    bool reference_is_stored_;
 };
 
 }  // namespace strata::rasterizer
