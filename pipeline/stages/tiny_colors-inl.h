@@ -3,6 +3,7 @@
 //
 // Rule     ColorPlanes of each pixel's own triangle.
 // Tests    tests/peeling/dense_meshes_test.cpp: against literal execution
+#include <cstddef>
 #include <limits>
 
 #include "hwy/highway.h"

@@ -111,7 +111,9 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
     bound(up_to, s.up_to, 5);
     if ((bounds & behind_value) != 0) state.reads[6] = s.behind_value.target = value_bounds(region, 6);
     if ((bounds & before_value) != 0) state.reads[7] = s.before_value.target = value_bounds(region, 8);
-    if ((bounds & behind) != 0) s.compared = DepthCompare{.format = format, .epsilon = {.ulps = 3}};
+    // Codes of a window are not raised: a selection of another kind would visit everything.
+    const std::uint32_t raised = (bounds & behind) != 0 && keeps == Keeps::nearest ? 3 : 0;
+    if (raised > 0) s.compared = DepthCompare{.format = format, .epsilon = {.ulps = static_cast<int>(raised)}};
     if ((bounds & keys) != 0) {
         s.least = as_code(0.25f, format);
         s.most = as_code(0.75f, format);
@@ -133,7 +135,7 @@ void draw_window(Region& region, unsigned bounds, Keeps keeps) {
             int read = 0;
             bool is_inside = code >= window.least && code <= window.most;
             const auto next = [&] { return own.depth(read++)[i]; };
-            if (window.behind.exists()) is_inside &= code > std::min(next() + 3, max_code(format));
+            if (window.behind.exists()) is_inside &= code > std::min(next() + raised, max_code(format));
             if (window.from.exists()) is_inside &= code >= next();
             if (window.at.exists()) is_inside &= code == next();
             if (window.before.exists()) is_inside &= code < next();
