@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace strata::pipeline {
@@ -180,6 +182,28 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
     else
         std::fill_n(alive.begin(), packed.count, ~0u);
     for_each_array(needs_, batch, recall_array);
+}
+
+// Floats of no sign rise with their bits, and NaN lies above all of them; those with a sign are negative numbers as integers, too.
+std::array<float, 2> FragmentStore::alpha_ends(std::size_t number) const noexcept {
+    static const FragmentBatch shape{};
+    const Packed& packed = batches_[number];
+    const std::byte* alpha = packed.begin + 3 * sizeof(float);
+    bool is_before = true;
+    for_each_array(needs_, shape, [&](const auto& array) {
+        is_before &= static_cast<const void*>(&array) != &shape.color;
+        if (is_before) alpha += packed.count * bytes_in(array);
+    });
+    constexpr std::int32_t infinity = 0x7f800000;
+    std::int32_t least = std::numeric_limits<std::int32_t>::max(), greatest = 0;
+    for (std::size_t i = 0; needs_.color && i < packed.count; ++i, alpha += bytes_in(shape.color)) {
+        std::int32_t bits;
+        std::memcpy(&bits, alpha, sizeof(bits));
+        least = std::min(least, bits);
+        greatest = std::max(greatest, bits);
+    }
+    if (least < 0 || greatest < least || greatest > infinity) least = greatest = ~0;  // NaN
+    return {std::bit_cast<float>(least), std::bit_cast<float>(greatest)};
 }
 
 // Places that memory is asked for before they are taken: stores seldom fit into the second cache, and fragments lie here and there.

@@ -7,6 +7,7 @@
 //          rasterizer made them cost no second sorting and read back in a straight line.
 // Tests    tests/pipeline/fragments/fragment_store_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -50,6 +51,8 @@ class FragmentStore {
     [[nodiscard]] const PrimitiveRange& primitives(std::size_t number) const noexcept {
         return batches_[number].primitives;
     }
+    // The least and the greatest alpha of a batch. NaN where one of them is negative, -0 or NaN, or where no colours are held.
+    [[nodiscard]] std::array<float, 2> alpha_ends(std::size_t number) const noexcept;
     [[nodiscard]] const rasterizer::FragmentNeeds& needs() const noexcept { return needs_; }
     // Whether fragments are compared by another code than they store.
     [[nodiscard]] bool has_references_apart() const noexcept { return references_apart_ != 0; }

@@ -2,6 +2,7 @@
 #include "pipeline/fragments/sorted_fragments.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 #include <utility>
@@ -30,6 +31,14 @@ constexpr std::uint64_t bytes_per_pixel = 72;  // its column, what finds it, a w
 struct Fates {
     std::uint64_t rasterized, masked, hidden, alpha_killed;
 };
+
+// Whether every alpha between `ends` passes: if both do, for all tests but notequal take what lies between two that they take.
+[[nodiscard]] bool passes_between(const AlphaTest& test, bool eight_bit, const std::array<float, 2>& ends) noexcept {
+    if (test.func == CompareFunc::notequal || ends[0] != ends[0]) return false;
+    std::array<std::uint32_t, 2> alive{~0u, ~0u};
+    alpha_test(test, eight_bit, ends.data(), alive.data(), 2);
+    return (alive[0] & alive[1]) != 0;
+}
 
 [[nodiscard]] bool holds(std::span<const PrimitiveRange> ranges, std::uint32_t primitive) noexcept {
     const auto behind = std::ranges::upper_bound(ranges, primitive, {}, &PrimitiveRange::first);
@@ -84,7 +93,9 @@ bool SortedFragments::take(const FragmentStore& store, std::uint64_t limit, cons
                            .code = request_.key == DepthKey::stored_code || request_.by_arrival};
     const auto numbers = request_.primitives.empty() ? FragmentStore::Numbers::no : FragmentStore::Numbers::yes;
     const std::span<const PrimitiveRange> ranges = request_.primitives;
-    std::vector<bool> is_bright(store.batches());  // known to lose nothing by the alpha test: it is not made again
+    std::vector<bool> is_bright(store.batches());  // known to lose nothing by the alpha test: it is not made
+    for (std::size_t number = 0; request_.alpha.enabled && number < is_bright.size(); ++number)
+        is_bright[number] = passes_between(request_.alpha, request_.eight_bit_alpha, store.alpha_ends(number));
     const auto for_each_alive = [&](auto&& visit) {
         for (std::size_t number = 0; number < store.batches(); ++number) {
             if (!ranges.empty() && !meets(ranges, store.primitives(number))) continue;

@@ -17,7 +17,7 @@ using namespace strata::pipeline;
 using strata::rasterizer::Rect;
 
 constexpr int width = 16, height = 8;
-constexpr std::uint32_t max_code = 0xffffff;
+constexpr std::uint32_t last_code = 0xffffff;
 
 // s and t of a unit are the window position, y up, moved by (dx, dy) texels; r and q as given by rows of the clip position.
 CoordinateUnit screen_aligned(double dx, double dy, const Plane4& r) {
@@ -38,12 +38,12 @@ FragmentScene layers(std::uint64_t seed) {
 }
 
 // R = z of the clip position in [-1, 1], to depth units.
-Plane4 depth_row() { return {0, 0, max_code * 0.5, max_code * 0.5}; }
+Plane4 depth_row() { return {0, 0, last_code * 0.5, last_code * 0.5}; }
 
 // Scale and offset of the vertex's z in buffer units are rounded to binary32 one after the other.
 std::uint32_t stored(float depth) {
-    const auto scaled = static_cast<float>((2.0 * depth - 1.0) * (max_code * 0.5));
-    return static_cast<std::uint32_t>(static_cast<float>(double{scaled} + max_code * 0.5));
+    const auto scaled = static_cast<float>((2.0 * depth - 1.0) * (last_code * 0.5));
+    return static_cast<std::uint32_t>(static_cast<float>(double{scaled} + last_code * 0.5));
 }
 
 FragmentPath compare_with(Target depth, CompareFunc func, std::size_t unit = 3) {
@@ -106,14 +106,14 @@ TEST_CASE("a screen-aligned depth texture of any unit peels: the second pass kee
     const Peel peel{region, unit};
     std::size_t wrong = 0, second_layers = 0;
     for (std::size_t p = 0; p < scene.pixels.size(); ++p) {
-        std::vector<std::uint32_t> codes{max_code, max_code};
+        std::vector<std::uint32_t> codes{last_code, last_code};
         for (const GivenFragment& f : scene.pixels[p].fragments) codes.push_back(stored(f.depth));
         std::sort(codes.begin(), codes.end());
         codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-        const std::uint32_t second = codes.size() > 1 ? codes[1] : max_code;
+        const std::uint32_t second = codes.size() > 1 ? codes[1] : last_code;
         wrong +=
             region.storage(peel.first).depth(0)[p] != codes[0] || region.storage(peel.second).depth(0)[p] != second;
-        second_layers += second != max_code;
+        second_layers += second != last_code;
     }
     CHECK(wrong == 0);
     CHECK(second_layers > 30);
@@ -184,8 +184,8 @@ TEST_CASE("a replaced depth is what depth test and buffer see, and a rejected fr
             for (int x = 0; x < width; ++x) {
                 const auto p = static_cast<std::size_t>(y * width + x);
                 const double clip_x = (x + 0.5) / (width / 2.0) - 1.0, expected = 0x1p20 * clip_x + 0x1p19;
-                const bool kept = expected >= near * double{max_code} && expected <= far * double{max_code};
-                wrong += region.storage(depth).depth(0)[p] != (kept ? static_cast<std::uint32_t>(expected) : max_code);
+                const bool kept = expected >= near * double{last_code} && expected <= far * double{last_code};
+                wrong += region.storage(depth).depth(0)[p] != (kept ? static_cast<std::uint32_t>(expected) : last_code);
                 wrong += region.storage(layer).code(p, 0, 0) != (kept ? 255u : 0u);
                 drawn += kept;
             }

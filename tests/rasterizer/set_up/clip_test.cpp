@@ -43,7 +43,7 @@ using namespace strata::rasterizer;
     return soup;
 }
 
-constexpr int window = 64;
+constexpr int window_size = 64;
 constexpr float near_plane = 0.5f, far_plane = 40.0f;
 
 // The ground y = -1 seen from the origin along -z, 90 degrees, as a grid that surrounds the eye: w runs from -30 to 30.
@@ -76,7 +76,7 @@ struct Cracks {
 
 // Whether the ground is visible through the window point: -1 not, +1 yes. y down.
 [[nodiscard]] int ground_at(double px, double py, bool z_is_clipped) {
-    const double nx = px / (window / 2.0) - 1, ny = 1 - py / (window / 2.0);
+    const double nx = px / (window_size / 2.0) - 1, ny = 1 - py / (window_size / 2.0);
     if (ny >= 0) return -1;
     const double depth = -1 / ny;
     const bool in_mesh = depth < 27 && nx * depth > -27 && nx * depth < 27;
@@ -85,14 +85,14 @@ struct Cracks {
 
 [[nodiscard]] Cracks cracks(const TriangleSoup& soup, const RasterState& state, const RasterRules& rules) {
     const Geometry geometry = set_up(soup, state, rules, 1);
-    std::vector<int> count(window * window, 0);
+    std::vector<int> count(window_size * window_size, 0);
     for (const Fragment& f : draw(geometry, {}, coverage_only).fragments)
-        ++count[static_cast<std::size_t>(f.y * window + f.x)];
+        ++count[static_cast<std::size_t>(f.y * window_size + f.x)];
     Cracks result;
     const bool z_is_clipped = !state.depth_clamp && rules.z_clip == ZClip::per_primitive;
-    for (int y = 0; y < window; ++y)
-        for (int x = 0; x < window; ++x) {
-            const int n = count[static_cast<std::size_t>(y * window + x)];
+    for (int y = 0; y < window_size; ++y)
+        for (int x = 0; x < window_size; ++x) {
+            const int n = count[static_cast<std::size_t>(y * window_size + x)];
             int corners = 0;  // the pixel and a margin around it
             for (const double dx : {-0.5, 1.5})
                 for (const double dy : {-0.5, 1.5}) corners += ground_at(x + dx, y + dy, z_is_clipped);
@@ -158,7 +158,7 @@ TEST_CASE("a ground around the eye has no cracks, by near plane, w, guard band a
         const TriangleSoup soup = ground(random);
         for (const int guard : {70, 300, 32768})
             for (const bool depth_clamp : {false, true}) {
-                RasterState state = scene_state(window, window);
+                RasterState state = scene_state(window_size, window_size);
                 state.depth_clamp = depth_clamp;
                 const Cracks found = cracks(soup, state, {.guard_band_px = guard});
                 INFO("seed " << seed << ", mesh " << n << ", guard " << guard);
@@ -172,12 +172,12 @@ TEST_CASE("a ground around the eye has no cracks, by near plane, w, guard band a
 TEST_CASE("a user plane and its opposite part a mesh without overlap") {
     Random random{103};
     const TriangleSoup soup = ground(random);
-    std::vector<int> count(window * window, 0), whole(window * window, 0);
+    std::vector<int> count(window_size * window_size, 0), whole(window_size * window_size, 0);
     const auto add = [&](const RasterState& state, std::vector<int>& into) {
         for (const Fragment& f : draw(set_up(soup, state, {}, 1), {}, coverage_only).fragments)
-            ++into[static_cast<std::size_t>(f.y * window + f.x)];
+            ++into[static_cast<std::size_t>(f.y * window_size + f.x)];
     };
-    RasterState state = scene_state(window, window);
+    RasterState state = scene_state(window_size, window_size);
     add(state, whole);
     state.clip_plane_count = 1;
     for (const float side : {1.0f, -1.0f}) {

@@ -10,7 +10,7 @@ namespace {
 
 using namespace strata::rasterizer;
 
-[[nodiscard]] bool same(const TriangleRecord& a, const TriangleRecord& b) {
+[[nodiscard]] bool same_words(const TriangleRecord& a, const TriangleRecord& b) {
     return a.vertex == b.vertex && a.primitive == b.primitive && a.material == b.material && a.box.x0 == b.box.x0 &&
            a.box.y0 == b.box.y0 && a.box.x1 == b.box.x1 && a.box.y1 == b.box.y1 && a.front_facing == b.front_facing &&
            a.is_tiny == b.is_tiny && a.negative_w == b.negative_w && a.covered == b.covered;
@@ -49,7 +49,7 @@ TEST_CASE("sixteen plain triangles at once become the records and counts of one 
         for (const strata::Simd simd : strata::available_simd()) {
             const Geometry found = set_up_by(simd);
             wrong += found.counters == expected.counters ? 0 : 1;
-            wrong += std::ranges::equal(found.triangles, expected.triangles, same) ? 0 : 1;
+            wrong += std::ranges::equal(found.triangles, expected.triangles, same_words) ? 0 : 1;
         }
     }
     CHECK(wrong == 0);
@@ -57,7 +57,7 @@ TEST_CASE("sixteen plain triangles at once become the records and counts of one 
     CHECK(others > 1'000);
 }
 
-TEST_CASE("a run whose indices are lent is set up as one whose indices are the soup's, on every set") {
+TEST_CASE("a run whose indices are lent is set up as one whose indices are the soup's, on every set", "[slow]") {
     std::uint64_t wrong = 0, triangles = 0;
     for (const DenseCase& dense : dense_cases()) {
         TriangleSoup lent = dense.soup;
@@ -74,7 +74,7 @@ TEST_CASE("a run whose indices are lent is set up as one whose indices are the s
             const Geometry expected = set_up(dense.soup, dense.state, dense.rules, 1),
                            found = set_up(lent, dense.state, dense.rules, 2);
             wrong += found.counters == expected.counters ? 0 : 1;
-            wrong += std::ranges::equal(found.triangles, expected.triangles, same) ? 0 : 1;
+            wrong += std::ranges::equal(found.triangles, expected.triangles, same_words) ? 0 : 1;
             triangles += found.triangles.size();
         }
         wrong += lent.runs[1].first_vertex == 0 ? 1 : 0;

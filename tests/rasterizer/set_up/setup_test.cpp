@@ -12,8 +12,8 @@ namespace {
 
 using namespace strata::rasterizer;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+constexpr float no_end = std::numeric_limits<float>::infinity();
+constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 
 [[nodiscard]] ClipVertex at(float x, float y) { return {x, y, 0, 1, {1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0}}; }
 
@@ -46,7 +46,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 TEST_CASE("a triangle with a component that is not finite is dropped, counted and named") {
     const RasterState state = scene_state(16, 16);
-    for (const float bad : {not_a_number, infinity, -infinity})
+    for (const float bad : {no_number, no_end, -no_end})
         for (int field = 0; field < 7; ++field) {
             TriangleSoup soup = one_triangle();
             soup.indices = {0, 1, 2, 0, 1, 3};
@@ -134,7 +134,7 @@ TEST_CASE("an order permutes submission and keeps the number of the source") {
     const Geometry listed = set_up(soup, scene_state(64, 64), {}, 1);
     REQUIRE(listed.triangles.size() == 10);
     soup.order = {9, 3, 5, 0, 1, 2, 4, 8, 7, 6};
-    soup.vertices[5 * 3 + 1].x = not_a_number;
+    soup.vertices[5 * 3 + 1].x = no_number;
     const Geometry ordered = set_up(soup, scene_state(64, 64), {}, 1);
     REQUIRE(ordered.triangles.size() == 9);
     CHECK(ordered.counters.first_non_finite == 5);
@@ -147,7 +147,7 @@ TEST_CASE("an order permutes submission and keeps the number of the source") {
 
 TEST_CASE("the result of set-up does not depend on the number of threads") {
     TriangleSoup soup = random_soup(92, 20000, SoupKind::needs_clipping);
-    soup.vertices[30001].y = not_a_number;
+    soup.vertices[30001].y = no_number;
     const RasterState state = scene_state(64, 64);
     const Geometry one = set_up(soup, state, {}, 1);
     CHECK(one.counters.clipped > 1000);
@@ -173,7 +173,7 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
     TriangleSoup soup = random_soup(93, 2000, SoupKind::needs_clipping);
     Random random{94};
     for (int i = 0; i < 300; ++i) {
-        const std::array values{not_a_number, infinity, -infinity, 0.0f, -0.0f, 0x1p-70f, 0x1p127f, -0x1p100f};
+        const std::array values{no_number, no_end, -no_end, 0.0f, -0.0f, 0x1p-70f, 0x1p127f, -0x1p100f};
         ClipVertex& v = soup.vertices[random() % soup.vertices.size()];
         const std::array<float*, 8> fields{&v.x,        &v.y,       &v.z,           &v.w,
                                            &v.front[1], &v.back[3], &v.texcoord[0], &v.texcoord[1]};
@@ -190,7 +190,7 @@ TEST_CASE("every instruction set sets vertices up to the same bits, whatever is 
     TriangleSoup with_extras = soup;  // r and q of every vertex, some of them too large over w
     with_extras.extras = {.stride = 2, .has_rq = true, .values = {}};
     for (const ClipVertex& v : soup.vertices)
-        with_extras.extras.values.insert(with_extras.extras.values.end(), {random() % 20 == 0 ? infinity : v.z, v.w});
+        with_extras.extras.values.insert(with_extras.extras.values.end(), {random() % 20 == 0 ? no_end : v.z, v.w});
     const auto compare = [&](const RasterRules& rules, const TriangleSoup& given, std::uint64_t least_dropped) {
         const strata::SimdScope twins{strata::Simd::scalar};
         const Geometry scalar = set_up(given, state, rules, 1);

@@ -60,7 +60,7 @@ TEST_CASE("every built-in scene comes back from a pack bit by bit") {
         if (hard.name != "million-in-a-pixel") names.push_back("hard:case=" + std::string{hard.name});
     for (const std::string& name : names) {
         INFO(name);
-        const test::OwnFolder folder;
+        const strata::test::OwnFolder folder;
         Scene scene = load_scene(name, {.color_space = pipeline::ColorSpace::linear});
         if (!scene.own_view) scene.own_view = orbit_view(scene.bounds, 33, 21, 1.25);
         write_scene(scene, pipeline::ColorSpace::linear, folder.path());
@@ -72,7 +72,7 @@ TEST_CASE("every built-in scene comes back from a pack bit by bit") {
 }
 
 TEST_CASE("a pack is refused where it is damaged or asked for what it has not") {
-    const test::OwnFolder folder;
+    const strata::test::OwnFolder folder;
     Scene scene = load_scene("planes:count=1,cells=1", {});
     scene.own_view = orbit_view(scene.bounds, 33, 21, 1);
     write_scene(scene, pipeline::ColorSpace::encoded, folder.path());

@@ -13,7 +13,7 @@ using namespace strata::scenes;
 
 namespace {
 
-std::string written(const test::OwnFolder& folder, const std::string& name, const std::string& bytes) {
+std::string written(const strata::test::OwnFolder& folder, const std::string& name, const std::string& bytes) {
     const std::string path = folder.path() + "/" + name;
     std::ofstream{path, std::ios::binary} << bytes;
     return path;
@@ -29,7 +29,7 @@ std::string triangles_npy(std::vector<std::size_t> shape) {
 }  // namespace
 
 TEST_CASE("triangles come from a .npy file with their numbers as they stand there") {
-    const test::OwnFolder folder;
+    const strata::test::OwnFolder folder;
     const Scene plain = load_scene(written(folder, "a.npy", triangles_npy({2, 3, 3})), {});
     const pipeline::Mesh& mesh = plain.list.meshes.at(0);
     REQUIRE(mesh.positions.size() == 6);
@@ -47,7 +47,7 @@ TEST_CASE("triangles come from a .npy file with their numbers as they stand ther
 }
 
 TEST_CASE("triangles come from a .json file, with a view if it has one") {
-    const test::OwnFolder folder;
+    const strata::test::OwnFolder folder;
     const Scene scene = load_scene(
         written(folder, "t.json",
                 R"({"positions": [[0, 0, 0.1], [1, 0, 0], [0, 1, 0], [1, 1, 0]], "indices": [[0, 1, 2], [2, 1, 3]],
