@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
 #   tools/test.sh               unit and golden tests; the fast ones under sanitizers; half a minute of fuzzing
-#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too; the loader is fuzzed
+#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too, and the tests themselves; the
+#                               loader is fuzzed
 #   tools/test.sh --instrumented  the core's golden scenes under the thread and the memory sanitizer, and 2,000 frames under the first
 #   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
 #   tools/test.sh --exhaustive  the tests that try every value
@@ -35,13 +36,13 @@ quietly() {
     }
 }
 
-# sanitizer_preset: one build by clang++ serves the fuzzing, too.
-sanitizer_preset() { if command -v clang++ >/dev/null; then echo fuzz; else echo asan; fi; }
+# sanitizer_preset PRESET: that one if clang++ is there, whose build serves the fuzzing, too.
+sanitizer_preset() { if command -v clang++ >/dev/null; then echo "$1"; else echo asan; fi; }
 
 # Every test of the floors under the sanitizers.
 sanitizers() {
     local preset
-    preset=$(sanitizer_preset)
+    preset=$(sanitizer_preset fuzz)
     step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
     local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
     [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs)
@@ -56,11 +57,11 @@ sanitizers() {
 }
 
 # The two builds beside each other: the last and longest sources of one leave a processor to the other. The second by half as many
-# compilers: six at a time took a fifth longer for the same on two processors.
+# compilers: six at a time took a fifth longer for the same on two processors. The tests' own sources are not instrumented here.
 builds() {
     local preset targets=(rasterizer_test pipeline_test peeling_test core_digests)
-    preset=$(sanitizer_preset)
-    if [ "$preset" = fuzz ]; then
+    preset=$(sanitizer_preset sanitized)
+    if [ "$preset" != asan ]; then
         targets+=(differential_seeds differential_fuzz)
     fi
     step "building, and beside it the core under the address and undefined-behaviour sanitizers (preset $preset)"
@@ -76,13 +77,13 @@ builds() {
 # again as the core does, are left to --sanitizers.
 sanitized() {
     local preset fuzzing=""
-    preset=$(sanitizer_preset)
+    preset=$(sanitizer_preset sanitized)
     step "the fast tests of the core under the sanitizers"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
     else
         step "beside them half a minute of fuzzing: the ways of running a frame against each other"
-        quietly fuzz ctest --test-dir build/fuzz/tests/fuzz -R '^fuzz-differential' --output-on-failure &
+        quietly fuzz ctest --test-dir "build/$preset/tests/fuzz" -R '^fuzz-differential' --output-on-failure &
         fuzzing=$!
     fi
     quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"

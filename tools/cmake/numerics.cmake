@@ -23,6 +23,7 @@ target_compile_definitions(strata_warnings INTERFACE $<BUILD_INTERFACE:STRATA_GL
 
 # Instrumented builds (presets asan, tsan, fuzz, coverage). They ride on strata::numerics because every target links that one.
 set(STRATA_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")
+option(STRATA_SANITIZE_TESTS "Build the tests' own sources with them, too" ON)
 option(STRATA_COVERAGE "Count the branches that are taken (clang of 18 or later)" OFF)
 option(STRATA_FUZZ "Build the fuzz targets (clang only)" OFF)
 set(sanitizer_flags "")
@@ -35,5 +36,7 @@ endif()
 if(STRATA_COVERAGE)
   list(APPEND sanitizer_flags -fprofile-instr-generate -fcoverage-mapping -fcoverage-mcdc -fprofile-list=${PROJECT_SOURCE_DIR}/tests/coverage/counted.txt)
 endif()
-target_compile_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")
+# A target whose STRATA_UNSANITIZED is set is linked with them alone.
+target_compile_options(strata_numerics INTERFACE
+  "$<BUILD_INTERFACE:$<$<NOT:$<BOOL:$<TARGET_PROPERTY:STRATA_UNSANITIZED>>>:${sanitizer_flags}>>")
 target_link_options(strata_numerics INTERFACE "$<BUILD_INTERFACE:${sanitizer_flags}>")

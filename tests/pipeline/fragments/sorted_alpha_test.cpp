@@ -82,9 +82,9 @@ TEST_CASE("an alpha test takes from what is sorted the fragments that fail one b
                 std::size_t pixel = 0, wrong = 0, killed = 0;
                 for (const std::vector<float>& alphas : kinds_of_alphas())
                     for (const float alpha : alphas) {
-                        const bool passes =
-                            eight_bit ? passes_by_rule(func, int{to_unorm8(alpha)}, int{to_unorm8(reference)})
-                                      : passes_by_rule(func, alpha, reference);
+                        const bool passes = eight_bit
+                                                ? passes_by_rule(func, int{to_unorm8(alpha)}, int{to_unorm8(reference)})
+                                                : passes_by_rule(func, alpha, reference);
                         wrong += sorted.of(pixel++).size() == (passes ? 1u : 0u) ? 0 : 1;
                         killed += passes ? 0 : 1;
                     }
