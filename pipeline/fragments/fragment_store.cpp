@@ -186,6 +186,8 @@ void FragmentStore::recall(std::size_t number, FragmentBatch& batch, Lanes<std::
 
 // Floats of no sign rise with their bits, and NaN lies above all of them; those with a sign are negative numbers as integers, too.
 std::array<float, 2> FragmentStore::alpha_ends(std::size_t number) const noexcept {
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    if (!needs_.color) return {unknown, unknown};
     static const FragmentBatch shape{};
     const Packed& packed = batches_[number];
     const std::byte* alpha = packed.begin + 3 * sizeof(float);
@@ -196,13 +198,13 @@ std::array<float, 2> FragmentStore::alpha_ends(std::size_t number) const noexcep
     });
     constexpr std::int32_t infinity = 0x7f800000;
     std::int32_t least = std::numeric_limits<std::int32_t>::max(), greatest = 0;
-    for (std::size_t i = 0; needs_.color && i < packed.count; ++i, alpha += bytes_in(shape.color)) {
+    for (std::size_t i = 0; i < packed.count; ++i) {
         std::int32_t bits;
-        std::memcpy(&bits, alpha, sizeof(bits));
+        std::memcpy(&bits, alpha + i * bytes_in(shape.color), sizeof(bits));
         least = std::min(least, bits);
         greatest = std::max(greatest, bits);
     }
-    if (least < 0 || greatest < least || greatest > infinity) least = greatest = ~0;  // NaN
+    if (least < 0 || greatest > infinity) return {unknown, unknown};
     return {std::bit_cast<float>(least), std::bit_cast<float>(greatest)};
 }
 

@@ -5,7 +5,7 @@
 //          region rasterizes every pass.
 // Layout   The arrays of one batch lie one after the other, packed to its count; batches fill chunks of 256 KiB. Batches as the
 //          rasterizer made them cost no second sorting and read back in a straight line.
-// Tests    tests/pipeline/fragments/fragment_store_test.cpp; tests/peeling/execution_test.cpp
+// Tests    tests/pipeline/fragments/fragment_store_test.cpp, sorted_alpha_test.cpp; tests/peeling/execution_test.cpp
 #pragma once
 #include <array>
 #include <cstddef>

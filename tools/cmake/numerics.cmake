@@ -21,7 +21,7 @@ target_compile_options(strata_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshad
 # GLM's operators are deleted in our own code (rasterizer/base/no_arithmetic.h), not in programs that use the package.
 target_compile_definitions(strata_warnings INTERFACE $<BUILD_INTERFACE:STRATA_GLM_IS_STORAGE>)
 
-# Instrumented builds (presets asan, tsan, fuzz, coverage). They ride on strata::numerics because every target links that one.
+# Instrumented builds (presets asan, tsan, fuzz, sanitized, coverage). They ride on strata::numerics because every target links that one.
 set(STRATA_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")
 option(STRATA_SANITIZE_TESTS "Build the tests' own sources with them, too" ON)
 option(STRATA_COVERAGE "Count the branches that are taken (clang of 18 or later)" OFF)
