@@ -49,6 +49,16 @@ HWY_INLINE Corners edge_values(const Weights& e, double area) {
     return {hn::Sub(hn::Sub(all(area), e.b1), e.b2), e.b1, e.b2};
 }
 
+HWY_INLINE Corners cut_products(const Corners& p, V64 r) {
+    return {cut_24(hn::Mul(p.c0, r)), cut_24(hn::Mul(p.c1, r)), cut_24(hn::Mul(p.c2, r))};
+}
+// cut_reciprocal of `sum`, of which `exact` is 1 / sum, rounded. `low` and the mask: ChipTriangle's.
+HWY_INLINE V64 cut_inverse(V64 sum, V64 exact, double low, std::uint64_t reciprocal_mask) {
+    const auto is_power = hn::Eq(hn::BitCast(U64{}, kept(sum, fraction_field)), hn::Zero(U64{}));
+    const V64 cut = kept(hn::Mul(exact, all(low)), reciprocal_mask);
+    return hn::IfThenElse(hn::RebindMask(F64{}, is_power), exact, cut);
+}
+
 class CutWeightsAt {
   public:
     HWY_INLINE explicit CutWeightsAt(const ChipTriangle& t)
@@ -62,26 +72,15 @@ class CutWeightsAt {
 
     // CutWeights::at, or PerspectiveWeights::cut_at.
     HWY_INLINE Corners at(const Corners& e) const {
-        if (constant_r_ != 0.0) return times(e, all(constant_r_));
+        if (constant_r_ != 0.0) return cut_products(e, all(constant_r_));
         Corners p{cut_24(e.c0), cut_24(e.c1), cut_24(e.c2)};
         if (is_perspective_)
             p = {cut_24(hn::Mul(p.c0, all(q0_))), cut_24(hn::Mul(p.c1, all(q1_))), cut_24(hn::Mul(p.c2, all(q2_)))};
-        return times(p, reciprocal(hn::Add(hn::Add(p.c0, p.c1), p.c2)));
+        const V64 sum = hn::Add(hn::Add(p.c0, p.c1), p.c2);
+        return cut_products(p, cut_inverse(sum, hn::Div(all(1.0), sum), low_, reciprocal_mask_));
     }
 
   private:
-    HWY_INLINE static Corners times(const Corners& p, V64 r) {
-        return {cut_24(hn::Mul(p.c0, r)), cut_24(hn::Mul(p.c1, r)), cut_24(hn::Mul(p.c2, r))};
-    }
-    // cut_reciprocal.
-    HWY_INLINE V64 reciprocal(V64 sum) const {
-        const V64 exact = hn::Div(all(1.0), sum);
-        const V64 fraction = kept(sum, fraction_field);
-        const auto is_power = hn::Eq(hn::BitCast(U64{}, fraction), hn::Zero(U64{}));
-        const V64 cut = kept(hn::Mul(exact, all(low_)), reciprocal_mask_);
-        return hn::IfThenElse(hn::RebindMask(F64{}, is_power), exact, cut);
-    }
-
     const double q0_, q1_, q2_, low_, constant_r_;
     const std::uint64_t reciprocal_mask_;
     const bool is_perspective_;
@@ -117,7 +116,31 @@ HWY_INLINE V64 cut_sum(const TwoLanes& s) {
     return cut_24(added_bits(s.high, minus_one));
 }
 
-// WindowZ24 of narrow corners.
+// WindowZ24 of narrow corners, without offset. `last_place`: 2^(1 - sum_bits).
+struct WindowZLanes {
+    V64 z0, z1, z2;
+    V64 d10, d20, d21, minus_d10, minus_d20, minus_d21;  // NarrowWindowZ's, and from the other end
+
+    HWY_INLINE V64 value(const Corners& e, const Corners& b, double last_place) const {
+        const V64 k0 = leading_power(e.c0), k1 = leading_power(e.c1), k2 = leading_power(e.c2);
+        const Mask64 is1 = hn::And(hn::Ge(k1, k0), hn::Ge(k1, k2)), is0 = hn::AndNot(is1, hn::Ge(k0, k2));
+        const Mask64 is01 = hn::Or(is0, is1);
+        // The reference's depth, and the two others' products.
+        const V64 z = hn::IfThenElse(is1, z1, hn::IfThenElse(is0, z0, z2));
+        const V64 dj = hn::IfThenElse(is0, d10, hn::IfThenElse(is1, minus_d10, minus_d20));
+        const V64 dk = hn::IfThenElse(is0, d20, hn::IfThenElse(is1, d21, minus_d21));
+        const V64 pj = hn::Mul(hn::IfThenElse(is0, b.c1, b.c0), dj);
+        const V64 pk = hn::Mul(hn::IfThenElse(is01, b.c2, b.c1), dk);
+        // The largest term's power of two; where all are 0 any will do.
+        const V64 own = hn::Max(leading_power(z), all(0x1p-500));
+        const V64 largest = hn::Max(own, hn::Max(leading_power(pj), leading_power(pk)));
+        const V64 unit = hn::Mul(largest, all(last_place)), units = inverse_power(unit);
+        const V64 sum = hn::Add(hn::Trunc(hn::Mul(pj, units)), hn::Trunc(hn::Mul(pk, units)));
+        return cut_sum(two_sum_lanes(z, hn::Mul(sum, unit)));
+    }
+};
+
+// Of one triangle in all lanes, with its offset.
 class WindowZAt {
   public:
     HWY_INLINE explicit WindowZAt(const NarrowWindowZ& z)
@@ -131,21 +154,9 @@ class WindowZAt {
           last_place_{power_of_two(1 - z.sum_bits)} {}
 
     HWY_INLINE V64 value(const Corners& e, const Corners& b) const {
-        const V64 k0 = leading_power(e.c0), k1 = leading_power(e.c1), k2 = leading_power(e.c2);
-        const Mask64 is1 = hn::And(hn::Ge(k1, k0), hn::Ge(k1, k2)), is0 = hn::AndNot(is1, hn::Ge(k0, k2));
-        const Mask64 is01 = hn::Or(is0, is1);
-        // The reference's depth, and the two others' products.
-        const V64 z = hn::IfThenElse(is1, all(z1_), hn::IfThenElse(is0, all(z0_), all(z2_)));
-        const V64 dj = hn::IfThenElse(is0, all(d10_), hn::IfThenElse(is1, all(-d10_), all(-d20_)));
-        const V64 dk = hn::IfThenElse(is0, all(d20_), hn::IfThenElse(is1, all(d21_), all(-d21_)));
-        const V64 pj = hn::Mul(hn::IfThenElse(is0, b.c1, b.c0), dj);
-        const V64 pk = hn::Mul(hn::IfThenElse(is01, b.c2, b.c1), dk);
-        // The largest term's power of two; where all are 0 any will do.
-        const V64 own = hn::Max(leading_power(z), all(0x1p-500));
-        const V64 largest = hn::Max(own, hn::Max(leading_power(pj), leading_power(pk)));
-        const V64 unit = hn::Mul(largest, all(last_place_)), units = inverse_power(unit);
-        const V64 sum = hn::Add(hn::Trunc(hn::Mul(pj, units)), hn::Trunc(hn::Mul(pk, units)));
-        const V64 v = cut_sum(two_sum_lanes(z, hn::Mul(sum, unit)));
+        const WindowZLanes lanes{all(z0_),  all(z1_),   all(z2_),   all(d10_), all(d20_),
+                                 all(d21_), all(-d10_), all(-d20_), all(-d21_)};
+        const V64 v = lanes.value(e, b, last_place_);
         return offset_ == 0.0 ? v : cut_sum(two_sum_lanes(v, all(offset_)));
     }
 

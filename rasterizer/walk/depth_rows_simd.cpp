@@ -24,7 +24,6 @@ struct DepthState {
 
 template <bool is_fixed>
 struct DepthOf {
-    // Pixels of tiny triangles are tested one after the other: the same one may come again.
     template <bool unsnapped>
     class TinyOf {
       public:
@@ -42,16 +41,7 @@ struct DepthOf {
         HWY_INLINE void operator()(const TinyPixels& pixels) {
             const V32 depth =
                 plane_.at(pixels, triangles_.weights(pixels), triangles_.geometry(), triangles_.triangles());
-            const auto covered = hn::RebindMask(U32{}, pixels.covered());
-            alignas(64) std::uint32_t pixel[tiny_lanes], code[tiny_lanes];
-            hn::Store(hn::IfThenElse(covered, pixels.pixel, hn::Set(U32{}, spare_)), U32{}, pixel);
-            hn::Store(codes<is_fixed>(depth, to_code_), U32{}, code);
-            for (std::uint32_t i = 0; i < tiny_lanes; ++i) {
-                std::uint32_t& stored = codes_[pixel[i]];
-                const bool passes = is_nearer(code[i], stored) && i < pixels.count;
-                stored = passes ? code[i] : stored;
-                passed_ += passes ? 1 : 0;
-            }
+            passed_ += test_in_turn<is_fixed>(pixels, codes<is_fixed>(depth, to_code_), codes_, spare_);
         }
         HWY_INLINE void finish(std::uint64_t pixels) {
             state_.drawn.fragments += pixels;
@@ -60,9 +50,6 @@ struct DepthOf {
 
       private:
         HWY_INLINE V64 z(std::size_t i) const { return hn::PromoteTo(F64{}, triangles_.z(i)); }
-        HWY_INLINE static bool is_nearer(std::uint32_t code, std::uint32_t stored) {
-            return is_fixed ? code < stored : std::bit_cast<float>(code) < std::bit_cast<float>(stored);
-        }
 
         DepthState& state_;
         const DepthConversion<float> to_code_;

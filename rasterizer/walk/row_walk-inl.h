@@ -7,8 +7,8 @@
 //          every row that has a covered pixel, at last finish(how many were covered). One that takes (pixels, weights), too, is
 //          given those of a small triangle side by side, and rows of large triangles alone, covered from their first lane on.
 //          One that has a class Tiny is given tiny triangles, and larger ones among them, side by side (Tiny::Triangles, of
-//          tiny_walk-inl.h): Tiny{state, triangles}, then (pixels) and finish() as above, if it suits().
-//          One that `takes_edges` is given edge values of the snapped corners in the place of weights.
+//          tiny_walk-inl.h): Tiny{state, triangles}, then (pixels) and finish() as above, if it suits(); none under polygon offset.
+//          One that `takes_edges` is given edge values of the snapped corners in the place of weights, whatever z is counted in.
 // Numbers  Regions are at most max_row_pixels wide. Weights of Kind::snapped_wide do not exist up to 8 subpixel bits: the
 //          constants of an edge are below 2^50 there (row_walk_suits).
 // Tests    tests/rasterizer/walk/rows_test.cpp
@@ -143,15 +143,16 @@ class RowWalk {
           region_{region},
           rules_{group_rules(geometry, region)},
           kernels_{small_kernels()},
-          has_tiny_{geometry.offset_z.empty() && geometry.rules.window_z == WindowZ::unit_interval} {}
+          has_tiny_{geometry.offset_z.empty() && !geometry.state.polygon_offset.enabled &&
+                    (takes_edges<Shade<true>> || geometry.rules.window_z == WindowZ::unit_interval)} {}
 
     void draw(std::span<const std::uint32_t> triangles) {
-        const bool is_unsnapped = geometry_.rules.plane_origin == PlaneOrigin::unsnapped;
+        [[maybe_unused]] const bool is_unsnapped = geometry_.rules.plane_origin == PlaneOrigin::unsnapped;
         for_each_group(geometry_, triangles, [&](std::span<const std::uint32_t> group) HWY_ATTR {
-            if constexpr (takes_tiny<Shade<true>>)
-                if (has_tiny_ && group.size() == TriangleGroup::size)
-                    return is_unsnapped ? draw_whole<true>(group) : draw_whole<false>(group);
-            draw_any(group);
+            if (!takes_tiny<Shade<true>> || !has_tiny_ || group.size() != TriangleGroup::size) return draw_any(group);
+            if constexpr (takes_tiny<Shade<true>> && !takes_edges<Shade<true>>)
+                if (is_unsnapped) return draw_whole<true>(group);
+            if constexpr (takes_tiny<Shade<true>>) draw_whole<false>(group);
         });
     }
 

@@ -71,6 +71,27 @@ class TinyPixels {
     HWY_INLINE hn::Mask<F32> covered() const { return hn::FirstN(F32{}, count); }
 };
 
+// LESS of the pixels' codes, one after the other, for the same pixel may come again: how many passed. `spare` is a word of no pixel.
+template <bool is_fixed>
+HWY_INLINE std::size_t test_in_turn(const TinyPixels& pixels, hn::Vec<U32> code, std::uint32_t* codes,
+                                    std::uint32_t spare) {
+    const auto is_nearer = [](std::uint32_t one, std::uint32_t stored) {
+        return is_fixed ? one < stored : std::bit_cast<float>(one) < std::bit_cast<float>(stored);
+    };
+    const auto covered = hn::RebindMask(U32{}, pixels.covered());
+    alignas(64) std::uint32_t pixel[tiny_lanes], own[tiny_lanes];
+    hn::Store(hn::IfThenElse(covered, pixels.pixel, hn::Set(U32{}, spare)), U32{}, pixel);
+    hn::Store(code, U32{}, own);
+    std::size_t passed = 0;
+    for (std::uint32_t i = 0; i < tiny_lanes; ++i) {
+        std::uint32_t& stored = codes[pixel[i]];
+        const bool passes = is_nearer(own[i], stored) && i < pixels.count;
+        stored = passes ? own[i] : stored;
+        passed += passes ? 1 : 0;
+    }
+    return passed;
+}
+
 // The corners' values of a plane, a triangle a lane, and the plane as the filter sees it (FilterPlane).
 template <bool unsnapped>
 class TinyPlane {
@@ -129,9 +150,9 @@ class TinyTriangles {
           triangles_{triangles},
           width_{hn::Set(U32{}, static_cast<std::uint32_t>(region.width()))} {
         find_pixels(clip, region, group, at);
-        const V64 area = set_up_weights();
-        has_weights_ = hn::AllTrue(F64{}, hn::Ne(area, hn::Zero(F64{})));
-        r_ = hn::Div(set64(1.0), area);
+        area_ = set_up_weights();
+        has_weights_ = hn::AllTrue(F64{}, hn::Ne(area_, hn::Zero(F64{})));
+        r_ = hn::Div(set64(1.0), area_);
     }
 
     // False if unsnapped corners lie on a line: their plane is another one (PixelWeights).
@@ -170,12 +191,18 @@ class TinyTriangles {
             return {hn::Mul(hn::Sub(hn::Mul(dx, y2), hn::Mul(dy, x2)), r),
                     hn::Mul(hn::Sub(hn::Mul(dy, x1), hn::Mul(dx, y1)), r)};
         } else {
-            const auto edge = [&](std::size_t i) HWY_ATTR {
-                return hn::Add(hn::Add(hn::Mul(x, p.of(a_[i])), hn::Mul(y, p.of(b_[i]))), p.of(constant_[i]));
-            };
-            return {hn::Mul(edge(1), r), hn::Mul(edge(2), r)};
+            const Weights e = edges_at(p, x, y);
+            return {hn::Mul(e.b1, r), hn::Mul(e.b2, r)};
         }
     }
+    // The values of edges 1 and 2 in their place, of snapped corners.
+    HWY_INLINE Weights edges(const TinyPixels& p) const {
+        static_assert(!unsnapped);
+        return edges_at(p, hn::PromoteTo(F64{}, p.x), hn::PromoteTo(F64{}, p.y));
+    }
+    // Of all triangles, and 1 by it.
+    [[nodiscard]] HWY_INLINE V64 area() const { return area_; }
+    [[nodiscard]] HWY_INLINE V64 inverse_area() const { return r_; }
 
   private:
     // Numbers of pixels: triangle above, row and column below, eight of each.
@@ -189,6 +216,13 @@ class TinyTriangles {
     HWY_INLINE void load_corners(std::size_t i, Member member, V32 (&word)[4]) const {
         const WindowCorner* const corners = geometry_.corners.data();
         load_fours([&](std::uint32_t k) { return &(corners[record(k).vertex[i]].*member); }, word);
+    }
+
+    HWY_INLINE Weights edges_at(const TinyPixels& p, V64 x, V64 y) const {
+        const auto edge = [&](std::size_t i) HWY_ATTR {
+            return hn::Add(hn::Add(hn::Mul(x, p.of(a_[i])), hn::Mul(y, p.of(b_[i]))), p.of(constant_[i]));
+        };
+        return {edge(1), edge(2)};
     }
 
     // What of PixelWeights is not a pixel's. Returns the areas.
@@ -307,8 +341,8 @@ class TinyTriangles {
     const hn::Vec<U32> width_;
     hn::Vec<U32> x_, y_, first_pixel_;  // of the box's first pixel
     V32 z_[3], inverse_w_[3];
-    V64 a_[3], b_[3], constant_[3],
-        r_;  // unsnapped: corner 0, and 1 and 2 seen from it; snapped: steps of edges 1 and 2
+    V64 a_[3], b_[3], constant_[3];  // unsnapped: corner 0, and 1 and 2 seen from it; snapped: steps of edges 1 and 2
+    V64 area_, r_;
     std::uint32_t count_ = 0;
     bool has_weights_;
     alignas(64) std::uint32_t numbers_[64 * tiny_lanes + 16];
