@@ -143,7 +143,7 @@ class RowWalk {
           region_{region},
           rules_{group_rules(geometry, region)},
           kernels_{small_kernels()},
-          has_tiny_{geometry.offset_z.empty() && !geometry.state.polygon_offset.enabled &&
+          has_tiny_{geometry.offset_z.empty() &&
                     (takes_edges<Shade<true>> || geometry.rules.window_z == WindowZ::unit_interval)} {}
 
     void draw(std::span<const std::uint32_t> triangles) {

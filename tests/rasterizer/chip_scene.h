@@ -21,8 +21,8 @@ namespace strata::rasterizer {
     return rules;
 }
 
-// Depths of corners: spread over the format's range and beyond both its ends, equal, 0, a unit apart, and too far apart for products of
-// binary64 (window_z.h).
+// Depths of corners: spread over the format's range and beyond both its ends, equal, 0, a unit apart, too far apart for products of
+// binary64, and around the least depth (window_z.h).
 [[nodiscard]] inline std::array<double, 3> chip_depths(Random& random, DepthFormat format, int kind) {
     const double units = buffer_units(format);
     const auto within = [&] { return static_cast<float>(double{random_float(random, 0.05f, 0.95f)} * units); };
@@ -34,6 +34,8 @@ namespace strata::rasterizer {
         case 3: return {a, std::nextafter(a, b), std::nextafter(a, -b)};
         case 4: return {double{a} * 0x1p-60, b, double{c} * 0x1p-30};
         case 5: return {0x1p-140, double{b} * 0x1p-120, 0.0};
+        case 6: return {double{a} / units * 0x1p-124, double{b} / units * 0x1p-125, double{c} / units * 0x1p-124};
+        case 7: return {double{a} * 0x1p-60, b, b};
         default: return {a, b, c};
     }
 }
@@ -43,7 +45,7 @@ namespace strata::rasterizer {
     Geometry geometry = random_triangles(seed, count, size, device);
     Random random{seed + 1};
     for (std::size_t i = 0; i < geometry.triangles.size(); ++i) {
-        const std::array<double, 3> z = chip_depths(random, device.depth.format, static_cast<int>(i % 9));
+        const std::array<double, 3> z = chip_depths(random, device.depth.format, static_cast<int>(i % 11));
         for (std::size_t k = 0; k < 3; ++k) {
             geometry.corners[geometry.triangles[i].vertex[k]].z = static_cast<float>(z[k]);
             geometry.offset_z[i][k] = static_cast<double>(static_cast<float>(z[k]));

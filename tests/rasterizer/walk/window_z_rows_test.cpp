@@ -6,6 +6,7 @@
 #include "rasterizer/base/simd.h"
 #include "rasterizer/walk/rows.h"
 #include "tests/rasterizer/chip_scene.h"
+#include "tests/rasterizer/dense.h"
 
 namespace {
 
@@ -64,6 +65,22 @@ struct ChipCodes {
 
 [[nodiscard]] bool has_rows_here() { return strata::available_simd().back() >= strata::Simd::avx2; }
 
+// Many of the triangles have areas that are powers of two then: their weights cut nothing.
+void move_to_half_pixels(TriangleSoup& soup) {
+    const auto moved = [](float x, float w, float half_window) {
+        return (std::round(2 * (x / w + 1) * half_window) / (2 * half_window) - 1) * w;
+    };
+    for (ClipVertex& v : soup.vertices) v.x = moved(v.x, v.w, 35), v.y = moved(v.y, v.w, 20);
+}
+constexpr std::size_t large_every = 23;
+// Cells of 45 pixels between the others: the edge values of their triangles have more than 24 bits.
+void enlarge_some(TriangleSoup& soup) {
+    for (std::size_t v = 0; v + 4 <= soup.vertices.size(); v += 4 * large_every) {
+        soup.vertices[v + 1].x += 45 / 35.0f * soup.vertices[v + 1].w;
+        soup.vertices[v + 2].y -= 45 / 20.0f * soup.vertices[v + 2].w;
+    }
+}
+
 constexpr std::array<std::array<int, 2>, 6> sizes{{{2, 180}, {4, 180}, {8, 90}, {30, 36}, {300, 18}, {32767, 18}}};
 
 }  // namespace
@@ -91,6 +108,42 @@ TEST_CASE(
             }
     CHECK(wrong == 0);
     CAPTURE(passed);  // by each instruction set that draws rows, of which a build may have fewer
+    CHECK((passed > 100'000 || !has_rows_here()));
+}
+
+TEST_CASE("tiny triangles side by side have the chip's window z of each, and its range, in every format") {
+    std::uint64_t passed = 0;
+    int wrong = 0;
+    for (DenseCase dense : dense_cases()) {
+        if (dense.state.cull == CullFace::back)
+            enlarge_some(dense.soup);
+        else
+            move_to_half_pixels(dense.soup);
+        RasterRules rules = chip_rules();
+        rules.subpixel_bits = dense.rules.subpixel_bits;
+        rules.tie_rule = dense.rules.tie_rule;
+        rules.plane_origin = dense.rules.plane_origin;
+        if (dense.state.cull == CullFace::none)
+            rules.hypothesis.sum_bits = 25, rules.hypothesis.reciprocal_bits = 26,
+            rules.hypothesis.reciprocal_deficit = 8;
+        for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d16f, DepthFormat::d24f}) {
+            Geometry g = set_up(dense.soup, dense.state, rules, 1);
+            g.state.depth_format = format;
+            if (dense.state.cull == CullFace::front) g.state.depth_near = 0.2f, g.state.depth_far = 0.9f;
+            g.state.depth_clamp = dense.state.cull == CullFace::back;
+            // Cells of four corners; some groups have triangles of one kind, some a single one among others.
+            Random random{61};
+            for (std::size_t v = 0; v + 4 <= g.corners.size(); v += 4) {
+                const std::size_t span = v / 400 % 15;
+                const bool is_plain = v / 4 % large_every == 0 || (span >= 8 && v / 4 % 29 != 0);
+                const auto z = chip_depths(random, format, static_cast<int>(is_plain ? 8 : span % 8));
+                for (std::size_t k = 0; k < 4; ++k) g.corners[v + k].z = static_cast<float>(z[k % 3]);
+            }
+            for (const Rect& part : {Rect{0, 0, 70, 40}, Rect{5, 3, 37, 35}, Rect{20, 11, 27, 18}})
+                wrong += differences(g, {DepthPath::window_z, format}, intersection(part, g.state.viewport), passed);
+        }
+    }
+    CHECK(wrong == 0);
     CHECK((passed > 100'000 || !has_rows_here()));
 }
 
