@@ -89,6 +89,9 @@ FragmentValues::FragmentValues(const Geometry& geometry, const DepthRequest& dep
     is_plain_ = kernels_.depth != nullptr && rules_.plane_rule == PlaneRule::exact && !clips_fragments_ &&
                 !needs.exact_code && !needs.reference && !rejects_ &&
                 (!needs.code || (depth.path == DepthPath::float32 && has_vector_codes(to_code_)));
+    is_float_plain_ = rules_.plane_rule != PlaneRule::exact && !clips_fragments_ && !needs.exact_code &&
+                      !needs.reference && !rejects_ && needs.units == 0 &&
+                      (!needs.code || depth.path == DepthPath::float32);
     is_chip_path_ = chip_kernels_ != nullptr && depth.path == DepthPath::window_z && is_chip(depth.path);
     is_chip_plain_ = is_chip_path_ && rules_.plane_rule == PlaneRule::exact && !needs.exact_code &&
                      (!needs.reference || is_quotient(depth.reference.value_or(depth.path)));
@@ -166,6 +169,11 @@ void FragmentValues::drop_rejected(int first, FragmentBatch& batch, WeightLanes&
 
 void FragmentValues::fill_value_codes(const double* values, int count, std::uint32_t* out) const noexcept {
     to_codes(values, count, value_to_code_, out);
+}
+
+void FragmentValues::fill_float_codes(int first, FragmentBatch& batch) const noexcept {
+    const auto f = static_cast<std::size_t>(first);
+    to_codes(&batch.shader_z[f], padded(batch.count - first), to_code_, &batch.code[f]);
 }
 
 // The exact plane in the buffer's own units, rounded once to binary32, and that cut: the chip's float formats.
@@ -300,7 +308,7 @@ int FragmentValues::fill_values(const SetupTriangle& t, const DrawnTriangle& tri
     const bool clips = clips_fragments_ && may_leave_depth_range(t);
     int fallbacks = 0;
     if (rules_.plane_rule != PlaneRule::exact)
-        fill_float_z(t, triangle, first, batch);
+        fill_float_z(float_planes(triangle.geometry, triangle.record), triangle, first, batch);
     else if (needs_float_z_ || clips)
         fallbacks += round_plane(RationalPlane{t.z, 1.0, z_units_}, own, &batch.shader_z[f]);
     if (clips) {
@@ -333,12 +341,13 @@ void FragmentValues::turn_into_keys(int first, FragmentBatch& batch) const noexc
 
 int FragmentValues::fill(const DrawnTriangle& triangle, int first, FragmentBatch& batch, WeightLanes& weights) const {
     int fallbacks = 0;
-    if (!fill_depth(triangle, first, batch, weights) && !fill_chip_depth(triangle, first, batch, weights, fallbacks))
+    if (rules_.plane_rule != PlaneRule::exact)
+        fallbacks += fill_float_values(triangle, first, batch, weights);
+    else if (!fill_depth(triangle, first, batch, weights) &&
+             !fill_chip_depth(triangle, first, batch, weights, fallbacks))
         fallbacks += fill_values(triangle.geometry.triangle(triangle.index), triangle, first, batch, weights);
     if (is_reversed_) turn_into_keys(first, batch);
-    if (needs_attributes_ && rules_.plane_rule != PlaneRule::exact)
-        fill_float_attributes(triangle, first, batch);
-    else if (needs_attributes_)
+    if (needs_attributes_ && rules_.plane_rule == PlaneRule::exact)
         fallbacks += fill_attributes(triangle, first, batch, weights);
     if (needs_.units != 0) fallbacks += fill_units(triangle, first, batch, weights);
     if (needs_.facing)

@@ -112,11 +112,14 @@ class FragmentValues {
     [[nodiscard]] int fill_reference(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
                                      FragmentBatch& batch, const WeightLanes& weights) const;
     [[nodiscard]] int fill_varying(const AttributeLanes& varying, const TriangleLanes& lanes) const;
-    // Depth and attributes by another PlaneRule than the exact plane (float_values.cpp).
-    void fill_plane(const FloatPlane& plane, int first, const FragmentBatch& batch, float* out) const noexcept;
-    void fill_float_z(const SetupTriangle& t, const DrawnTriangle& triangle, int first,
+    // Depth and attributes by another PlaneRule than the exact plane (float_values.cpp): all that a pass asks for where is_float_plain_.
+    [[nodiscard]] int fill_float_values(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
+                                        WeightLanes& weights) const;
+    void fill_float_z(const FloatPlanes& planes, const DrawnTriangle& triangle, int first,
                       FragmentBatch& batch) const noexcept;
-    void fill_float_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch) const noexcept;
+    void fill_float_codes(int first, FragmentBatch& batch) const noexcept;
+    void fill_float_attributes(const FloatPlanes& planes, const DrawnTriangle& triangle, int first,
+                               FragmentBatch& batch) const noexcept;
     [[nodiscard]] int fill_attributes(const DrawnTriangle& triangle, int first, FragmentBatch& batch,
                                       const WeightLanes& weights) const;
     // Colours by 8-bit weights, and coordinates by cut ones (`u`: their corners).
@@ -150,7 +153,8 @@ class FragmentValues {
     bool is_reversed_;  // DepthOrder::greater
     bool needs_float_z_, needs_attributes_;
     // The pass asks for no more than shader_z and its code by DepthPath::float32: one kernel does it all.
-    bool is_plain_;
+    // The same by planes stepped in binary32, with colours and coordinates.
+    bool is_plain_, is_float_plain_;
     // The stored depth is the chip's window z and has a kernel; and no more is asked for than shader_z and its code.
     // needs_plane_weights_: some attribute goes by planes.
     bool is_chip_path_, is_chip_plain_, needs_plane_weights_;

@@ -56,6 +56,21 @@ struct AttributeLanes {
     void add(float value, float* lanes) noexcept { constant[constant_count++] = {value, lanes}; }
 };
 
+// Attributes by planes stepped in binary32 (float_planes.h), divided by the plane of 1 / w or multiplied by its reciprocal.
+struct FloatAttributeLanes {
+    PlaneRule rule;
+    PerspectiveDivide perspective;
+    FloatPlane inverse_w;
+    std::size_t count = 0;
+    std::array<FloatPlane, attribute_count> plane{};
+    std::array<float*, attribute_count> out{};
+
+    void add(const FloatPlane& p, float* lanes) noexcept {
+        plane[count] = p;
+        out[count++] = lanes;
+    }
+};
+
 struct LaneKernels {
     // Appends the pixels of the spans until the rows are done (true), or the batch is full or holds the next one already
     // (false).
@@ -72,6 +87,8 @@ struct LaneKernels {
     // A plane stepped in binary32 at `count` pixels (float_planes.h).
     void (*float_plane)(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y,
                         int count, float* out) noexcept;
+    void (*float_attributes)(const FloatAttributeLanes& attributes, const std::uint16_t* x, const std::uint16_t* y,
+                             int count) noexcept;
 };
 
 // The kernels of the chosen instruction set. A draw asks once, not once a triangle.
@@ -181,6 +198,18 @@ inline bool attributes(const AttributeLanes& a, const TriangleLanes& lanes) noex
 inline void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* __restrict x,
                         const std::uint16_t* __restrict y, int count, float* __restrict out) noexcept {
     for (int i = 0; i < count; ++i) out[i] = plane.at(rule, x[i], y[i]);
+}
+
+inline void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* x, const std::uint16_t* y,
+                             int count) noexcept {
+    const bool multiplies = a.perspective == PerspectiveDivide::reciprocal;
+    for (int i = 0; i < count; ++i) {
+        const float inverse_w = a.inverse_w.at(a.rule, x[i], y[i]), w = 1.0f / inverse_w;
+        for (std::size_t k = 0; k < a.count; ++k) {
+            const float value = a.plane[k].at(a.rule, x[i], y[i]);
+            a.out[k][i] = multiplies ? value * w : value / inverse_w;
+        }
+    }
 }
 
 }  // namespace scalar

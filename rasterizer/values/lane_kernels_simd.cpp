@@ -193,16 +193,49 @@ void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x
     }
     float_plane_of<PlaneRule::reciprocal_area_fused>(plane, x, y, count, out);
 }
+
+template <PlaneRule rule>
+HWY_INLINE void float_attributes_of(const FloatAttributeLanes& a, const std::uint16_t* x, const std::uint16_t* y,
+                                    int count) {
+    const hn::RebindToSigned<Wide> di;
+    const hn::Rebind<std::uint16_t, Wide> narrow;
+    const bool multiplies = a.perspective == PerspectiveDivide::reciprocal;
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(Wide{}))) {
+        const auto column = hn::PromoteTo(di, hn::LoadU(narrow, x + i)),
+                   row = hn::PromoteTo(di, hn::LoadU(narrow, y + i));
+        const WideVec inverse_w = WidePlane{a.inverse_w}.at<rule>(column, row);
+        const WideVec w = hn::Div(hn::Set(Wide{}, 1.0f), inverse_w);
+        for (std::size_t k = 0; k < a.count; ++k) {
+            const WideVec value = WidePlane{a.plane[k]}.at<rule>(column, row);
+            hn::StoreU(multiplies ? hn::Mul(value, w) : hn::Div(value, inverse_w), Wide{}, a.out[k] + i);
+        }
+    }
+}
+
+void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* x, const std::uint16_t* y,
+                      int count) noexcept {
+    switch (a.rule) {
+        case PlaneRule::reciprocal_area: return float_attributes_of<PlaneRule::reciprocal_area>(a, x, y, count);
+        case PlaneRule::least_corner: return float_attributes_of<PlaneRule::least_corner>(a, x, y, count);
+        case PlaneRule::reciprocal_area_fused:
+        case PlaneRule::exact: break;
+    }
+    float_attributes_of<PlaneRule::reciprocal_area_fused>(a, x, y, count);
+}
 #else
 // Without a fused multiply-add the twin's exact emulation is the way.
 void float_plane(PlaneRule rule, const FloatPlane& plane, const std::uint16_t* x, const std::uint16_t* y, int count,
                  float* out) noexcept {
     scalar::float_plane(rule, plane, x, y, count, out);
 }
+void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* x, const std::uint16_t* y,
+                      int count) noexcept {
+    scalar::float_attributes(a, x, y, count);
+}
 #endif
 
 const LaneKernels* table() {
-    static constexpr LaneKernels kernels{emit, weights, attributes, depth, float_plane};
+    static constexpr LaneKernels kernels{emit, weights, attributes, depth, float_plane, float_attributes};
     return &kernels;
 }
 
@@ -218,7 +251,8 @@ HWY_EXPORT(table);
 inline namespace strict {
 
 const LaneKernels& lane_kernels() noexcept {
-    static constexpr LaneKernels twins{scalar::emit, scalar::weights, scalar::attributes, nullptr, scalar::float_plane};
+    static constexpr LaneKernels twins{scalar::emit, scalar::weights,     scalar::attributes,
+                                       nullptr,      scalar::float_plane, scalar::float_attributes};
     return simd_is_scalar() ? twins : *kernel_of(HWY_DISPATCH_TABLE(table))();
 }
 

@@ -1,5 +1,7 @@
 #include "rasterizer/walk/tile_rasterizer.h"
 
+#include <optional>
+
 #include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/set_up/triangle_walk.h"
 #include "rasterizer/values/fragment_values.h"
@@ -57,16 +59,28 @@ class TileRasterizer::Pass {
         batch_.material = material;
     }
 
-    // Row by row: two parts of a triangle could meet in one.
+    // Rows that follow one another go together. Where the two parts of a triangle meet in one, it begins a run of its own.
     void draw_float_spans(std::uint32_t index) {
-        const DrawnTriangle triangle{geometry_, index};
-        use_material(triangle.record.material);
-        FloatSpans{geometry_.positions(triangle.record)}.visit(rules_.clip, [&](int y, int x0, int x1) {
-            spans_[0] = {x0, x1};
-            RowRun run = row_run(triangle, {x0, y, x1, y + 1});
-            while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(triangle);
+        const FloatSpans spans{geometry_.positions(geometry_.triangles[index])};
+        if (!spans.is_drawn()) return;
+        int first_y = 0, rows = 0;
+        std::optional<DrawnTriangle> triangle;  // most have no pixel in a region
+        const auto emit_rows = [&] {
+            if (!triangle) use_material(triangle.emplace(geometry_, index).record.material);
+            RowRun run = row_run(*triangle, {0, first_y, 0, first_y + rows});
+            while (!kernels_.emit(spans_.data(), run, owner_.claims_, batch_)) fill_and_flush(*triangle);
+        };
+        spans.visit(rules_.clip, [&](int y, int x0, int x1) {
+            if (rows > 0 && (y != first_y + rows || rows == max_span_rows)) {
+                emit_rows();
+                rows = 0;
+            }
+            if (rows == 0) first_y = y;
+            spans_[static_cast<std::size_t>(rows++)] = {x0, x1};
         });
-        fill(triangle);
+        if (rows == 0) return;
+        emit_rows();
+        fill(*triangle);
     }
 
     void draw_small(std::uint32_t index, std::size_t k) {
