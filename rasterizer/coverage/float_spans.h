@@ -119,5 +119,15 @@ class FloatSpans {
     return {static_cast<int>(x0) - 2, static_cast<int>(y0) - 2, static_cast<int>(x1) + 3, static_cast<int>(y1) + 3};
 }
 
+// The covered pixels' box, of those in `box`; empty if there are none.
+[[nodiscard]] inline Rect covered_box(const FloatSpans& spans, const Rect& box) {
+    Rect covered{box.x1, box.y1, box.x0, box.y0};
+    spans.visit(box, [&](int y, int x0, int x1) {
+        covered = {std::min(covered.x0, x0), std::min(covered.y0, y), std::max(covered.x1, x1),
+                   std::max(covered.y1, y + 1)};
+    });
+    return covered.x0 < covered.x1 ? covered : Rect{};
+}
+
 }  // namespace strict
 }  // namespace strata::rasterizer

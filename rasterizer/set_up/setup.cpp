@@ -35,21 +35,29 @@ template <std::size_t n>
 
 constexpr std::uint8_t all_corners = 7;
 
-// The sign of a piece's area, 0 if it covers nothing, and a box of the pixels that it may cover.
+// The sign of a piece's area, 0 if it covers nothing, a box of the pixels that it may cover, and whether it is known to cover none there.
 struct PieceShape {
     std::int64_t area_sign;
     Rect box;
+    bool is_uncovered = false;
 };
+// Boxes of float spans up to this size are drawn to see what is covered (coverage.md 7.1).
+constexpr int seen_size = 12;
 
-[[nodiscard]] PieceShape shape_of(const std::array<const WindowCorner*, 3>& corner, const RasterRules& rules) noexcept {
+[[nodiscard]] PieceShape shape_of(const std::array<const WindowCorner*, 3>& corner, const RasterRules& rules,
+                                  const Rect& viewport) noexcept {
     const auto& [a, b, c] = corner;
     const std::array p{a->p, b->p, c->p};
     if (rules.coverage == CoverageRule::snapped_edges)
         return {Edge{p[0], p[1]}.at(p[2]), centre_box(p, rules.subpixel_bits)};
     const std::array position{a->unsnapped, b->unsnapped, c->unsnapped};
-    if (!FloatSpans{position}.is_drawn()) return {0, {}};
-    const float area = float_area(position);
-    return {area > 0.0f ? 1 : -1, float_box(position)};  // what is drawn has an area
+    const FloatSpans spans{position};
+    if (!spans.is_drawn()) return {0, {}};
+    const int sign = float_area(position) > 0.0f ? 1 : -1;  // what is drawn has an area
+    const Rect box = intersection(float_box(position), viewport);
+    if (box.area() == 0 || std::max(box.width(), box.height()) > seen_size) return {sign, box};
+    const Rect covered = covered_box(spans, box);
+    return covered.area() > 0 ? PieceShape{sign, covered} : PieceShape{sign, box, true};
 }
 
 }  // namespace
@@ -139,7 +147,7 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
                                              SetupChunk& out) const {
     const auto& [a, b, c] = piece.corner;
     if ((piece.marks & marks_window) != 0) return Fate::non_finite;
-    const PieceShape shape = shape_of({a, b, c}, rules_);
+    const PieceShape shape = shape_of({a, b, c}, rules_, state_.viewport);
     const bool front = is_front(shape.area_sign, triangle.run->mirrored);
     if ((piece.marks & (front ? marks_front : marks_back)) != 0) return Fate::non_finite;
     if (shape.area_sign == 0) return Fate::degenerate;
@@ -148,6 +156,7 @@ TriangleSetup::Fate TriangleSetup::add_piece(const Piece& piece, const SourceTri
     // A triangle that reaches through infinity may cover any pixel of the window; behind the eye with all of itself, none.
     const Rect box = intersection(negative == 0 ? shape.box : state_.viewport, state_.viewport);
     if (box.area() == 0 || negative == all_corners || is_out_of_range(piece.corner)) return Fate::outside;
+    if (shape.is_uncovered && negative == 0) return Fate::uncovered;
     out.triangles.push_back({.vertex = piece.vertex,
                              .primitive = triangle.primitive,
                              .material = triangle.run->material,

@@ -23,13 +23,15 @@ class TileRasterizer::Pass {
 
     void draw(std::span<const std::uint32_t> triangles) {
         flush();  // the claims of an earlier draw say nothing about this one
-        if (geometry_.rules.coverage == CoverageRule::float_spans)
-            for (const std::uint32_t t : triangles) draw_float_spans(t);
-        else
-            for_each_group(geometry_, triangles, [&](auto group) {
+        const bool by_spans = geometry_.rules.coverage == CoverageRule::float_spans;
+        for_each_group(geometry_, triangles, [&](auto group) {
+            if (by_spans) {
+                for (const std::uint32_t t : group) draw_float_spans(t);
+            } else {
                 set_up_group(geometry_, rules_, small_, group, group_);
                 draw_group(group);
-            });
+            }
+        });
         flush();
     }
 
