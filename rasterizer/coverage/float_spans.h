@@ -119,6 +119,8 @@ class FloatSpans {
     return {static_cast<int>(x0) - 2, static_cast<int>(y0) - 2, static_cast<int>(x1) + 3, static_cast<int>(y1) + 3};
 }
 
+// Boxes of at most this many pixels either way are drawn when triangles are set up, to see what is covered (coverage.md 7.1).
+inline constexpr int seen_size = 12;
 // The covered pixels' box, of those in `box`; empty if there are none.
 [[nodiscard]] inline Rect covered_box(const FloatSpans& spans, const Rect& box) {
     Rect covered{box.x1, box.y1, box.x0, box.y0};

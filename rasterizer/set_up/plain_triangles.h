@@ -2,12 +2,13 @@
 // pixels a tiny triangle covers.
 //
 // Rule     The records, their order and the fates are those of TriangleSetup::add, one triangle after the other. A triangle is plain
-//          if its vertices have no marks and it is small (TriangleGroup).
+//          if its vertices have no marks and it is small (TriangleGroup), or its sides' slopes are below 2^64 (float spans).
 // Tests    tests/rasterizer/set_up/plain_triangles_test.cpp
 #pragma once
 #include <cstdint>
 #include <span>
 
+#include "rasterizer/coverage/float_spans.h"
 #include "rasterizer/coverage/small_triangles.h"
 #include "rasterizer/set_up/geometry.h"
 
@@ -36,6 +37,8 @@ using SetUpPlainTriangles = bool (*)(const PlainTriangleRules& rules, const std:
 
 // The kernel of the chosen instruction set; null for scalar, and where records are not words of little endian.
 [[nodiscard]] SetUpPlainTriangles set_up_plain_triangles() noexcept;
+// The same for CoverageRule::float_spans.
+[[nodiscard]] SetUpPlainTriangles set_up_plain_spans() noexcept;
 
 // Makes a record tiny if its box, pixels of the surface, and its corners are. False if it is, and covers none of its pixels.
 [[nodiscard]] bool find_tiny(const std::array<SubpixelPoint, 3>& p, const Rect& box, const RasterRules& rules,

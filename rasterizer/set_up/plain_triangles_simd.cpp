@@ -2,36 +2,15 @@
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_triangles_simd.cpp"
-#include <array>
-#include <bit>
-#include <cstddef>
-#include <cstring>
-#include <type_traits>
-
 #include "hwy/foreach_target.h"  // compiles this file once a target
 #include "hwy/highway.h"
-#include "rasterizer/set_up/plain_triangles.h"
+#include "rasterizer/set_up/plain_records-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::rasterizer::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using U = hn::CappedTag<std::uint32_t, TriangleGroup::size>;
-using I = hn::RebindToSigned<U>;
-using VU = hn::Vec<U>;
-using VI = hn::Vec<I>;
-using Mask = hn::Mask<I>;
-constexpr std::size_t lanes = hn::MaxLanes(U{}), group_size = TriangleGroup::size;
-alignas(64) constexpr std::uint32_t numbers[group_size] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-
-// The words of the records of a group, four and four side by side.
-struct Records {
-    alignas(64) std::array<std::uint32_t, 4> first[group_size], second[group_size];
-};
-static_assert(sizeof(TriangleRecord) == 2 * sizeof(Records::first[0]) && std::is_trivially_copyable_v<TriangleRecord>);
-
-HWY_INLINE VI set(std::int32_t v) { return hn::Set(I{}, v); }
 HWY_INLINE VI least(VI a, VI b, VI c) { return hn::Min(hn::Min(a, b), c); }
 HWY_INLINE VI most(VI a, VI b, VI c) { return hn::Max(hn::Max(a, b), c); }
 // v, or -v where `turned` is all ones.
@@ -102,49 +81,11 @@ HWY_INLINE VI coverage_of(const Boxes& b, const EdgeLanes (&edge)[3], Mask is_ti
     return covered;
 }
 
-HWY_INLINE std::uint32_t bits_of(Mask mask) {
-    alignas(8) std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(I{}, mask, bytes);
-    return static_cast<std::uint32_t>(bytes[1]) << 8 | bytes[0];
-}
-
-// Snapped positions: a corner is three words of 64 bits, and the first holds x and y.
-static_assert(sizeof(WindowCorner) == 3 * sizeof(std::uint64_t) && offsetof(WindowCorner, p) == 0);
-using Words = hn::Repartition<std::uint64_t, U>;
-// The first two words of some corners, of every second triangle from the one of `index` on: a load each, where a gather takes as long
-// as three.
-template <class D>
-HWY_INLINE hn::Vec<D> load_words(D d, const std::uint64_t* corners, const std::uint32_t* index) {
-    if constexpr (hn::MaxLanes(D{}) == 2) {
-        return hn::LoadU(d, corners + 3 * std::size_t{*index});
-    } else {
-        const hn::Half<D> half;
-        constexpr std::size_t next = 3 * hn::MaxLanes(half);
-        return hn::Combine(d, load_words(half, corners, index + next), load_words(half, corners, index));
-    }
-}
-// Of corner `index` of `lanes` triangles.
-HWY_INLINE void load_positions(const WindowCorner* corners, const std::uint32_t* index, VI& x, VI& y) {
-    const auto* const words = reinterpret_cast<const std::uint64_t*>(corners);
-    const auto points = [&](const std::uint32_t* from) HWY_ATTR {
-        return hn::BitCast(
-            I{}, hn::InterleaveLower(Words{}, load_words(Words{}, words, from), load_words(Words{}, words, from + 3)));
-    };
-    const VI low = points(index), high = points(index + 3 * lanes / 2);
-    x = hn::ConcatEven(I{}, high, low);
-    y = hn::ConcatOdd(I{}, high, low);
-}
-
-// `lanes` triangles from number `first` of the group on: their records, their fates, and as bits which are kept. False if one is not
-// small.
-HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
-                             const WindowCorner* corners, std::size_t first, Records& records, PlainFates& fates,
-                             std::uint32_t& kept_bits) {
-    VU vertex[3];
+// False if one is not small.
+HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t* indices, const WindowCorner* corners,
+                            std::size_t first, PlainShapes& shapes) {
     VI x[3], y[3];
-    hn::LoadInterleaved3(U{}, indices + 3 * first, vertex[0], vertex[1], vertex[2]);
-    for (VU& v : vertex) v = hn::Add(v, hn::Set(U{}, rules.first_vertex));
-    for (int i = 0; i < 3; ++i) load_positions(corners, indices + 3 * first + i, x[i], y[i]);
+    for (int i = 0; i < 3; ++i) load_halves(corners, 0, indices + 3 * first + i, x[i], y[i]);
     const Boxes b = boxes_of(rules.group, x, y);
     const Mask is_large =
         hn::Or(hn::Or(hn::Gt(b.width, set(TriangleGroup::max_width)), hn::Gt(b.height, set(TriangleGroup::max_height))),
@@ -152,61 +93,26 @@ HWY_INLINE bool set_up_lanes(const PlainTriangleRules& rules, const std::uint32_
     if (!hn::AllFalse(I{}, is_large)) return false;
     const VI area =
         hn::Sub(hn::Mul(hn::Sub(x[1], x[0]), hn::Sub(y[2], y[0])), hn::Mul(hn::Sub(y[1], y[0]), hn::Sub(x[2], x[0])));
-    const VI turned = hn::BroadcastSignBit(area), zero = hn::Zero(I{});
-    const Mask is_degenerate = hn::Eq(area, zero);
-    const Mask is_negative = hn::MaskFromVec(turned);
-    const Mask is_front = rules.positive_is_front ? hn::Not(is_negative) : is_negative;
-    const VI drops_front = set(rules.drops_front ? -1 : 0), drops_back = set(rules.drops_back ? -1 : 0);
-    const Mask is_dropped = hn::MaskFromVec(hn::IfThenElse(is_front, drops_front, drops_back));
-    const Mask is_culled = hn::AndNot(is_degenerate, is_dropped);
-    const Mask is_gone = hn::Or(is_degenerate, is_culled);
-    const Mask has_no_box = hn::Or(hn::Eq(b.width, zero), hn::Eq(b.height, zero));
-    const Mask has_box = hn::Not(hn::Or(is_gone, has_no_box));
-    fates.degenerate += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_degenerate));
-    fates.culled += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_culled));
-    fates.outside += static_cast<std::uint32_t>(hn::CountTrue(I{}, hn::AndNot(is_gone, has_no_box)));
-
+    const VI turned = hn::BroadcastSignBit(area);
+    const Mask is_degenerate = hn::Eq(area, hn::Zero(I{}));
     EdgeLanes edge[3];
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t from = (i + 1) % 3, to = (i + 2) % 3;
         edge[i] = edge_of(rules.group, b, x[from], y[from], x[to], y[to], turned);
     }
-    const Mask is_tiny = hn::And(has_box, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
+    const Mask is_tiny = hn::AndNot(is_degenerate, hn::Lt(hn::Max(b.width, b.height), set(tiny_size + 1)));
     const VI covered = coverage_of(b, edge, is_tiny);
-    const Mask is_uncovered = hn::And(is_tiny, hn::Eq(covered, zero));
-    fates.uncovered += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_uncovered));
-    kept_bits |= bits_of(hn::AndNot(is_uncovered, has_box)) << first;
-    const VI left = hn::Sub(b.x0, set(rules.x0)), above = hn::Sub(b.y0, set(rules.y0));
-    const auto pair = [](VI low, VI high) HWY_ATTR { return hn::BitCast(U{}, hn::Or(low, hn::ShiftLeft<16>(high))); };
-    const VI facing = hn::IfThenElseZero(is_front, set(1)), tiny = hn::IfThenElseZero(is_tiny, set(2));
-    const VU number = hn::Add(hn::Set(U{}, primitive), hn::Load(U{}, numbers + first));
-    hn::StoreInterleaved4(vertex[0], vertex[1], vertex[2], number, U{}, records.first[first].data());
-    hn::StoreInterleaved4(hn::Set(U{}, rules.material), pair(left, above),
-                          pair(hn::Add(left, b.width), hn::Add(above, b.height)), pair(hn::Or(facing, tiny), covered),
-                          U{}, records.second[first].data());
+    const Mask is_uncovered = hn::And(is_tiny, hn::Eq(covered, hn::Zero(I{})));
+    shapes = {is_degenerate, hn::MaskFromVec(turned), b.x0, b.y0, b.width, b.height, is_tiny, covered, is_uncovered};
     return true;
 }
 
 bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
             std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates) {
-    std::uint32_t marked = 0;
-    for (std::size_t i = 0; marks != nullptr && i < 3 * group_size; ++i) marked |= marks[indices[i]];
-    if (marked != 0) return false;
-    Records records;
-    std::uint32_t kept = 0;
-    PlainFates found = fates;
-    for (std::size_t first = 0; first < group_size; first += lanes)
-        if (!set_up_lanes(rules, indices, primitive, corners.data(), first, records, found, kept)) return false;
-    for (std::size_t k = 0; k < group_size; ++k) {
-        // Written whether it is kept or not: the next one takes its place.
-        auto* const bytes = reinterpret_cast<std::byte*>(out);
-        std::memcpy(bytes, &records.first[k], sizeof records.first[k]);
-        std::memcpy(bytes + sizeof records.first[k], &records.second[k], sizeof records.second[k]);
-        out += kept >> k & 1;
-    }
-    found.kept += static_cast<std::uint32_t>(std::popcount(kept));
-    fates = found;
-    return true;
+    return set_up_plain_group(rules, indices, primitive, corners.data(), marks, out, fates,
+                              [](const PlainTriangleRules& own, const std::uint32_t* index, const WindowCorner* corner,
+                                 std::size_t first, PlainShapes& shapes)
+                                  HWY_ATTR { return find_shapes(own, index, corner, first, shapes); });
 }
 
 }  // namespace

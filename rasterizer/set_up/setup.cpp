@@ -41,8 +41,6 @@ struct PieceShape {
     Rect box;
     bool is_uncovered = false;
 };
-// Boxes of float spans up to this size are drawn to see what is covered (coverage.md 7.1).
-constexpr int seen_size = 12;
 
 [[nodiscard]] PieceShape shape_of(const std::array<const WindowCorner*, 3>& corner, const RasterRules& rules,
                                   const Rect& viewport) noexcept {
@@ -70,10 +68,9 @@ TriangleSetup::TriangleSetup(const RasterState& state, const RasterRules& rules,
       window_{state, rules},
       plain_rules_{window_.plain_rules(state.clip_depth)},
       set_up_plain_{clipper_.holds_view_volume() && plain_rules_ ? rasterizer::set_up_plain() : nullptr},
-      set_up_plain_triangles_{!state.polygon_offset.enabled && !state.window_positions &&
-                                      rules.coverage == CoverageRule::snapped_edges
-                                  ? rasterizer::set_up_plain_triangles()
-                                  : nullptr},
+      set_up_plain_triangles_{state.polygon_offset.enabled || state.window_positions ? nullptr
+                              : rules.coverage == CoverageRule::snapped_edges ? rasterizer::set_up_plain_triangles()
+                                                                              : rasterizer::set_up_plain_spans()},
       vertices_{vertices},
       extras_{extras},
       corners_(vertices.size()),

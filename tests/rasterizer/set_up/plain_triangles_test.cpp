@@ -57,6 +57,54 @@ TEST_CASE("sixteen plain triangles at once become the records and counts of one 
     CHECK(others > 1'000);
 }
 
+TEST_CASE(
+    "sixteen triangles of float spans at once become the records and counts of one after the other, on every set") {
+    std::uint64_t wrong = 0, uncovered = 0, kept = 0;
+    for (DenseCase dense : dense_cases()) {
+        dense.rules.coverage = CoverageRule::float_spans;
+        const auto set_up_by = [&](strata::Simd simd) {
+            const strata::SimdScope kernels{simd};
+            return set_up(dense.soup, dense.state, dense.rules, 2);
+        };
+        const Geometry expected = set_up_by(strata::Simd::scalar);
+        uncovered += expected.counters.uncovered, kept += expected.triangles.size();
+        for (const strata::Simd simd : strata::available_simd()) {
+            const Geometry found = set_up_by(simd);
+            wrong += found.counters == expected.counters ? 0 : 1;
+            wrong += std::ranges::equal(found.triangles, expected.triangles, same_words) ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(uncovered > 10'000);
+    CHECK(kept > 10'000);
+}
+
+TEST_CASE("float spans of a side whose slope is infinite are set up one after the other") {
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 3 * TriangleGroup::size; ++i) indices.push_back(i % 3);
+    std::array<WindowCorner, 3> corners{};
+    corners[0].unsnapped = {1, 0};
+    corners[1].unsnapped = {9, 0x1p-140f};
+    corners[2].unsnapped = {5, 7};
+    std::array<TriangleRecord, TriangleGroup::size> records;
+    for (const strata::Simd simd : strata::available_simd()) {
+        const strata::SimdScope kernels{simd};
+        const SetUpPlainTriangles set_up_group = set_up_plain_spans();
+        if (set_up_group == nullptr) continue;
+        PlainFates fates;
+        const PlainTriangleRules rules{.group = {{0, 0, 20, 20}, 8, TieRule::top_left}};
+        const auto is_set_up = [&] {
+            return set_up_group(rules, indices.data(), 0, corners, nullptr, records.data(), fates);
+        };
+        CHECK_FALSE(is_set_up());
+        CHECK(fates.kept == 0);
+        corners[1].unsnapped[1] = 0.5f;
+        CHECK(is_set_up());
+        CHECK(fates.kept == TriangleGroup::size);
+        corners[1].unsnapped[1] = 0x1p-140f;
+    }
+}
+
 TEST_CASE("a run whose indices are lent is set up as one whose indices are the soup's, on every set", "[slow]") {
     std::uint64_t wrong = 0, triangles = 0;
     for (const DenseCase& dense : dense_cases()) {
