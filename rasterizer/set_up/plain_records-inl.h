@@ -95,7 +95,7 @@ HWY_INLINE void add_records(const PlainTriangleRules& rules, const PlainShapes& 
     const Mask is_gone = hn::Or(s.is_degenerate, is_culled);
     const Mask has_no_box = hn::Or(hn::Eq(s.width, hn::Zero(I{})), hn::Eq(s.height, hn::Zero(I{})));
     const Mask has_box = hn::Not(hn::Or(is_gone, has_no_box));
-    const Mask is_tiny = hn::And(has_box, s.is_tiny), is_uncovered = hn::And(has_box, s.is_uncovered);
+    const Mask is_uncovered = hn::And(has_box, s.is_uncovered);
     fates.degenerate += static_cast<std::uint32_t>(hn::CountTrue(I{}, s.is_degenerate));
     fates.culled += static_cast<std::uint32_t>(hn::CountTrue(I{}, is_culled));
     fates.outside += static_cast<std::uint32_t>(hn::CountTrue(I{}, hn::AndNot(is_gone, has_no_box)));
@@ -103,13 +103,12 @@ HWY_INLINE void add_records(const PlainTriangleRules& rules, const PlainShapes& 
     kept_bits |= bits_of(hn::AndNot(is_uncovered, has_box)) << first;
     const VI left = hn::Sub(s.x0, set(rules.x0)), above = hn::Sub(s.y0, set(rules.y0));
     const auto pair = [](VI low, VI high) HWY_ATTR { return hn::BitCast(U{}, hn::Or(low, hn::ShiftLeft<16>(high))); };
-    const VI facing = hn::IfThenElseZero(is_front, set(1)), tiny = hn::IfThenElseZero(is_tiny, set(2));
+    const VI facing = hn::IfThenElseZero(is_front, set(1)), tiny = hn::IfThenElseZero(s.is_tiny, set(2));
     const VU number = hn::Add(hn::Set(U{}, primitive), hn::Load(U{}, numbers + first));
     hn::StoreInterleaved4(vertex[0], vertex[1], vertex[2], number, U{}, records.first[first].data());
-    hn::StoreInterleaved4(hn::Set(U{}, rules.material), pair(left, above),
-                          pair(hn::Add(left, s.width), hn::Add(above, s.height)),
-                          pair(hn::Or(facing, tiny), hn::IfThenElseZero(is_tiny, s.covered)), U{},
-                          records.second[first].data());
+    hn::StoreInterleaved4(
+        hn::Set(U{}, rules.material), pair(left, above), pair(hn::Add(left, s.width), hn::Add(above, s.height)),
+        pair(hn::Or(facing, tiny), hn::IfThenElseZero(s.is_tiny, s.covered)), U{}, records.second[first].data());
 }
 
 // SetUpPlainTriangles. `find(rules, indices, corners, first, shapes)`: the shapes of `lanes` triangles, from number `first` of the

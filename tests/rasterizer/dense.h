@@ -50,6 +50,14 @@ struct DenseCase {
     return soup;
 }
 
+// Of a window of 70 by 40: corners share rows and columns then, and many areas are powers of two.
+inline void move_to_half_pixels(TriangleSoup& soup) {
+    const auto moved = [](float x, float w, float half_window) {
+        return (std::round(2 * (x / w + 1) * half_window) / (2 * half_window) - 1) * w;
+    };
+    for (ClipVertex& v : soup.vertices) v.x = moved(v.x, v.w, 35), v.y = moved(v.y, v.w, 20);
+}
+
 [[nodiscard]] inline std::vector<DenseCase> dense_cases() {
     std::vector<DenseCase> cases;
     for (const float size : {0.7f, 1.5f, 3.0f})

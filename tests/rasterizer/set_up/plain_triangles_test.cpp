@@ -62,6 +62,8 @@ TEST_CASE(
     std::uint64_t wrong = 0, uncovered = 0, kept = 0;
     for (DenseCase dense : dense_cases()) {
         dense.rules.coverage = CoverageRule::float_spans;
+        if (dense.rules.tie_rule == TieRule::top_left) dense.soup = dense_soup(731, 7);
+        if (dense.state.cull == CullFace::none) move_to_half_pixels(dense.soup);
         const auto set_up_by = [&](strata::Simd simd) {
             const strata::SimdScope kernels{simd};
             return set_up(dense.soup, dense.state, dense.rules, 2);
@@ -79,7 +81,9 @@ TEST_CASE(
     CHECK(kept > 10'000);
 }
 
-TEST_CASE("float spans of a side whose slope is infinite are set up one after the other") {
+TEST_CASE(
+    "float spans of a side whose slope is infinite are set up one after the other; of an infinite 1 / area, not at "
+    "all") {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t i = 0; i < 3 * TriangleGroup::size; ++i) indices.push_back(i % 3);
     std::array<WindowCorner, 3> corners{};
@@ -102,6 +106,12 @@ TEST_CASE("float spans of a side whose slope is infinite are set up one after th
         CHECK(is_set_up());
         CHECK(fates.kept == TriangleGroup::size);
         corners[1].unsnapped[1] = 0x1p-140f;
+        const std::array<WindowPosition, 3> dot{{{0, 0}, {0x1p-65f, 0x1p-66f}, {0, 0x1p-65f}}};  // 1 / area is infinite
+        std::array<WindowCorner, 3> dots{};
+        for (std::size_t i = 0; i < 3; ++i) dots[i].unsnapped = dot[i];
+        CHECK_FALSE(FloatSpans{dot}.is_drawn());
+        CHECK(set_up_group(rules, indices.data(), 0, dots, nullptr, records.data(), fates));
+        CHECK(fates.degenerate == TriangleGroup::size);
     }
 }
 

@@ -65,13 +65,6 @@ struct ChipCodes {
 
 [[nodiscard]] bool has_rows_here() { return strata::available_simd().back() >= strata::Simd::avx2; }
 
-// Many of the triangles have areas that are powers of two then: their weights cut nothing.
-void move_to_half_pixels(TriangleSoup& soup) {
-    const auto moved = [](float x, float w, float half_window) {
-        return (std::round(2 * (x / w + 1) * half_window) / (2 * half_window) - 1) * w;
-    };
-    for (ClipVertex& v : soup.vertices) v.x = moved(v.x, v.w, 35), v.y = moved(v.y, v.w, 20);
-}
 constexpr std::size_t large_every = 23;
 // Cells of 45 pixels between the others: the edge values of their triangles have more than 24 bits.
 void enlarge_some(TriangleSoup& soup) {
