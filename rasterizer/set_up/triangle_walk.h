@@ -32,9 +32,11 @@ inline void set_up_group(const Geometry& geometry, const GroupRules& rules, cons
     kernels.set_up(rules, group);
 }
 
-// Calls visit(part) for `triangles` group after group. Triangles and corners of the groups to come are prefetched meanwhile.
+// Calls visit(part) for `triangles` group after group. Triangles and corners of the groups to come are prefetched meanwhile, and the
+// colours of the corners if they `have_colors`.
 template <class Visit>
-void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> triangles, const Visit& visit) {
+void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> triangles, const Visit& visit,
+                    bool have_colors = false) {
     constexpr std::size_t size = TriangleGroup::size;
     const auto part = [&](std::size_t at) {
         const auto rest = triangles.subspan(std::min(at, triangles.size()));
@@ -44,7 +46,10 @@ void for_each_group(const Geometry& geometry, std::span<const std::uint32_t> tri
         // Records two groups ahead; corners one group ahead, whose records have come by then.
         for (const std::uint32_t t : part(at + 2 * size)) __builtin_prefetch(&geometry.triangles[t]);
         for (const std::uint32_t t : part(at + size))
-            for (const std::uint32_t v : geometry.triangles[t].vertex) __builtin_prefetch(&geometry.corners[v]);
+            for (const std::uint32_t v : geometry.triangles[t].vertex) {
+                __builtin_prefetch(&geometry.corners[v]);
+                if (have_colors) __builtin_prefetch(&geometry.vertices[v].front);
+            }
         visit(part(at));
     }
 }

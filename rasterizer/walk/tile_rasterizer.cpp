@@ -19,19 +19,21 @@ class TileRasterizer::Pass {
           kernels_{lane_kernels()},
           small_{small_kernels()},
           values_{geometry, depth, needs},
+          has_colors_{needs.color},
           rules_{group_rules(geometry, owner.region_)} {}
 
     void draw(std::span<const std::uint32_t> triangles) {
         flush();  // the claims of an earlier draw say nothing about this one
         const bool by_spans = geometry_.rules.coverage == CoverageRule::float_spans;
-        for_each_group(geometry_, triangles, [&](auto group) {
+        const auto draw_part = [&](auto group) {
             if (by_spans) {
                 for (const std::uint32_t t : group) draw_float_spans(t);
             } else {
                 set_up_group(geometry_, rules_, small_, group, group_);
                 draw_group(group);
             }
-        });
+        };
+        for_each_group(geometry_, triangles, draw_part, has_colors_);
         flush();
     }
 
@@ -144,6 +146,7 @@ class TileRasterizer::Pass {
     const LaneKernels& kernels_;
     const SmallKernels& small_;
     FragmentValues values_;
+    bool has_colors_;
     GroupRules rules_;
     TriangleGroup group_;
     // The present triangle's first fragment in the batch that has no values yet: between triangles all have theirs.
