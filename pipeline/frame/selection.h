@@ -65,7 +65,8 @@ struct FragmentSelection {
     // What the pass leaves of a kept fragment follows from its key: of `nearest` the depth alone; of `ends` what lies between is
     // (-z, z) in color[0], of two binary32 channels under MAX, and the program looks at no colour there.
     bool keys_suffice = false;
-    // Of nearest and ends: `behind` or `range` bounds the depth that this compares, and no key; the program looks at no other.
+    // Of nearest and ends: `behind` or `range` bounds the depth that this compares, and no key; the program looks at no other. Of
+    // nearest it asks no more than whether that depth lies behind the bound.
     std::optional<DepthCompare> compared{};
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <limits>
 #include <utility>
 
 #include "pipeline/fragments/key_windows.h"
@@ -307,8 +308,15 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     std::copy_n(all.pixel.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.pixel.begin());
     std::copy_n(all.key.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.code.begin());
     find_positions(batch, count);
-    const bool is_reference_key = state.selection.compared && !scratch_->sorted.present().is_compared();
+    const bool is_compared = scratch_->sorted.present().is_compared();
+    const bool is_reference_key = state.selection.compared && !is_compared;
     if (is_reference_key) std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
+    // It lies behind: so does the farthest there is.
+    const bool is_known_behind = is_compared && state.selection.keeps == Keeps::nearest && !frame_.trace;
+    if (is_known_behind) {
+        std::fill_n(batch.reference_code.begin(), count, rasterizer::max_code(state.selection.compared->format));
+        std::fill_n(batch.reference_z.begin(), count, std::numeric_limits<double>::infinity());
+    }
     selected.next += count;
     batch.count = static_cast<int>(count);
     batch.material = 0;
@@ -317,7 +325,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
         fetched.shader_z = put_depths(batch.code, count, batch.shader_z);
     const bool has_ends = state.selection.keeps == Keeps::ends;
     fetched.color &= !(has_ends && state.selection.keys_suffice && is_inner(selected.rank));
-    fetched.reference &= !is_reference_key;  // of a comparison of codes, which are the keys
+    fetched.reference &= !is_reference_key && !is_known_behind;  // of a comparison of codes, which are the keys
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it
     store().fetch(places, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
