@@ -147,6 +147,11 @@ class RowWalk {
                     (takes_edges<Shade<true>> || geometry.rules.window_z == WindowZ::unit_interval)} {}
 
     void draw(std::span<const std::uint32_t> triangles) {
+        if constexpr (row_lanes >= row_walk_lanes) draw_groups(triangles);  // for other sets none of it is compiled
+    }
+
+  private:
+    void draw_groups(std::span<const std::uint32_t> triangles) {
         [[maybe_unused]] const bool is_unsnapped = geometry_.rules.plane_origin == PlaneOrigin::unsnapped;
         for_each_group(geometry_, triangles, [&](std::span<const std::uint32_t> group) HWY_ATTR {
             if (!takes_tiny<Shade<true>> || !has_tiny_ || group.size() != TriangleGroup::size) return draw_any(group);
@@ -156,7 +161,6 @@ class RowWalk {
         });
     }
 
-  private:
     HWY_NOINLINE void draw_any(std::span<const std::uint32_t> triangles) {
         set_up_group(geometry_, rules_, kernels_, triangles, group_);
         draw_group(triangles, 0);

@@ -19,6 +19,8 @@ namespace strata::rasterizer {
 inline constexpr int max_row_pixels = 128;
 // Words behind a region's last pixel. Rows read whole vectors there, and write back what they read.
 inline constexpr std::size_t row_padding = 8;
+// Sets with fewer lanes of binary64 are faster with batches: they walk no rows.
+inline constexpr std::size_t row_walk_lanes = 4;
 
 // Whether rows can do what the batches of `geometry` would hold, in `region` and on the chosen instruction set.
 [[nodiscard]] bool row_walk_suits(const Geometry& geometry, const DepthRequest& depth, const Rect& region) noexcept;

@@ -5,7 +5,6 @@
 // Rule     The pixels, weights and planes of RowWalk, in its order: triangle after triangle, row after row.
 // Numbers  As of small triangles.
 // Tests    tests/rasterizer/walk/rows_test.cpp
-#include <cstring>
 
 #include "hwy/highway.h"
 #include "rasterizer/coverage/small_coverage-inl.h"
@@ -34,28 +33,22 @@ HWY_INLINE V64 set64(double v) { return hn::Set(F64{}, v); }
 template <class From>
 HWY_INLINE void load_fours(const From& from, V32 (&word)[4]) {
     const F32 d;
-    if constexpr (tiny_lanes < 4) {  // no set that walks rows
-        alignas(16) float words[4 * tiny_lanes];
-        for (std::uint32_t k = 0; k < tiny_lanes; ++k) std::memcpy(words + 4 * k, from(k), 4 * sizeof(float));
-        hn::LoadInterleaved4(d, words, word[0], word[1], word[2], word[3]);
-    } else {
-        const hn::CappedTag<float, 4> four;
-        const auto load = [&](std::uint32_t k)
-                              HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const float*>(from(k))); };
-        const auto lanes = [&](std::uint32_t k) HWY_ATTR {
-            if constexpr (tiny_lanes == 4)
-                return load(k);
-            else
-                return hn::Combine(d, load(k + 4), load(k));
-        };
-        const V32 a = lanes(0), b = lanes(1), c = lanes(2), e = lanes(3);
-        const V32 even = hn::InterleaveLower(d, a, c), odd = hn::InterleaveLower(d, b, e);
-        const V32 later_even = hn::InterleaveUpper(d, a, c), later_odd = hn::InterleaveUpper(d, b, e);
-        word[0] = hn::InterleaveLower(d, even, odd);
-        word[1] = hn::InterleaveUpper(d, even, odd);
-        word[2] = hn::InterleaveLower(d, later_even, later_odd);
-        word[3] = hn::InterleaveUpper(d, later_even, later_odd);
-    }
+    const hn::CappedTag<float, 4> four;
+    const auto load = [&](std::uint32_t k)
+                          HWY_ATTR { return hn::LoadU(four, reinterpret_cast<const float*>(from(k))); };
+    const auto lanes = [&](std::uint32_t k) HWY_ATTR {
+        if constexpr (tiny_lanes == 4)
+            return load(k);
+        else
+            return hn::Combine(d, load(k + 4), load(k));
+    };
+    const V32 a = lanes(0), b = lanes(1), c = lanes(2), e = lanes(3);
+    const V32 even = hn::InterleaveLower(d, a, c), odd = hn::InterleaveLower(d, b, e);
+    const V32 later_even = hn::InterleaveUpper(d, a, c), later_odd = hn::InterleaveUpper(d, b, e);
+    word[0] = hn::InterleaveLower(d, even, odd);
+    word[1] = hn::InterleaveUpper(d, even, odd);
+    word[2] = hn::InterleaveLower(d, later_even, later_odd);
+    word[3] = hn::InterleaveUpper(d, later_even, later_odd);
 }
 
 // Pixels of several triangles: the covered ones come first, the other lanes are the region's first. `of` fetches a triangle's value for each of its pixels.
