@@ -26,7 +26,7 @@ double natural_log(double x) noexcept {
     }
     const double t = (m - 1) / (m + 1), square = t * t;
     double sum = 0;
-    for (int k = 23; k >= 0; --k) sum = sum * square + 1.0 / (2 * k + 1);
+    for (int term = 23; term >= 0; --term) sum = sum * square + 1.0 / (2 * term + 1);
     return 2 * t * sum + exponent * 0x1.62e42fefa39efp-1;
 }
 

@@ -57,7 +57,7 @@ class ChainTarget {
         Codes codes{};
         for (std::size_t c = 0; c < 4; ++c) {
             const auto value = static_cast<float>(color[c]);
-            scalar::encode(type_, profile_.half_rounding, &value, codes[c].data(), 1);
+            pipeline::scalar::encode(type_, profile_.half_rounding, &value, codes[c].data(), 1);
         }
         return codes;
     }
@@ -65,7 +65,7 @@ class ChainTarget {
         Color color{};
         for (std::size_t c = 0; c < 4; ++c) {
             float value = 0;
-            scalar::decode(type_, codes[c].data(), &value, 1);
+            pipeline::scalar::decode(type_, codes[c].data(), &value, 1);
             color[c] = double{value};
         }
         return color;

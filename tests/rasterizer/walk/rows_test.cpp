@@ -82,13 +82,13 @@ TEST_CASE("rows of depth leave the codes and the counts of fragments tested one 
                 for (const strata::Simd simd : strata::available_simd()) {
                     const strata::SimdScope kernels{simd};
                     CHECK(row_walk_suits(geometry, device.depth, region) == (simd >= strata::Simd::avx2));
-                    if (simd == strata::Simd::scalar) continue;
+                    if (simd < strata::Simd::avx2) continue;  // rows are not even compiled
                     wrong += by_rows(geometry, device.depth, region) != expected ? 1 : 0;
                     compared += expected.fragments;
                 }
             }
         }
-    CHECK((compared > 100'000 || strata::available_simd().size() == 1));
+    CHECK((compared > 100'000 || strata::available_simd().back() < strata::Simd::avx2));
     CHECK(wrong == 0);
 }
 
@@ -117,7 +117,7 @@ TEST_CASE(
                 }
             }
     }
-    CHECK((compared > 100'000 || strata::available_simd().size() == 1));
+    CHECK((compared > 100'000 || strata::available_simd().back() < strata::Simd::avx2));
     CHECK(wrong == 0);
 }
 
