@@ -311,8 +311,8 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/set_up/window.h"
 
 namespace strata::peeling {
-HWY_EXPORT(append_all);
-HWY_EXPORT(count_all);
+STRATA_EXPORT(append_all);
+STRATA_EXPORT(count_all);
 
 bool append_rows(Arrivals& to, const pipeline::RowSource& source, std::span<const std::uint32_t> triangles,
                  const rasterizer::Rect& band, std::uint64_t& fragments) noexcept {

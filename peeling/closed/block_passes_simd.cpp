@@ -240,9 +240,9 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::peeling {
-HWY_EXPORT(both_ends);
-HWY_EXPORT(front_alone);
-HWY_EXPORT(last_quad);
+STRATA_EXPORT(both_ends);
+STRATA_EXPORT(front_alone);
+STRATA_EXPORT(last_quad);
 
 // Tied columns are rare, and left to the twin.
 bool peel_both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {

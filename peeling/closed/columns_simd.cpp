@@ -274,9 +274,9 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::peeling {
-HWY_EXPORT(append_batch);
-HWY_EXPORT(take_sorted);
-HWY_EXPORT(arrived_before);
+STRATA_EXPORT(append_batch);
+STRATA_EXPORT(take_sorted);
+STRATA_EXPORT(arrived_before);
 
 bool append(Arrivals& to, const pipeline::FragmentBatch& in, const std::uint32_t* alive) noexcept {
     if (lanes(in) > to.most_places - to.places) return false;

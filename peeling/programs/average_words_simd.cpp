@@ -89,8 +89,8 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::peeling {
-HWY_EXPORT(resolve);
-HWY_EXPORT(converts_halves);
+STRATA_EXPORT(resolve);
+STRATA_EXPORT(converts_halves);
 
 StuckPixels resolve_average_words(const pipeline::ScreenWords& words) noexcept {
     return kernel_of(HWY_DISPATCH_TABLE(resolve))(words);

@@ -76,13 +76,13 @@ HWY_AFTER_NAMESPACE();
 
 namespace strata::peeling {
 
-HWY_EXPORT(premultiply_lanes);
-HWY_EXPORT(set_lanes);
-HWY_EXPORT(discard_lanes);
-HWY_EXPORT(classify_lanes);
-HWY_EXPORT(min_max_lanes);
-HWY_EXPORT(layer_lanes);
-HWY_EXPORT(average_lanes);
+STRATA_EXPORT(premultiply_lanes);
+STRATA_EXPORT(set_lanes);
+STRATA_EXPORT(discard_lanes);
+STRATA_EXPORT(classify_lanes);
+STRATA_EXPORT(min_max_lanes);
+STRATA_EXPORT(layer_lanes);
+STRATA_EXPORT(average_lanes);
 
 inline namespace strict {
 

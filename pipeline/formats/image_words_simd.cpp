@@ -33,7 +33,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::pipeline {
-HWY_EXPORT(widen);
+STRATA_EXPORT(widen);
 
 void widen_words(const std::uint32_t* words, std::size_t count, std::uint32_t* codes) noexcept {
     // A store past the caches needs an aligned address; bytes of a

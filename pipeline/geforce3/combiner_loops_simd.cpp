@@ -40,7 +40,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::pipeline {
-HWY_EXPORT(combiner_table);
+STRATA_EXPORT(combiner_table);
 
 const CombinerLoops& combiner_loops() noexcept {
     static constexpr CombinerLoops twins{scalar::load, scalar::multiply, scalar::settle, scalar::mix};

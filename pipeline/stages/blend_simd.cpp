@@ -46,7 +46,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace strata::pipeline {
 
-HWY_EXPORT(blend_lanes);
+STRATA_EXPORT(blend_lanes);
 
 void blend(const Blend& state, ChannelType type, const DeviceProfile& profile, int channels,
            const scalar::ColorLanes& src, scalar::ColorCodes& codes, int count) noexcept {

@@ -305,16 +305,16 @@ HWY_AFTER_NAMESPACE();
 
 namespace strata::pipeline {
 
-HWY_EXPORT(count_set);
-HWY_EXPORT(find);
-HWY_EXPORT(gather);
-HWY_EXPORT(scatter);
-HWY_EXPORT(test_plane);
-HWY_EXPORT(add);
-HWY_EXPORT(decode_lanes);
-HWY_EXPORT(encode_lanes);
-HWY_EXPORT(test_alpha);
-HWY_EXPORT(test_stencil);
+STRATA_EXPORT(count_set);
+STRATA_EXPORT(find);
+STRATA_EXPORT(gather);
+STRATA_EXPORT(scatter);
+STRATA_EXPORT(test_plane);
+STRATA_EXPORT(add);
+STRATA_EXPORT(decode_lanes);
+STRATA_EXPORT(encode_lanes);
+STRATA_EXPORT(test_alpha);
+STRATA_EXPORT(test_stencil);
 
 std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept {
     return simd_is_scalar() ? scalar::count_lanes(alive, count)

@@ -285,7 +285,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/set_up/window.h"
 
 namespace strata::pipeline {
-HWY_EXPORT(add_rows);
+STRATA_EXPORT(add_rows);
 
 rasterizer::DepthDrawn add_sum_rows(const rasterizer::Geometry& geometry, std::span<const std::uint32_t> triangles,
                                     const rasterizer::DepthRequest& depth, const rasterizer::Rect& region,

@@ -58,7 +58,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::pipeline {
-HWY_EXPORT(vertex_table);
+STRATA_EXPORT(vertex_table);
 
 const VertexKernels* vertex_kernels() noexcept {
     return simd_is_scalar() ? nullptr : kernel_of(HWY_DISPATCH_TABLE(vertex_table))();

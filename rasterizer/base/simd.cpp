@@ -4,9 +4,34 @@
 #include <cassert>
 
 #include "rasterizer/base/simd_dispatch.h"
+#if HWY_ARCH_X86
+#include <cpuid.h>
+#endif
 
 namespace strata {
 namespace {
+
+#if HWY_ARCH_X86
+// A feature of leaf `leaf` that the compiler's own list does not name.
+[[nodiscard]] bool has_bit_of_ecx(unsigned leaf, unsigned bit) noexcept {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    return __get_cpuid(leaf, &a, &b, &c, &d) != 0 && (c >> bit & 1) != 0;
+}
+
+// What Highway's code for a set takes for granted of the processor and of the system's saving of registers (hwy/targets.cc).
+[[nodiscard]] std::int64_t supported_targets() noexcept {
+    __builtin_cpu_init();
+    const bool sse4 =
+        __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("aes") && __builtin_cpu_supports("pclmul");
+    const bool has_f16c = has_bit_of_ecx(1, 29), has_lzcnt = has_bit_of_ecx(0x80000001, 5);
+    const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                      __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && has_f16c && has_lzcnt;
+    const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+                        __builtin_cpu_supports("avx512cd");
+    return (sse4 ? HWY_SSE4 : 0) | (avx2 ? HWY_AVX2 : 0) | (avx512 ? HWY_AVX3 : 0);
+}
+#endif
 
 [[nodiscard]] Simd best_simd() noexcept {
     static const Simd best = available_simd().back();
@@ -19,7 +44,7 @@ thread_local constinit Simd chosen = Simd::best;
 
 std::vector<Simd> available_simd() {
 #if HWY_ARCH_X86
-    static const std::int64_t machine = hwy::SupportedTargets() & HWY_TARGETS;
+    static const std::int64_t machine = supported_targets() & HWY_TARGETS;
 #else
     constexpr std::int64_t machine = 0;  // the names above are x86's: all other machines run the scalar twins
 #endif

@@ -105,7 +105,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::rasterizer {
-HWY_EXPORT(small_table);
+STRATA_EXPORT(small_table);
 
 inline namespace strict {
 

@@ -182,7 +182,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::rasterizer {
-HWY_EXPORT(plain_spans_table);
+STRATA_EXPORT(plain_spans_table);
 
 SetUpPlainTriangles set_up_plain_spans() noexcept {
     if (simd_is_scalar() || std::endian::native != std::endian::little) return nullptr;

@@ -126,7 +126,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::rasterizer {
-HWY_EXPORT(plain_triangles_table);
+STRATA_EXPORT(plain_triangles_table);
 
 SetUpPlainTriangles set_up_plain_triangles() noexcept {
     if (simd_is_scalar() || std::endian::native != std::endian::little) return nullptr;

@@ -133,7 +133,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::rasterizer {
-HWY_EXPORT(plain_table);
+STRATA_EXPORT(plain_table);
 
 SetUpPlain set_up_plain() noexcept {
     if (simd_is_scalar() || std::endian::native != std::endian::little) return nullptr;

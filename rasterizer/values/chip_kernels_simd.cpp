@@ -126,7 +126,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::rasterizer {
-HWY_EXPORT(table);
+STRATA_EXPORT(table);
 
 inline namespace strict {
 

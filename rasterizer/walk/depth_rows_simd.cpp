@@ -125,7 +125,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/set_up/window.h"
 
 namespace strata::rasterizer {
-HWY_EXPORT(draw_depth);
+STRATA_EXPORT(draw_depth);
 
 DepthDrawn draw_float_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                            const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {

@@ -239,7 +239,7 @@ HWY_AFTER_NAMESPACE();
 #include "rasterizer/base/simd_dispatch.h"
 
 namespace strata::rasterizer {
-HWY_EXPORT(draw_window_z);
+STRATA_EXPORT(draw_window_z);
 
 DepthDrawn draw_window_z_rows(const Geometry& geometry, std::span<const std::uint32_t> triangles,
                               const DepthRequest& depth, const Rect& region, std::uint32_t* codes) noexcept {

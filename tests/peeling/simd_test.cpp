@@ -65,6 +65,14 @@ TEST_CASE("two renderers with different instruction sets draw the same bits at t
     }
 }
 
+TEST_CASE("the sets that the processor has are those that Highway finds") {
+    for (const auto& [simd, target] :
+         {std::pair{Simd::sse4, HWY_SSE4}, {Simd::avx2, HWY_AVX2}, {Simd::avx512, HWY_AVX3}}) {
+        const bool is_compiled = (HWY_TARGETS & target) != 0 && HWY_ARCH_X86;
+        CHECK(strata::has_simd(simd) == (is_compiled && (hwy::SupportedTargets() & target) != 0));
+    }
+}
+
 TEST_CASE("a frame leaves what Highway uses for the host program, and the thread's own choice, as they were") {
     const TriangleScene scene = random_triangles(1208, 12);
     const std::vector<Simd> available = strata::available_simd();  // before the host narrows them

@@ -3,6 +3,11 @@
 # to compile, have one set.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)
+# Its headers are all that is used; builds that check assertions need its library, which takes 4 ms to load (simd_dispatch.h).
+get_target_property(highway_library PkgConfig::HIGHWAY INTERFACE_LINK_LIBRARIES)
+if(highway_library)
+  set_target_properties(PkgConfig::HIGHWAY PROPERTIES INTERFACE_LINK_LIBRARIES "-Wl,--push-state,--as-needed,${highway_library},--pop-state")
+endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
   if(STRATA_SANITIZE OR STRATA_COVERAGE)
     target_compile_definitions(PkgConfig::HIGHWAY INTERFACE
