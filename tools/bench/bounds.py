@@ -83,10 +83,13 @@ def device_rows(options, table):
         for algorithm in ("depth", "depth_units"):
             table.row(f"{name}, {algorithm}, geforce3 to geforce8", frame(options, scene, options.size, "geforce3", "rgba8", algorithm, alpha),
                       frame(options, scene, options.size, "geforce8", "rgba8", algorithm, alpha), 1.5)
-        limited = (*alpha, "--max-passes", "8")
-        table.row(f"{name}, eight passes on geforce3, shadow_map to depth_units",
-                  frame(options, scene, options.size, "geforce3", "rgba8", "shadow_map", limited),
-                  frame(options, scene, options.size, "geforce3", "rgba8", "depth_units", limited), 1.5)
+        # Behind its last layer depth_units draws nothing; shadow_map draws layers again that lie behind themselves (2 and 0.6 million
+        # fragments of the bunny in eight passes).
+        for passes in (2, 8):
+            limited = (*alpha, "--max-passes", str(passes))
+            table.row(f"{name}, {passes} passes on geforce3, shadow_map to depth_units",
+                      frame(options, scene, options.size, "geforce3", "rgba8", "shadow_map", limited),
+                      frame(options, scene, options.size, "geforce3", "rgba8", "depth_units", limited), 1.5)
 
 
 def driver_rows(options, table):
