@@ -312,7 +312,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     const bool is_reference_key = state.selection.compared && !is_compared;
     if (is_reference_key) std::copy_n(batch.code.begin(), count, batch.reference_code.begin());
     // It lies behind: so does the farthest there is.
-    const bool is_known_behind = is_compared && state.selection.keeps == Keeps::nearest && !frame_.trace;
+    const bool is_known_behind = is_compared && state.selection.keeps == Keeps::nearest;
     if (is_known_behind) {
         std::fill_n(batch.reference_code.begin(), count, rasterizer::max_code(state.selection.compared->format));
         std::fill_n(batch.reference_z.begin(), count, std::numeric_limits<double>::infinity());
