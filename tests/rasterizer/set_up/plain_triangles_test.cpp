@@ -57,8 +57,8 @@ TEST_CASE("sixteen plain triangles at once become the records and counts of one 
     CHECK(others > 1'000);
 }
 
-TEST_CASE(
-    "sixteen triangles of float spans at once become the records and counts of one after the other, on every set") {
+TEST_CASE("sixteen triangles of float spans at once become the records and counts of one after the other, on every set",
+          "[slow]") {
     std::uint64_t wrong = 0, uncovered = 0, kept = 0;
     for (DenseCase dense : dense_cases()) {
         dense.rules.coverage = CoverageRule::float_spans;

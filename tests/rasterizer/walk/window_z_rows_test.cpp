@@ -104,7 +104,7 @@ TEST_CASE(
     CHECK((passed > 100'000 || !has_rows_here()));
 }
 
-TEST_CASE("tiny triangles side by side have the chip's window z of each, and its range, in every format") {
+TEST_CASE("tiny triangles side by side have the chip's window z of each, and its range, in every format", "[slow]") {
     std::uint64_t passed = 0;
     int wrong = 0;
     for (DenseCase dense : dense_cases()) {
