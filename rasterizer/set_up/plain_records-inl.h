@@ -113,10 +113,10 @@ HWY_INLINE void add_records(const PlainTriangleRules& rules, const PlainShapes& 
 
 // SetUpPlainTriangles. `find(rules, indices, corners, first, shapes)`: the shapes of `lanes` triangles, from number `first` of the
 // group on; false if one of them is not plain.
-template <class Find>
-HWY_INLINE bool set_up_plain_group(const PlainTriangleRules& rules, const std::uint32_t* indices,
-                                   std::uint32_t primitive, const WindowCorner* corners, const std::uint32_t* marks,
-                                   TriangleRecord* out, PlainFates& fates, const Find& find) {
+template <auto find>
+bool set_up_plain_group(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
+                        std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out,
+                        PlainFates& fates) {
     std::uint32_t marked = 0;
     for (std::size_t i = 0; marks != nullptr && i < 3 * group_size; ++i) marked |= marks[indices[i]];
     if (marked != 0) return false;
@@ -125,7 +125,7 @@ HWY_INLINE bool set_up_plain_group(const PlainTriangleRules& rules, const std::u
     PlainFates found = fates;
     for (std::size_t first = 0; first < group_size; first += lanes) {
         PlainShapes shapes;
-        if (!find(rules, indices, corners, first, shapes)) return false;
+        if (!find(rules, indices, corners.data(), first, shapes)) return false;
         add_records(rules, shapes, indices, primitive, first, records, found, kept);
     }
     for (std::size_t k = 0; k < group_size; ++k) {

@@ -1,6 +1,8 @@
 // rasterizer/set_up/plain_spans_simd.cpp - plain_triangles.h where pixels are covered by float spans, for every instruction set.
 //
 // Rule     FloatSpans and covered_box of float_spans.h, a triangle a lane: the same operations of binary32 in the same order.
+// Numbers  Positions are finite, and so are x and slopes of the lanes that count (find_shapes): MIN and MAX meet no NaN, and 0 of either
+//          sign becomes the same integer.
 // How kernels are written: kernels.md. Tests: tests/rasterizer/set_up/plain_triangles_test.cpp
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "rasterizer/set_up/plain_spans_simd.cpp"
@@ -163,17 +165,9 @@ HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t
     return true;
 }
 
-bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
-            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates) {
-    return set_up_plain_group(rules, indices, primitive, corners.data(), marks, out, fates,
-                              [](const PlainTriangleRules& own, const std::uint32_t* index, const WindowCorner* corner,
-                                 std::size_t first, PlainShapes& shapes)
-                                  HWY_ATTR { return find_shapes(own, index, corner, first, shapes); });
-}
-
 }  // namespace
 
-SetUpPlainTriangles plain_spans_table() { return set_up; }
+SetUpPlainTriangles plain_spans_table() { return set_up_plain_group<find_shapes>; }
 
 }  // namespace strata::rasterizer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

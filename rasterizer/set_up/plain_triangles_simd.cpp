@@ -107,17 +107,9 @@ HWY_INLINE bool find_shapes(const PlainTriangleRules& rules, const std::uint32_t
     return true;
 }
 
-bool set_up(const PlainTriangleRules& rules, const std::uint32_t* indices, std::uint32_t primitive,
-            std::span<const WindowCorner> corners, const std::uint32_t* marks, TriangleRecord* out, PlainFates& fates) {
-    return set_up_plain_group(rules, indices, primitive, corners.data(), marks, out, fates,
-                              [](const PlainTriangleRules& own, const std::uint32_t* index, const WindowCorner* corner,
-                                 std::size_t first, PlainShapes& shapes)
-                                  HWY_ATTR { return find_shapes(own, index, corner, first, shapes); });
-}
-
 }  // namespace
 
-SetUpPlainTriangles plain_triangles_table() { return set_up; }
+SetUpPlainTriangles plain_triangles_table() { return set_up_plain_group<find_shapes>; }
 
 }  // namespace strata::rasterizer::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
