@@ -314,7 +314,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     // It lies behind: so does the farthest there is.
     const bool is_known_behind = is_compared && state.selection.keeps == Keeps::nearest;
     if (is_known_behind) {
-        std::fill_n(batch.reference_code.begin(), count, rasterizer::max_code(state.selection.compared->format));
+        std::fill_n(batch.reference_code.begin(), count, state.selection.compared->farthest_code());
         std::fill_n(batch.reference_z.begin(), count, std::numeric_limits<double>::infinity());
     }
     selected.next += count;

@@ -45,6 +45,11 @@ struct DepthCompare {
         const std::uint64_t sum = std::uint64_t{stored} + static_cast<std::uint64_t>(epsilon.ulps);
         return static_cast<std::uint32_t>(std::min<std::uint64_t>(sum, rasterizer::max_code(format)));
     }
+    // A code that lies behind wherever any does: D32F's may be beyond 1 where depths are not clamped.
+    [[nodiscard]] std::uint32_t farthest_code() const noexcept {
+        constexpr std::uint32_t infinity = 0x7f800000;
+        return format == rasterizer::DepthFormat::d32f ? infinity : rasterizer::max_code(format);
+    }
     // In the buffer's own units; exact.
     [[nodiscard]] double value(std::uint32_t code) const noexcept { return rasterizer::buffer_value(code, format); }
     // What is compared of a fragment, and what lies behind a stored code is greater than: codes as numbers, or values.

@@ -74,6 +74,8 @@ struct Dyadic {
 
 // z and differences that the chip takes as 0 (chip-float-depth.md 3.3).
 inline constexpr double least_depth = 0x1p-126;
+// A difference of so many bits times a weight of 24 is exact in binary64.
+inline constexpr int narrow_bits = 29;
 [[nodiscard]] constexpr float flushed_depth(float z) noexcept {
     return z < static_cast<float>(least_depth) && z > -static_cast<float>(least_depth) ? 0.0f : z;
 }
@@ -99,7 +101,8 @@ class WindowZ24 {
             for (std::size_t i = 0; i < 3; ++i) {
                 const double d = double{z_[i]} - double{z_[r]};
                 const bool is_zero = d < least_depth && d > -least_depth;
-                is_narrow_ = is_narrow_ && two_sum(double{z_[i]}, -double{z_[r]}).low == 0.0 && cut_bits(d, 29) == d;
+                is_narrow_ =
+                    is_narrow_ && two_sum(double{z_[i]}, -double{z_[r]}).low == 0.0 && cut_bits(d, narrow_bits) == d;
                 narrow_[r][i] = is_zero ? 0.0 : d;
             }
         for (std::size_t r = 0; r < 3 && !is_narrow_; ++r)

@@ -22,7 +22,7 @@ HWY_INLINE void window_z_of(const ChipTriangle& t, const NarrowWindowZ& z, const
     const ChipConversion conversion = to;
     const double area = t.edges.area;
     for (int i = 0; i < count; i += step) {
-        const Corners e = edge_values(edges.lanes(x + i, y + i), area);
+        const Corners e = edge_values(edges.lanes(x + i, y + i), all(area));
         hn::StoreU(chip_codes<kind>(depth.value(e, weights.at(e)), conversion), U32{}, out + i);
     }
 }
@@ -64,7 +64,7 @@ void colors(const ChipTriangle& t, const ColorLanes& colors, const std::uint16_t
     const double area = t.edges.area;
     const I32 d;
     for (int i = 0; i < count; i += step) {
-        const Corners e = edge_values(edges.lanes(x + i, y + i), area);
+        const Corners e = edge_values(edges.lanes(x + i, y + i), all(area));
         const OuterParts w = outer_parts(weights.at(e));
         const auto w1 = hn::Sub(hn::Sub(hn::Set(d, 256), w.w0), w.w2);
         for (std::size_t c = 0; c < color_channels; ++c) {
@@ -89,7 +89,7 @@ bool coordinates(const ChipTriangle& t, const CoordinateLanes& coordinates, cons
     const double area = t.edges.area;
     Mask64 is_unknown = hn::MaskFromVec(hn::Zero(d));
     for (int i = 0; i < count; i += step) {
-        const Corners b = weights.at(edge_values(edges.lanes(x + i, y + i), area));
+        const Corners b = weights.at(edge_values(edges.lanes(x + i, y + i), all(area)));
         const Remainder rest{b};
         const V64 remaining = hn::Sub(all(1.0), hn::Add(b.c1, hn::IfThenElse(rest.is0, b.c2, b.c0)));
         const V64 b0 = hn::IfThenElse(rest.is0, remaining, b.c0), b2 = hn::IfThenElse(rest.is2, remaining, b.c2);

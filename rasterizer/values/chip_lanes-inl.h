@@ -45,9 +45,7 @@ struct Corners {
 };
 
 // Edge values in the place of weights, and the first, which they leave of the area.
-HWY_INLINE Corners edge_values(const Weights& e, double area) {
-    return {hn::Sub(hn::Sub(all(area), e.b1), e.b2), e.b1, e.b2};
-}
+HWY_INLINE Corners edge_values(const Weights& e, V64 area) { return {hn::Sub(hn::Sub(area, e.b1), e.b2), e.b1, e.b2}; }
 
 HWY_INLINE Corners cut_products(const Corners& p, V64 r) {
     return {cut_24(hn::Mul(p.c0, r)), cut_24(hn::Mul(p.c1, r)), cut_24(hn::Mul(p.c2, r))};
@@ -67,7 +65,7 @@ class CutWeightsAt {
           q2_{t.q[2]},
           low_{t.low},
           constant_r_{t.constant_r},
-          reciprocal_mask_{t.reciprocal_mask},
+          reciprocal_mask_{t.mask},
           is_perspective_{t.is_perspective} {}
 
     // CutWeights::at, or PerspectiveWeights::cut_at.

@@ -10,7 +10,7 @@ namespace {
 // z_i - z_j, 0 below the least depth; `is_narrow` stays only if 29 bits hold it.
 [[nodiscard]] double narrow_difference(double a, double b, bool& is_narrow) noexcept {
     const TwoTerms d = two_sum(a, -b);
-    is_narrow = is_narrow && d.low == 0.0 && cut_bits(d.high, 29) == d.high;
+    is_narrow = is_narrow && d.low == 0.0 && cut_bits(d.high, narrow_bits) == d.high;
     return magnitude(d.high) < least_depth ? 0.0 : d.high;
 }
 

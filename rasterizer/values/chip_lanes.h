@@ -20,13 +20,21 @@
 namespace strata::rasterizer {
 inline namespace strict {
 
+// What cut_reciprocal multiplies by, 1 - d 2^-32, and which bits it keeps.
+[[nodiscard]] constexpr double reciprocal_factor(const DepthHypothesis& h) noexcept {
+    return 1.0 - h.reciprocal_deficit * 0x1p-32;
+}
+[[nodiscard]] constexpr std::uint64_t reciprocal_mask(const DepthHypothesis& h) noexcept {
+    return ~std::uint64_t{0} << (53 - h.reciprocal_bits);
+}
+
 // A triangle's edges and the rule of its weights: CutWeights, or PerspectiveWeights where w differs.
 struct ChipTriangle {
     PixelWeights edges;           // of PixelWeights::EdgesAlone
     std::array<double, 3> q{};    // |1 / w| cut to 24 bits
     bool is_perspective = false;  // q counts
-    double low = 1.0;             // 1 - d 2^-32
-    std::uint64_t reciprocal_mask = 0;
+    double low = 1.0;             // reciprocal_factor
+    std::uint64_t mask = 0;       // reciprocal_mask
     // r where it is the same at every pixel: the edge values have 24 bits, and nothing is cut off them. Else 0.
     double constant_r = 0.0;
 
@@ -36,9 +44,7 @@ struct ChipTriangle {
                edges.kind == PixelWeights::Kind::snapped && edges.area <= 0x1p52;
     }
     ChipTriangle(const PixelWeights& weights, const DepthHypothesis& h) noexcept
-        : edges{weights},
-          low{1.0 - h.reciprocal_deficit * 0x1p-32},
-          reciprocal_mask{~std::uint64_t{0} << (53 - h.reciprocal_bits)} {
+        : edges{weights}, low{reciprocal_factor(h)}, mask{reciprocal_mask(h)} {
         edges.r = 1.0;
         if (edges.area < 0x1p24) constant_r = cut_reciprocal(edges.area, h);
     }

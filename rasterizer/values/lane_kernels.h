@@ -204,10 +204,11 @@ inline void float_attributes(const FloatAttributeLanes& a, const std::uint16_t* 
                              int count) noexcept {
     const bool multiplies = a.perspective == PerspectiveDivide::reciprocal;
     for (int i = 0; i < count; ++i) {
-        const float inverse_w = a.inverse_w.at(a.rule, x[i], y[i]), w = 1.0f / inverse_w;
+        const float inverse_w = a.inverse_w.at(a.rule, x[i], y[i]);
+        const float by = multiplies ? 1.0f / inverse_w : inverse_w;
         for (std::size_t k = 0; k < a.count; ++k) {
             const float value = a.plane[k].at(a.rule, x[i], y[i]);
-            a.out[k][i] = multiplies ? value * w : value / inverse_w;
+            a.out[k][i] = multiplies ? value * by : value / by;
         }
     }
 }

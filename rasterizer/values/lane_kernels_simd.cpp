@@ -204,10 +204,10 @@ HWY_INLINE void float_attributes_of(const FloatAttributeLanes& a, const std::uin
         const auto column = hn::PromoteTo(di, hn::LoadU(narrow, x + i)),
                    row = hn::PromoteTo(di, hn::LoadU(narrow, y + i));
         const WideVec inverse_w = WidePlane{a.inverse_w}.at<rule>(column, row);
-        const WideVec w = hn::Div(hn::Set(Wide{}, 1.0f), inverse_w);
+        const WideVec by = multiplies ? hn::Div(hn::Set(Wide{}, 1.0f), inverse_w) : inverse_w;
         for (std::size_t k = 0; k < a.count; ++k) {
             const WideVec value = WidePlane{a.plane[k]}.at<rule>(column, row);
-            hn::StoreU(multiplies ? hn::Mul(value, w) : hn::Div(value, inverse_w), Wide{}, a.out[k] + i);
+            hn::StoreU(multiplies ? hn::Mul(value, by) : hn::Div(value, by), Wide{}, a.out[k] + i);
         }
     }
 }

@@ -41,8 +41,7 @@ class TinyWindowZ {
         d20_ = narrow_difference(z_[2], z_[0], suits);
         d21_ = narrow_difference(z_[2], z_[1], suits);
         suits_ = hn::AllTrue(F64{}, suits);
-        const std::uint64_t mask = ~std::uint64_t{0} << (53 - h.reciprocal_bits);
-        r_ = cut_inverse(area, triangles.inverse_area(), 1.0 - h.reciprocal_deficit * 0x1p-32, mask);
+        r_ = cut_inverse(area, triangles.inverse_area(), reciprocal_factor(h), reciprocal_mask(h));
     }
     [[nodiscard]] HWY_INLINE bool suits() const { return suits_; }
     // Whether a corner of one of them lies outside of `low` to `high`.
@@ -51,8 +50,7 @@ class TinyWindowZ {
         return !hn::AllTrue(F64{}, hn::And(hn::Ge(nearest, all(low)), hn::Le(farthest, all(high))));
     }
     HWY_INLINE V64 at(const TinyPixels& pixels, const TinyTriangles<false>& triangles) const {
-        const Weights edge = triangles.edges(pixels);
-        const Corners e{hn::Sub(hn::Sub(pixels.of(triangles.area()), edge.b1), edge.b2), edge.b1, edge.b2};
+        const Corners e = edge_values(triangles.edges(pixels), pixels.of(triangles.area()));
         const V64 d10 = pixels.of(d10_), d20 = pixels.of(d20_), d21 = pixels.of(d21_);
         const WindowZLanes lanes{pixels.of(z_[0]), pixels.of(z_[1]), pixels.of(z_[2]), d10, d20, d21,
                                  hn::Neg(d10),     hn::Neg(d20),     hn::Neg(d21)};
@@ -66,7 +64,7 @@ class TinyWindowZ {
     }
     HWY_INLINE static V64 narrow_difference(V64 a, V64 b, Mask64& suits) {
         const TwoLanes d = two_sum_lanes(a, hn::Neg(b));
-        const auto is_cut = hn::Eq(kept(d.high, ~std::uint64_t{0} << (53 - 29)), d.high);
+        const auto is_cut = hn::Eq(kept(d.high, ~std::uint64_t{0} << (53 - narrow_bits)), d.high);
         suits = hn::And(suits, hn::And(is_cut, hn::Eq(d.low, hn::Zero(F64{}))));
         return hn::IfThenElseZero(hn::Ge(hn::Abs(d.high), all(least_depth)), d.high);
     }
@@ -170,7 +168,7 @@ struct WindowZOf {
         // The codes; takes from `covered` what the depth range removes.
         template <class Where>
         HWY_INLINE hn::Vec<U32> code_at(const Where& where, const Weights& edge, RowMask& covered) {
-            const Corners e = edge_values(edge, area_);
+            const Corners e = edge_values(edge, all(area_));
             V64 v = depth_.value(e, weights_.at(e));
             if (HWY_UNLIKELY(!is_narrow_)) v = wide_at(where);
             if (HWY_UNLIKELY(clips_)) {

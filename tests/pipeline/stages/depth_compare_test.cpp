@@ -2,6 +2,7 @@
 #include "pipeline/stages/depth_compare.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "tests/rasterizer/rational.h"
 #include "tests/support/random_numbers.h"
@@ -54,6 +55,31 @@ TEST_CASE("a fragment is behind a stored depth by the frame's epsilon and quanti
     CHECK(wrong == 0);
     CHECK(behind > cases / 5);
     CHECK(behind < cases * 4 / 5);
+}
+
+TEST_CASE("the farthest code lies behind wherever any code does, D32F's beyond 1 as well") {
+    Random random{942};
+    std::uint64_t wrong = 0, behind = 0;
+    for (const DepthFormat format : {DepthFormat::d16, DepthFormat::d24, DepthFormat::d32f})
+        for (const bool quantizes : {true, false})
+            for (const CompareEpsilon epsilon : {CompareEpsilon{}, {0.0, 3}, {0x1p-20, 0}, {0.25, 2}})
+                for (int i = 0; i < 300; ++i) {
+                    const DepthCompare compare{format, epsilon, true, quantizes};
+                    const bool is_float = format == DepthFormat::d32f;
+                    const std::uint32_t one = strata::rasterizer::max_code(format);
+                    const auto any = [&] {  // of D32F around 1
+                        return is_float ? std::bit_cast<std::uint32_t>(random_float(random, 0.5f, 1.5f))
+                                        : one - static_cast<std::uint32_t>(random_int(random, 0, 9));
+                    };
+                    const std::uint32_t code = any(), stored = any();
+                    const double z = is_float ? std::bit_cast<float>(code) : static_cast<double>(code);
+                    if (!compare.is_behind(code, z, stored)) continue;
+                    ++behind;
+                    const double infinity = std::numeric_limits<double>::infinity();
+                    wrong += compare.is_behind(compare.farthest_code(), infinity, stored) ? 0 : 1;
+                }
+    CHECK(wrong == 0);
+    CHECK(behind > 500);
 }
 
 TEST_CASE("only without reference, epsilon and unrounded depths does a compare need nothing but codes") {

@@ -117,6 +117,56 @@ TEST_CASE("float spans cover the pixels of the rule's rounded steps, whatever th
     CHECK(pixels > 50000);
 }
 
+TEST_CASE(
+    "a small triangle's record has the box of its pixels, and one that covers none of a small box has no record") {
+    constexpr int width = 96, height = 64;
+    Random random{523};
+    TriangleSoup soup;
+    std::vector<std::array<WindowPosition, 3>> corners;
+    for (int n = 0; n < 3000; ++n) {
+        const float size = n % 4 == 0 ? 12.0f : 3.0f;  // boxes of up to 16 pixels
+        const float x = random_float(random, 4, width - 4 - size), y = random_float(random, 4, height - 4 - size);
+        for (int k = 0; k < 3; ++k) {
+            soup.indices.push_back(static_cast<std::uint32_t>(soup.vertices.size()));
+            soup.vertices.push_back(
+                vertex_at(x + random_float(random, 0, size), y + random_float(random, 0, size), width, height));
+        }
+    }
+    soup.runs = {{0, static_cast<std::uint32_t>(soup.indices.size()), 0, 0, true, false}};
+    const Geometry geometry = set_up(soup, scene_state(width, height), span_rules(), 1);
+    std::vector<const TriangleRecord*> record(soup.indices.size() / 3);
+    for (const TriangleRecord& t : geometry.triangles) record[t.primitive] = &t;
+    std::uint64_t wrong = 0, boxes = 0, uncovered = 0, large = 0;
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        std::array<WindowPosition, 3> p;
+        for (std::size_t k = 0; k < 3; ++k) p[k] = geometry.corners[soup.indices[3 * i + k]].unsnapped;
+        // The corners' pixels and two more on every side.
+        const auto extent = [&](std::size_t axis) {
+            const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis]});
+            return toward_zero(high) - toward_zero(low) + 5;
+        };
+        const Pixels pixels = model_pixels(p, geometry.state.viewport);
+        if (std::max(extent(0), extent(1)) > 12) {
+            wrong += record[i] == nullptr ? 1 : 0;
+            ++large;
+        } else if (pixels.empty()) {
+            wrong += record[i] == nullptr ? 0 : 1;
+            ++uncovered;
+        } else {
+            Rect box{width, height, 0, 0};
+            for (const auto& [y, x] : pixels)
+                box = {std::min(box.x0, x), std::min(box.y0, y), std::max(box.x1, x + 1), std::max(box.y1, y + 1)};
+            const bool is_box = record[i] != nullptr && record[i]->box.x0 == box.x0 && record[i]->box.y0 == box.y0 &&
+                                record[i]->box.x1 == box.x1 && record[i]->box.y1 == box.y1;
+            wrong += is_box ? 0 : 1;
+            ++boxes;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(geometry.counters.uncovered == uncovered);
+    CHECK((boxes > 1000 && uncovered > 500 && large > 100));
+}
+
 TEST_CASE("corners of one height keep the order that the rule's comparisons give them") {
     using Order = std::array<std::size_t, 3>;
     const auto order = [](float y0, float y1, float y2) { return by_height({{{0, y0}, {1, y1}, {2, y2}}}); };
