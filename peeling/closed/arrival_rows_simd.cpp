@@ -28,7 +28,10 @@ constexpr std::size_t lane_count = hn::MaxLanes(U32{});
 // The places of neighbours after the first one's: of a triangle of one colour, and of others.
 alignas(32) constexpr std::uint32_t after_first[2][8] = {{0, 0, 0, 0, 0, 0, 0, 0}, {0, 1, 2, 3, 4, 5, 6, 7}};
 
-HWY_INLINE std::uint32_t bits_of(WordMask mask) { return raster::bits_of(hn::RebindMask(F32{}, mask)); }
+// Sets without a walk over rows call neither this nor put_one.
+[[maybe_unused]] HWY_INLINE std::uint32_t bits_of(WordMask mask) {
+    return raster::bits_of(hn::RebindMask(F32{}, mask));
+}
 
 struct AppendState {
     Arrivals& to;
@@ -39,7 +42,8 @@ struct AppendState {
 };
 
 // Without room the word is dropped and the walk goes on: its caller gives the whole band up.
-HWY_INLINE void put_one(AppendState& state, const Arrivals& to, std::uint32_t pixel, std::uint64_t word) {
+[[maybe_unused]] HWY_INLINE void put_one(AppendState& state, const Arrivals& to, std::uint32_t pixel,
+                                         std::uint64_t word) {
     const std::uint32_t rank = to.count[pixel];
     if (HWY_UNLIKELY(rank >= to.ranks)) {
         state.has_room = false;
