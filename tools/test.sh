@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
-#   tools/test.sh               unit and golden tests; the fast ones under sanitizers; half a minute of fuzzing
-#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too, and the tests themselves; the
-#                               loader is fuzzed
+#   tools/test.sh               unit and golden tests; the fast ones and 2,000 frames under sanitizers
+#   tools/test.sh --sanitizers  every test of the floors under the sanitizers, the slow ones and the scenes' too, and the tests themselves; half a
+#                               minute of guided fuzzing each for frames and for the loader
 #   tools/test.sh --instrumented  the core's golden scenes under the thread and the memory sanitizer, and 2,000 frames under the first
 #   tools/test.sh --matrix      the core alone by g++ and clang++ at -O0, -O2, -O3: the same digests?
 #   tools/test.sh --exhaustive  the tests that try every value
@@ -36,7 +36,7 @@ quietly() {
     }
 }
 
-# sanitizer_preset PRESET: that one if clang++ is there, whose build serves the fuzzing, too.
+# sanitizer_preset PRESET: that one if clang++ is there, which compiles faster under sanitizers, and whose build can be fuzzed.
 sanitizer_preset() { if command -v clang++ >/dev/null; then echo "$1"; else echo asan; fi; }
 
 # Every test of the floors under the sanitizers.
@@ -45,25 +45,22 @@ sanitizers() {
     preset=$(sanitizer_preset fuzz)
     step "all tests of the floors under the address and undefined-behaviour sanitizers (preset $preset)"
     local targets=(rasterizer_test pipeline_test peeling_test scenes_test images_test hardware_check_test core_digests)
-    [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs)
+    [ "$preset" = asan ] || targets+=(make_corpus load_render_fuzz replay_inputs differential_seeds differential_fuzz)
     build "$preset" "${targets[@]}"
     ctest --test-dir "build/$preset" -LE 'exhaustive|golden|command|fuzz|house|book|docs|browser|python|port|callgrind|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     if [ "$preset" = asan ]; then
         step "no clang++: fuzzing left out"
         return
     fi
-    step "the kept inputs, and fuzzing the loader with glTF bytes"
-    ctest --test-dir build/fuzz -R '^fuzz-(kept-inputs|corpus|load-render)' --output-on-failure
+    step "the kept inputs, and fuzzing the loader with glTF bytes and the ways of running a frame against each other"
+    ctest --test-dir build/fuzz -R '^fuzz-' --output-on-failure -j "$(nproc)"
 }
 
 # The two builds beside each other: the last and longest sources of one leave a processor to the other. The second by half as many
 # compilers: six at a time took a fifth longer for the same on two processors. The tests' own sources are not instrumented here.
 builds() {
-    local preset targets=(rasterizer_test pipeline_test peeling_test core_digests)
+    local preset targets=(rasterizer_test pipeline_test peeling_test core_digests differential_seeds)
     preset=$(sanitizer_preset sanitized)
-    if [ "$preset" != asan ]; then
-        targets+=(differential_seeds differential_fuzz)
-    fi
     step "building, and beside it the core under the address and undefined-behaviour sanitizers (preset $preset)"
     jobs=$(((jobs + 1) / 2)) build "$preset" "${targets[@]}" &
     sanitized=$!  # seen by the trap, which outlives the function
@@ -73,22 +70,18 @@ builds() {
     wait "$sanitized"
 }
 
-# The fast tests of the core under the sanitizers, and half a minute of fuzzing: scenes and images, which take as long to compile
-# again as the core does, are left to --sanitizers.
+# The fast tests of the core under the sanitizers, and beside them 2,000 frames that no commit before has drawn: scenes and images,
+# which take as long to compile again as the core does, are left to --sanitizers.
 sanitized() {
-    local preset fuzzing=""
+    local preset first frames
     preset=$(sanitizer_preset sanitized)
-    step "the fast tests of the core under the sanitizers"
-    if [ "$preset" = asan ]; then
-        step "no clang++: fuzzing left out"
-    else
-        step "beside them half a minute of fuzzing: the ways of running a frame against each other"
-        quietly fuzz ctest --test-dir "build/$preset/tests/fuzz" -R '^fuzz-differential' --output-on-failure &
-        fuzzing=$!
-    fi
+    first=$(($(git rev-list --count HEAD 2>/dev/null || echo 0) * 2000))
+    step "the fast tests of the core under the sanitizers, and beside them the frames of seeds $first..$((first + 2000))"
+    quietly frames "build/$preset/tests/fuzz/differential_seeds" --seeds "$first..$((first + 2000))" &
+    frames=$!
     quietly sanitized ctest --test-dir "build/$preset" -LE 'exhaustive|slow|golden|command|fuzz|house|book|docs|browser|python|port|afl' -E 'NOT_BUILT|^fuzz-' --output-on-failure -j "$(nproc)"
     quietly sanitized-golden ctest --test-dir "build/$preset/tests/golden" -R 'golden.core_digests.(threads=2|together)' --output-on-failure -j "$(nproc)"
-    [ -z "$fuzzing" ] || wait "$fuzzing"
+    wait "$frames"
 }
 
 # Is a race found, and a number that nobody wrote? Then the core's own frames: on four threads, and on one by the scalar twins,

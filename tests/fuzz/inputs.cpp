@@ -15,7 +15,7 @@ namespace strata::fuzz {
 
 namespace {
 
-constexpr const char* name = "fuzz.json";
+constexpr const char* input_name = "fuzz.json";
 
 std::string text_of(Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 
@@ -25,8 +25,9 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 void try_profile(Bytes bytes) {
     try {
-        const pipeline::DeviceProfile profile = scenes::parse_profile(text_of(bytes), name);
-        require(scenes::parse_profile(scenes::to_json(profile), name) == profile, "a profile reads back as it was");
+        const pipeline::DeviceProfile profile = scenes::parse_profile(text_of(bytes), input_name);
+        require(scenes::parse_profile(scenes::to_json(profile), input_name) == profile,
+                "a profile reads back as it was");
     } catch (const InputError&) {
     }
 }
@@ -39,8 +40,8 @@ void write_profiles(const std::filesystem::path& folder) {
 
 void try_camera(Bytes bytes) {
     try {
-        const pipeline::View view = scenes::parse_camera(text_of(bytes), name, 1.5);
-        require(scenes::to_json(scenes::parse_camera(scenes::to_json(view), name, 1.5)) == scenes::to_json(view),
+        const pipeline::View view = scenes::parse_camera(text_of(bytes), input_name, 1.5);
+        require(scenes::to_json(scenes::parse_camera(scenes::to_json(view), input_name, 1.5)) == scenes::to_json(view),
                 "a camera reads back as it was");
     } catch (const InputError&) {
     }
@@ -55,7 +56,7 @@ void write_cameras(const std::filesystem::path& folder) {
 
 void try_plan(Bytes bytes) {
     try {
-        const auto cells = tools::parse_plan(text_of(bytes), name, {});
+        const auto cells = tools::parse_plan(text_of(bytes), input_name, {});
         require(!cells.empty(), "a plan has cells");
         for (std::size_t i = 1; i < std::min<std::size_t>(cells.size(), 64); ++i)
             require(std::find(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(i), cells[i]) ==
