@@ -47,7 +47,7 @@ void composite_layer(Region& region, Target layer, Target depth, Target accumula
     state.color[0] = accumulated;
     state.blend[0] = blend_mode::under;
     state.reads[0] = layer;
-    state.layer = {.depth = depth, .surface = region.opaque_depth()};
+    state.layer = {layer, depth, region.opaque_depth()};
     const bool is_traced = trace_layer(state, region.frame());
     static_cast<void>(region.full_screen(state, [is_traced](const FragmentBatch& in, const Loads& own, Outputs& out) {
         out.color[0] = own.color(0);  // alpha 0 where the pixel has no such layer: UNDER leaves it alone

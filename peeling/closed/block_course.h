@@ -60,7 +60,7 @@ class FloatCourse {
     FloatCourse(pipeline::Region& region, FrontAlpha meaning, const BlockRules& rules)
         : region_{region}, rules_{rules}, meaning_{meaning}, front_{region.make_color()} {
         const pipeline::Rgba cleared{0, 0, 0, meaning == FrontAlpha::lets_through ? 1.0f : 0.0f};
-        cleared_ = color_codes(region.frame().color_format, rules_.rounding, cleared);
+        cleared_ = color_codes(region.frame().color_format, rules_.color.rounding, cleared);
         if (meaning == FrontAlpha::covers) back_ = region.make_color();
         region.uncounted([&] {
             region.clear(front_, {.color = cleared});

@@ -11,14 +11,23 @@
 #pragma once
 #include <algorithm>
 
-#include "peeling/closed/block_targets.h"
 #include "peeling/closed/columns.h"
 #include "peeling/programs/programs.h"
 #include "peeling/programs/under.h"
+#include "pipeline/stages/stored_color.h"
 
 namespace strata::peeling {
 
 using BlockCodes = std::array<LaneWords, 4>;  // codes of a target by channel
+
+// What the passes of a block go by.
+struct BlockRules {
+    pipeline::ColorRules color;
+    std::uint32_t most_passes = ~0u;  // that peel, where a frame ends sooner
+};
+
+// Colours from 0 to this one, with alphas from 0 to 1, have no sum beyond the halves, and MAX keeps one of them.
+inline constexpr float most_plain_color = 1024.0f;
 
 inline namespace strict {
 namespace scalar {
@@ -53,7 +62,7 @@ template <class Rules>
 class ColumnPasses {
   public:
     ColumnPasses(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
-        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules} {}
+        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules.color} {}
 
     void both_ends(Codes& front, Codes& back) const {
         std::uint32_t near = 0, far = block_.visible[lane_];
@@ -121,14 +130,14 @@ class ColumnPasses {
     const ColumnBlock& block_;
     std::size_t lane_;
     std::uint32_t most_;
-    Target<Rules> target_;
+    pipeline::scalar::StoredColor<Rules> target_;
 };
 
 // The columns that hold a depth twice, or all of them.
 [[nodiscard]] inline bool peel_both_ends(const ColumnBlock& block, bool tied_alone, BlockCodes& front_codes,
                                          BlockCodes& back_codes, const BlockRules& rules) {
     bool is_plain = true;
-    with_rules(rules, [&]<class Rules>(Rules) {
+    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
             if (tied_alone && block.has_ties[lane] == 0) continue;
             const ColumnPasses<Rules> passes{block, lane, rules};
@@ -136,14 +145,14 @@ class ColumnPasses {
             passes.both_ends(front, back);
             put_column(front, lane, front_codes);
             put_column(back, lane, back_codes);
-            is_plain &= rules.type == pipeline::ChannelType::unorm8 || passes.has_plain_colors();
+            is_plain &= rules.color.type == pipeline::ChannelType::unorm8 || passes.has_plain_colors();
         }
     });
     return is_plain;
 }
 
 inline void peel_front(const ColumnBlock& block, BlockCodes& codes, const BlockRules& rules) {
-    with_rules(rules, [&]<class Rules>(Rules) {
+    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
         for (std::size_t lane = 0; lane < block_lanes; ++lane) {
             Codes front = column(codes, lane);
             ColumnPasses<Rules>{block, lane, rules}.front_alone(front);
@@ -153,8 +162,8 @@ inline void peel_front(const ColumnBlock& block, BlockCodes& codes, const BlockR
 }
 
 template <class Rules>
-void composite(const Target<Rules>& target, const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning,
-               std::uint32_t* words) noexcept {
+void composite(const pipeline::scalar::StoredColor<Rules>& target, const BlockCodes& front, const BlockCodes& back,
+               FrontAlpha meaning, std::uint32_t* words) noexcept {
     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
         const float through = through_front(meaning, target.value(front[3][lane]));
         words[lane] = 0xff000000u;

@@ -6,11 +6,15 @@
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 #include "peeling/closed/block_passes.h"
-#include "peeling/closed/block_targets-inl.h"
+#include "pipeline/stages/stored_color-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace strata::peeling::HWY_NAMESPACE {
 
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace pipeline::HWY_NAMESPACE;
+
+static_assert(block_lanes == most_lanes);
 constexpr std::size_t vector_lanes = hn::MaxLanes(Words{});
 
 struct AllLanes {
@@ -23,11 +27,11 @@ struct AllLanes {
 template <class Rules>
 class Columns {
   public:
-    using Target = VectorTarget<Rules>;
+    using Target = StoredColors<Rules>;
     using Held = typename Target::Held;
 
     HWY_INLINE Columns(const ColumnBlock& block, std::size_t lane, const BlockRules& rules)
-        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules} {
+        : block_{block}, lane_{lane}, most_{rules.most_passes}, target_{rules.color} {
         visible_ = hn::LoadU(Words{}, &block.visible[lane]);
         alive_ = hn::Add(visible_, hn::LoadU(Words{}, &block.hidden[lane]));
         is_full_ = hn::AllTrue(Words{}, hn::Eq(visible_, hn::Set(Words{}, block.height)));
@@ -192,7 +196,7 @@ class Columns {
 
 bool both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, const BlockRules& rules) {
     bool is_plain = true;
-    with_rules(rules, [&]<class Rules>(Rules) HWY_ATTR {
+    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) HWY_ATTR {
         for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
             is_plain &= Columns<Rules>{block, lane, rules}.both_ends(front, back);
     });
@@ -201,7 +205,7 @@ bool both_ends(const ColumnBlock& block, BlockCodes& front, BlockCodes& back, co
 
 void front_alone(const ColumnBlock& block, BlockCodes& front, const BlockRules& rules) {
     const bool has_ties = block.has_any_tie();
-    with_rules(rules, [&]<class Rules>(Rules) HWY_ATTR {
+    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) HWY_ATTR {
         for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes)
             Columns<Rules>{block, lane, rules}.front_alone(front, has_ties);
     });
@@ -210,7 +214,8 @@ void front_alone(const ColumnBlock& block, BlockCodes& front, const BlockRules& 
 // algorithms.md 0.4, with the codes packed to a word a pixel, red lowest.
 template <pipeline::UnormRounding to_code>
 void last_quad_by(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, std::uint32_t* words) {
-    using Target = VectorTarget<Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // nothing is blended here
+    using Target =
+        StoredColors<pipeline::Unorm8Rules<pipeline::BlendRounding::nearest, to_code>>;  // nothing is blended here
     const Words d;
     for (std::size_t lane = 0; lane < block_lanes; lane += vector_lanes) {
         const auto value = [lane](const LaneWords& codes)
@@ -229,7 +234,7 @@ void last_quad_by(const BlockCodes& front, const BlockCodes& back, FrontAlpha me
 void last_quad(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
                std::uint32_t* words) {
     using enum pipeline::UnormRounding;
-    if (rules.rounding.unorm == half_up) return last_quad_by<half_up>(front, back, meaning, words);
+    if (rules.color.rounding.unorm == half_up) return last_quad_by<half_up>(front, back, meaning, words);
     last_quad_by<product_even>(front, back, meaning, words);
 }
 
@@ -271,8 +276,8 @@ bool peel_front(const ColumnBlock& block, BlockCodes& front, BlockCodes&, const 
 void composite_block(const BlockCodes& front, const BlockCodes& back, FrontAlpha meaning, const BlockRules& rules,
                      std::uint32_t* words) {
     if (!simd_is_scalar()) return kernel_of(HWY_DISPATCH_TABLE(last_quad))(front, back, meaning, rules, words);
-    with_rules(rules, [&]<class Rules>(Rules) {
-        scalar::composite(scalar::Target<Rules>{rules}, front, back, meaning, words);
+    pipeline::with_rules(rules.color, [&]<class Rules>(Rules) {
+        scalar::composite(pipeline::scalar::StoredColor<Rules>{rules.color}, front, back, meaning, words);
     });
 }
 

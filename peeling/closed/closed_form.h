@@ -22,12 +22,7 @@ namespace strata::peeling {
 }
 // `others`: how many geometry passes the algorithm makes beside those that peel.
 [[nodiscard]] inline BlockRules block_rules(const pipeline::Frame& frame, int others) {
-    const pipeline::DeviceProfile& profile = *frame.profile;
-    BlockRules rules{.type = pipeline::info(frame.color_format).type,
-                     .rounding = profile.color_rounding(),
-                     .blend = profile.blend_rounding,
-                     .flushes = profile.denormals == pipeline::DenormalRule::flush,
-                     .storage = profile.blend_storage};
+    BlockRules rules{.color = color_rules(*frame.profile, frame.color_format)};
     const int fixed = frame.termination.rule == pipeline::TerminationRule::fixed ? frame.termination.passes : 0;
     for (const int limit : {frame.max_passes, fixed})
         if (limit > 0) rules.most_passes = std::min(rules.most_passes, static_cast<std::uint32_t>(limit - others));
@@ -35,7 +30,7 @@ namespace strata::peeling {
 }
 
 // True if a pixel's fragments alone decide how far it is peeled: to its end or to a limit of passes, and not by ratios; all passes see
-// the same depth of a fragment, the caller keeps no single layers, and colours are of a format that block_targets.h knows. A closed form
+// the same depth of a fragment, the caller keeps no single layers, and colours are of a format that stored_color.h knows. A closed form
 // declines every other frame, and one without memory for fragments.
 [[nodiscard]] inline bool peels_by_columns(const pipeline::Frame& frame) {
     using enum pipeline::TerminationRule;

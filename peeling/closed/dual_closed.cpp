@@ -4,7 +4,7 @@
 // sequences_test.cpp compare the two.
 //
 // Declines   where closed_form.h says, and on what Holds excludes: then the passes run.
-// Holds      for targets where MAX does not ask for an order: of 8 bits, or for plain colours (block_targets.h); for
+// Holds      for targets where MAX does not ask for an order: of 8 bits, or for plain colours (block_passes.h); for
 //            visible depths that MAX keeps as they are: not below the cleared -1, and not flushed as denormals.
 // Ties       a depth is one group (block_passes.h).
 #include <algorithm>

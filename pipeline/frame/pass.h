@@ -39,10 +39,11 @@ struct PassState {
     rasterizer::FragmentNeeds needs;   // what the program looks at; the stages add what they need themselves
     std::span<const PrimitiveRange>
         primitives{};  // of a geometry pass: these alone, ascending and disjoint; empty: all
-    // Of a full-screen pass that blends a layer UNDER or OVER color[0], its only target: where both depth targets hold one code there is no
-    // fragment of the layer, and the source is (0, 0, 0, 0). Nobody looks at what such a pass counts as passed.
+    // Of a full-screen pass that blends a layer UNDER or OVER color[0], its only target. The program hands on the layer's colour. Where both
+    // depth targets hold one code there is no fragment of the layer, and that is (0, 0, 0, 0); elsewhere the program marks it for
+    // the audit, as Side::front under UNDER and Side::back under OVER, with the layer's depth as its key.
     struct SavedLayer {
-        Target depth{}, surface{};
+        Target color{}, depth{}, surface{};
     };
     SavedLayer layer{};
     FragmentSelection selection;       // of a geometry pass: the fragments that decide what it leaves

@@ -72,12 +72,14 @@ Trace& Region::traced() noexcept { return scratch_->trace; }
 
 // Scratch goes back to the pool, so that the next region finds memory that is already there.
 Region::~Region() {
-    if (pool_ != nullptr) pool_->give(std::move(scratch_));
+    if (pool_ == nullptr) return;
+    scratch_->keep_words(storages_);
+    pool_->give(std::move(scratch_));
 }
 
 Target Region::make(Format format, int samples) {
     if (auto lacking = check_samples(profile(), samples)) throw Refused{profile(), *std::move(lacking)};
-    storages_.emplace_back(format, samples, rect_.area());
+    storages_.emplace_back(format, samples, rect_.area(), scratch_->take_words());
     return {static_cast<int>(storages_.size()) - 1};
 }
 

@@ -184,10 +184,15 @@ class Region {
     Drawn draw_everything(const PassState& state, const PreparedDraw& list, P& program);
     template <FragmentProgram P>
     Drawn draw_selected(const PassState& state, P& program);
-    template <FragmentProgram P>
-    Drawn draw_checked(const PassState& state, const PreparedDraw& list, P& program);
+    template <class Quick, class Definition>
+    Drawn checked(const Quick& quick, const Definition& definition);
     template <FragmentProgram P>
     Drawn draw_screen(const PassState& state, P& program);
+    template <FragmentProgram P>
+    Drawn draw_pixels(const PassState& state, P& program);
+    // A quad over a saved layer without its program: region_layer.cpp.
+    [[nodiscard]] bool is_saved_layer(const PassState& state) const;
+    Drawn blend_layer(const PassState& state);
     template <class P>
     void run_program(const PassState& state, P& program, FragmentBatch& batch, Outputs& out);
 
@@ -322,8 +327,6 @@ class Region {
     [[nodiscard]] const Loads& loads() const noexcept;
     [[nodiscard]] FragmentBatch& screen_batch() noexcept;
     bool next_screen_batch(FragmentBatch& batch, std::size_t& next) const;
-    [[nodiscard]] std::optional<std::span<const std::uint32_t>> pixels_of_layer(const PassState& state);
-    bool next_layer_batch(std::span<const std::uint32_t> pixels, FragmentBatch& batch, std::size_t& next) const;
     [[nodiscard]] static std::uint64_t alive_count(const Outputs& out, int count) noexcept;
     [[nodiscard]] IterationRecord& record() noexcept { return books_.record(); }
 

@@ -15,7 +15,9 @@ Drawn Region::draw_list(const PassState& state, const PreparedDraw& list, P& pro
     begin_pass(state, PassKind::geometry);
     if (state.selection.keeps == Keeps::everything || !may_select(state, list))
         return draw_everything(state, list, program);
-    return instruments_.check_selections ? draw_checked(state, list, program) : draw_selected(state, program);
+    return instruments_.check_selections ? checked([&] { return draw_selected(state, program); },
+                                                   [&] { return draw_everything(state, list, program); })
+                                         : draw_selected(state, program);
 }
 
 template <FragmentProgram P>
@@ -59,13 +61,13 @@ Drawn Region::draw_selected(const PassState& state, P& program) {
 
 // Both ways from the same targets. What is kept is the outcome of visiting everything, the definition. A program that
 // writes elsewhere than to its outputs does so twice.
-template <FragmentProgram P>
-Drawn Region::draw_checked(const PassState& state, const PreparedDraw& list, P& program) {
+template <class Quick, class Definition>
+Drawn Region::checked(const Quick& quick, const Definition& definition) {
     Snapshot taken = snapshot();
-    const Count selected_passed = draw_selected(state, program).passed;
-    restore(taken);  // and takes what the selection left
-    const Drawn drawn = draw_everything(state, list, program);
-    require_equal(taken, selected_passed, drawn.passed);
+    const Count quick_passed = quick().passed;
+    restore(taken);  // and takes what the quick way left
+    const Drawn drawn = definition();
+    require_equal(taken, quick_passed, drawn.passed);
     return drawn;
 }
 
@@ -78,14 +80,18 @@ Drawn Region::full_screen(const PassState& state, P&& program) {
 template <FragmentProgram P>
 Drawn Region::draw_screen(const PassState& state, P& program) {
     begin_pass(state, PassKind::full_screen);
+    if (!is_saved_layer(state)) return draw_pixels(state, program);
+    return instruments_.check_selections
+               ? checked([&] { return blend_layer(state); }, [&] { return draw_pixels(state, program); })
+               : blend_layer(state);
+}
+
+template <FragmentProgram P>
+Drawn Region::draw_pixels(const PassState& state, P& program) {
     open_cache(state);
     Drawn drawn;
     FragmentBatch& batch = screen_batch();
-    const auto pixels = pixels_of_layer(state);
-    const auto next_batch = [&](std::size_t& next) {
-        return pixels ? next_layer_batch(*pixels, batch, next) : next_screen_batch(batch, next);
-    };
-    for (std::size_t next = 0; next_batch(next);) {
+    for (std::size_t next = 0; next_screen_batch(batch, next);) {
         Outputs& out = start_batch(batch);
         load(state, batch);
         run_program(state, program, batch, out);

@@ -11,6 +11,7 @@
 #include "pipeline/fragments/sorted_sets.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
+#include "pipeline/region/target_storage.h"
 #include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {
@@ -33,9 +34,21 @@ struct alignas(64) RegionScratch {
     FragmentStore store;
     SortedSets sorted;  // of the store
     SelectedFragments selected;
-    UninitializedVector<std::uint32_t> layer_pixels;  // that a quad visits
     Trace trace;
     Arena arena;
+    std::vector<TargetWords> target_words;  // of targets that are no more
+
+    [[nodiscard]] TargetWords take_words() {
+        if (target_words.empty()) return {};
+        TargetWords words = std::move(target_words.back());
+        target_words.pop_back();
+        return words;
+    }
+    // Where there is no memory for the list, the rest of the words goes.
+    void keep_words(std::vector<TargetStorage>& storages) noexcept try {
+        for (TargetStorage& storage : storages) target_words.push_back(storage.give_memory());
+    } catch (...) {
+    }
 };
 
 // Free sets; as many as regions ever ran at once. A set carries no values from one region to the next.

@@ -9,7 +9,6 @@
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/stages/alpha_test.h"
-#include "pipeline/stages/layer_pixels.h"
 
 namespace strata::pipeline {
 
@@ -79,16 +78,6 @@ bool wants_stored_codes(const PassState& state) {
     const FragmentSelection& s = state.selection;
     return (state.depth.enabled && s.keeps != Keeps::window) || s.keeps == Keeps::last_run ||
            s.behind_value.target.exists() || s.before_value.target.exists();
-}
-
-// Nothing but a blend into one target: zeros pass through it without a trace.
-bool only_blends(const PassState& state) {
-    Blend blend = state.blend[0];
-    blend.write_mask = blend_mode::over.write_mask;
-    const bool is_tested =
-        state.alpha.enabled || state.stencil.enabled || state.depth.enabled || state.depth_unit_count > 0;
-    return (blend == blend_mode::under || blend == blend_mode::over) && !is_tested && !state.ordered_rmw &&
-           std::ranges::count_if(state.color, &Target::exists) == 1;
 }
 
 std::uint64_t pixel_bytes_of(const TargetStorage& s) {
@@ -257,33 +246,6 @@ Drawn Region::book_selected(const PassState& state, const Counters& before, cons
     return drawn;
 }
 
-// The pixels that a pass with a layer visits; without an answer all.
-std::optional<std::span<const Word>> Region::pixels_of_layer(const PassState& state) {
-    if (!state.layer.depth.exists() || extent_ != Extent::tile || frame_.effects != Effects::needed ||
-        instruments_.once_more != Effect::none || pass_samples_ != 1 || !only_blends(state))
-        return {};
-    const Word *const depth = codes_of(state.layer.depth), *const surface = codes_of(state.layer.surface);
-    const TargetStorage& color = at(state.color[0]);
-    const Blended to{color.texels(0), mask(profile().denormals == DenormalRule::flush)};
-    UninitializedVector<Word>& pixels = scratch_->layer_pixels;
-    if (pixels.size() < rect_.area() + spare_words) pixels.resize(rect_.area() + spare_words);
-    const std::size_t found = find_pixels(info(color.format()).type, depth, surface, to, rect_.area(), pixels.data());
-    for (const auto& targets : {std::span<const Target>{state.textures}, std::span<const Target>{state.reads}})
-        for (const Target t : targets)
-            if (t.exists()) record().counters += of_loads(pixel_bytes_of(at(t)), rect_.area() - found);
-    return std::span<const Word>{pixels.data(), found};
-}
-
-// As next_screen_batch, of `pixels`.
-bool Region::next_layer_batch(std::span<const Word> pixels, FragmentBatch& batch, std::size_t& next) const {
-    const std::size_t count = std::min<std::size_t>(pixels.size() - next, batch_capacity);
-    std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(next), count, batch.pixel.begin());
-    find_positions(batch, count);
-    next += count;
-    batch.count = static_cast<int>(count);
-    return count > 0;
-}
-
 Region::Snapshot Region::snapshot() { return {storages_, record().counters, scratch_->trace.size()}; }
 
 void Region::restore(Snapshot& from) {
@@ -294,7 +256,8 @@ void Region::restore(Snapshot& from) {
 
 void Region::require_equal(const Snapshot& selected, Count selected_passed, Count passed) {
     const auto require = [](bool holds, const char* what) {
-        if (!holds) throw std::logic_error(std::string{"pass state: a selection differs from its program in "} + what);
+        if (!holds)
+            throw std::logic_error(std::string{"pass state: what a pass promises differs from its program in "} + what);
     };
     require(selected.counters == record().counters, "what it counts");
     require(selected_passed.own_ == passed.own_, "what it answers a query");

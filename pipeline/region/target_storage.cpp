@@ -42,12 +42,12 @@ Texels layout(Format format) noexcept { return {{}, info(format).channels, bits_
 
 }  // namespace
 
-TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels)
-    : format_{format},
-      samples_{samples},
-      pixels_{pixels},
-      layout_{layout(format)},
-      words_(static_cast<std::size_t>(samples) * words_per_sample()) {}
+TargetStorage::TargetStorage(Format format, int samples, std::size_t pixels, TargetWords memory)
+    : format_{format}, samples_{samples}, pixels_{pixels}, layout_{layout(format)}, words_{std::move(memory)} {
+    const std::size_t size = static_cast<std::size_t>(samples) * words_per_sample();
+    if (words_.capacity() < size) words_.clear();  // nothing of it is copied
+    words_.resize(size);
+}
 
 // Const, because the contents are zeros whoever asks first. A region belongs to one thread, so nobody asks at the same
 // time.

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "pipeline/formats/color_rounding.h"
 #include "pipeline/formats/format.h"
@@ -17,12 +18,16 @@
 
 namespace strata::pipeline {
 
+using TargetWords = UninitializedVector<std::uint32_t>;
+
 // Planes of 32-bit words, row-major: so that any pixels of a batch are fetched and put back by vector, whatever the
 // format. A colour pixel has one word of rgba8, two of rgba16f (r g, b a) and rg32f, four of rgba32f, one of r16f and
 // r32f; depth and stencil codes have a word each. Sample after sample, each as its words' planes. All codes are 0 at first.
 class TargetStorage {
   public:
-    TargetStorage(Format format, int samples, std::size_t pixels);
+    // `memory`: of a target that is no more, if there is one.
+    TargetStorage(Format format, int samples, std::size_t pixels, TargetWords memory = {});
+    [[nodiscard]] TargetWords give_memory() noexcept { return std::move(words_); }
 
     [[nodiscard]] Format format() const noexcept { return format_; }
     [[nodiscard]] int samples() const noexcept { return samples_; }
@@ -72,7 +77,7 @@ class TargetStorage {
     int samples_;
     std::size_t pixels_;
     Texels layout_;  // without a place
-    mutable UninitializedVector<std::uint32_t> words_;
+    mutable TargetWords words_;
     mutable bool has_words_ = false;  // else zeros that nobody has asked for yet: most targets are cleared first
 };
 

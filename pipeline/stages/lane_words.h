@@ -75,11 +75,6 @@ void scatter_codes(const Texels& to, const PixelLanes& at, const Word* alive, un
 DepthResult test_depth(const DepthTest& state, DepthFormat format, Plane plane, const PixelLanes& at, const Word* code,
                        Word* alive) noexcept;
 
-// Appends the numbers from `first` on at which `a` and `b` differ, `count` numbers; how many there are. Both have spare words, and so
-// has what is written.
-[[nodiscard]] std::size_t find_differing(const Word* a, const Word* b, std::size_t first, std::size_t count,
-                                         Word* numbers) noexcept;
-
 // One walk for what weighted averages and sums do to every fragment: each of the texels' fp16 channels plus `source`, as
 // blend_float.h adds with both factors 1, rounded to nearest even, where a lane lives. False, and nothing done, on sets
 // without half conversion: then it is gathered, blended and scattered, which is the definition.
@@ -94,14 +89,6 @@ namespace scalar {
     Word living = 0;
     for (std::size_t i = 0; i < count; ++i) living += alive[i] & 1u;
     return living;
-}
-
-[[nodiscard]] inline std::size_t find_differing(const Word* a, const Word* b, std::size_t first, std::size_t count,
-                                                Word* numbers) noexcept {
-    std::size_t found = 0;
-    for (std::size_t i = first; i < first + count; ++i)
-        if (a[i] != b[i]) numbers[found++] = static_cast<Word>(i);
-    return found;
 }
 
 inline void gather_codes(const Texels& from, const PixelLanes& at, CodeLanes* codes) noexcept {

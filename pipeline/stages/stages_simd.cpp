@@ -93,19 +93,6 @@ std::uint64_t count_set(const Word* alive, std::size_t count) {
     return hn::GetLane(hn::SumOfLanes(d, living));
 }
 
-std::size_t find(const Word* a, const Word* b, std::size_t first, std::size_t count, Word* numbers) {
-    const Words d;
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const WordMask differ =
-            hn::And(first_lanes(count - i), hn::Ne(hn::LoadU(d, a + first + i), hn::LoadU(d, b + first + i)));
-        if (hn::AllFalse(d, differ)) continue;  // most of a picture is empty
-        hn::StoreU(hn::Compress(counting(static_cast<Word>(first + i)), differ), d, numbers + found);
-        found += hn::CountTrue(d, differ);
-    }
-    return found;
-}
-
 // How many channels a word holds, and the mask of the lowest.
 template <int channels, int bits>
 constexpr int per_word = std::min(channels, 32 / bits);
@@ -306,7 +293,6 @@ HWY_AFTER_NAMESPACE();
 namespace strata::pipeline {
 
 STRATA_EXPORT(count_set);
-STRATA_EXPORT(find);
 STRATA_EXPORT(gather);
 STRATA_EXPORT(scatter);
 STRATA_EXPORT(test_plane);
@@ -319,11 +305,6 @@ STRATA_EXPORT(test_stencil);
 std::uint64_t count_lanes(const Word* alive, std::size_t count) noexcept {
     return simd_is_scalar() ? scalar::count_lanes(alive, count)
                             : kernel_of(HWY_DISPATCH_TABLE(count_set))(alive, count);
-}
-
-std::size_t find_differing(const Word* a, const Word* b, std::size_t first, std::size_t count, Word* numbers) noexcept {
-    return simd_is_scalar() ? scalar::find_differing(a, b, first, count, numbers)
-                            : kernel_of(HWY_DISPATCH_TABLE(find))(a, b, first, count, numbers);
 }
 
 void gather_codes(const Texels& from, const PixelLanes& at, CodeLanes* codes) noexcept {

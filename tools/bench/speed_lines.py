@@ -19,12 +19,13 @@ GROUPS = {
         "pipeline/fragments/earliest_index.h", "pipeline/fragments/sort_arrivals.h",
         "pipeline/region/region_select_runs.cpp", "pipeline/fragments/key_windows.h",
         "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp",
-        "pipeline/stages/layer_pixels.h"],
+        "pipeline/region/region_layer.cpp"],
     "rows: passes without batches": [
         "rasterizer/walk/*rows*", "rasterizer/walk/row_walk*", "rasterizer/walk/tiny_walk*", "pipeline/stages/tiny_colors*",
         "pipeline/region/region_rows.cpp", "pipeline/stages/sum_rows*"],
     "words: targets without gathers": [
-        "pipeline/formats/image_words*", "pipeline/stages/lane_words.h", "peeling/programs/average_words*"],
+        "pipeline/formats/image_words*", "pipeline/stages/lane_words.h", "pipeline/stages/layer_blend*", "pipeline/stages/stored_color*",
+        "peeling/programs/average_words*"],
 }
 
 

@@ -1,5 +1,4 @@
-// Model: the passes themselves, one depth after the other, fragment by fragment in binary64 rounded to binary32 after every operation (a
-// product or sum of binary32 that is rounded twice is rounded once: 53 >= 2 * 24 + 2), stored by rules of the test's own.
+// Model: the passes themselves, one depth after the other, fragment by fragment, on the colour targets of color_machine.h.
 #include "peeling/closed/block_passes.h"
 
 #include <bit>
@@ -9,121 +8,33 @@
 #include <vector>
 
 #include "rasterizer/base/simd.h"
+#include "tests/support/color_machine.h"
 #include "tests/support/random_numbers.h"
 
 // A namespace of its own: names of the model are short.
 namespace strata::peeling::block_passes_model {
 namespace {
 
-using pipeline::BlendRounding;
-using pipeline::BlendStorage;
 using pipeline::ChannelType;
-using pipeline::HalfRounding;
-using pipeline::UnormRounding;
 using strata::testing::Random;
 using strata::testing::random_channel;
 using strata::testing::random_int;
-
-// Every rule that a block is peeled by.
-std::vector<BlockRules> all_rules() {
-    std::vector<BlockRules> rules;
-    for (const auto by : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product})
-        for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
-            rules.push_back({ChannelType::unorm8, {HalfRounding::nearest_even, unorm}, by, true});
-    for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
-        rules.push_back({ChannelType::unorm8,
-                         {HalfRounding::nearest_even, unorm},
-                         BlendRounding::nearest,
-                         true,
-                         BlendStorage::cached_tiles});
-    for (const bool flushes : {false, true}) {
-        rules.push_back({ChannelType::single, HalfRounding::nearest_even, BlendRounding::nearest, flushes});
-        for (const auto half : {HalfRounding::nearest_even, HalfRounding::toward_zero})
-            rules.push_back({ChannelType::half, half, BlendRounding::nearest, flushes});
-    }
-    return rules;
-}
-
-float rounded(double exact) { return static_cast<float>(exact); }
-float product(float a, float b) { return rounded(double{a} * b); }
-float sum(float a, float b) { return rounded(double{a} + b); }
-
-// The half nearest to x, or the next one toward zero: units of 2^(exponent - 10), of 2^-24 for small ones.
-float model_half(float x, HalfRounding rounding) {
-    if (!std::isfinite(x) || x == 0) return x;
-    const int unit = std::max(std::ilogb(x), -14) - 10;
-    const double units = std::ldexp(double{x}, -unit);
-    const double whole = rounding == HalfRounding::nearest_even ? std::nearbyint(units) : std::trunc(units);
-    const double half = std::copysign(std::ldexp(whole, unit), x);
-    if (std::fabs(half) < 65536) return rounded(half);
-    return std::copysign(rounding == HalfRounding::nearest_even ? std::numeric_limits<float>::infinity() : 65504.0f, x);
-}
-
-// A target of the machine.
-struct Machine {
-    BlockRules rules;
-
-    [[nodiscard]] bool is_unorm8() const { return rules.type == ChannelType::unorm8; }
-    // Codes are blended as numbers, and not as the values that they stand for.
-    [[nodiscard]] bool blends_codes() const { return is_unorm8() && rules.storage == BlendStorage::target; }
-    [[nodiscard]] float flushed(float x) const {
-        return rules.flushes && std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0f, x) : x;
-    }
-    [[nodiscard]] float read(std::uint32_t code) const {
-        if (rules.type == ChannelType::single) return std::bit_cast<float>(code);
-        if (rules.type == ChannelType::half) return pipeline::half_to_float(static_cast<std::uint16_t>(code));
-        if (rules.rounding.unorm == UnormRounding::half_up) return rounded(code / 255.0);
-        return product(static_cast<float>(code), rounded(1.0 / 255.0));
-    }
-    [[nodiscard]] std::uint32_t write(float x) const {
-        if (rules.type == ChannelType::single) return std::bit_cast<std::uint32_t>(x);
-        if (rules.type == ChannelType::half && std::isnan(x)) return pipeline::to_half<HalfRounding::nearest_even>(x);
-        if (rules.type == ChannelType::half)
-            return pipeline::to_half<HalfRounding::toward_zero>(model_half(x, rules.rounding.half));  // a half already
-        const float clamped = std::isnan(x) ? 0.0f : std::clamp(x, 0.0f, 1.0f);
-        if (rules.rounding.unorm == UnormRounding::half_up)
-            return static_cast<std::uint32_t>(std::floor(double{clamped} * 255 + 0.5));
-        return static_cast<std::uint32_t>(std::nearbyint(product(clamped, 255)));
-    }
-    [[nodiscard]] std::uint32_t max(float x, std::uint32_t code) const {
-        return is_unorm8() ? std::max(write(x), code) : write(std::max(flushed(x), read(code)));
-    }
-
-    // s F + d G, the factors as values or codes: a float of the source that is to be stored, `rest` for 1 - alpha.
-    [[nodiscard]] std::uint32_t integers(std::uint32_t s, std::uint32_t F, std::uint32_t d, std::uint32_t G) const {
-        const auto part = [](std::uint32_t ab) { return (ab + ab / 256 + 128) / 256; };
-        if (rules.blend == BlendRounding::each_product) return std::min(part(s * F) + part(d * G), 255u);
-        const double t = std::min(s * F + d * G, 65025u) / 255.0;
-        return static_cast<std::uint32_t>(std::floor(rules.blend == BlendRounding::nearest ? t + 0.5 : t));
-    }
-    [[nodiscard]] std::uint32_t floats(float s, float F, float d, float G) const {
-        const float result = flushed(sum(flushed(product(s, F)), flushed(product(d, G))));
-        return write(std::isnan(result) ? std::bit_cast<float>(0x7fffffffu) : result);
-    }
-    [[nodiscard]] std::uint32_t over(std::uint32_t s, std::uint32_t alpha, std::uint32_t d) const {
-        if (blends_codes()) return integers(s, alpha, d, 255 - alpha);
-        const float a = flushed(read(alpha));
-        return floats(flushed(read(s)), a, flushed(read(d)), flushed(sum(1, -a)));
-    }
-    [[nodiscard]] std::uint32_t under(std::uint32_t s, std::uint32_t d, std::uint32_t transmittance) const {
-        if (blends_codes()) return integers(s, transmittance, d, 255);
-        return floats(flushed(read(s)), flushed(read(transmittance)), flushed(read(d)), 1);
-    }
-    [[nodiscard]] std::uint32_t through(std::uint32_t alpha, std::uint32_t transmittance) const {
-        if (blends_codes()) return integers(alpha, 0, transmittance, 255 - alpha);
-        const float a = flushed(read(alpha));
-        return floats(a, 0, flushed(read(transmittance)), flushed(sum(1, -a)));
-    }
-};
+using namespace strata::testing::color_model;
 
 using scalar::Codes;
 using scalar::Color;
+
+std::vector<BlockRules> all_rules() {
+    std::vector<BlockRules> rules;
+    for (const pipeline::ColorRules& color : all_color_rules()) rules.push_back({color});
+    return rules;
+}
 
 enum class Colors { plain, any };
 
 float random_value(Random& random, const BlockRules& rules, Colors colors) {
     const float channel = random_channel(random);
-    if (rules.type == ChannelType::unorm8 && colors == Colors::plain) return channel;
+    if (rules.color.type == ChannelType::unorm8 && colors == Colors::plain) return channel;
     const int kind = random_int(random, 0, colors == Colors::plain ? 15 : 25);
     const int exponent = random_int(random, -140, 10);
     if (kind < 11) return channel;
@@ -179,9 +90,10 @@ struct PassScene {
         return all;
     }
 
-    void peel_dual(const Machine& machine, std::size_t lane, Codes& front, Codes& back) const {
+    void peel_dual(const BlockRules& rules, std::size_t lane, Codes& front, Codes& back) const {
+        const ColorMachine machine{rules.color};
         const auto all = depths(lane);
-        for (std::size_t near = 0, far = all.size(); near < far && near < machine.rules.most_passes; ++near) {
+        for (std::size_t near = 0, far = all.size(); near < far && near < rules.most_passes; ++near) {
             const std::size_t others = block.visible[lane] + block.hidden[lane] - all[near].size();
             const Codes before = front;
             if (others == 0) front = {};
@@ -201,10 +113,11 @@ struct PassScene {
         }
     }
 
-    void peel_front_to_back(const Machine& machine, std::size_t lane, Codes& front) const {
+    void peel_front_to_back(const BlockRules& rules, std::size_t lane, Codes& front) const {
+        const ColorMachine machine{rules.color};
         auto all = depths(lane);
         all.push_back({Color{}});
-        if (all.size() > machine.rules.most_passes) all.resize(machine.rules.most_passes);
+        if (all.size() > rules.most_passes) all.resize(rules.most_passes);
         for (const auto& depth : all) {
             const Color& c = depth.front();
             for (std::size_t i = 0; i < 3; ++i)
@@ -213,13 +126,6 @@ struct PassScene {
         }
     }
 };
-
-std::uint32_t any_code(Random& random, const BlockRules& rules) {
-    if (rules.type == ChannelType::unorm8) return static_cast<std::uint32_t>(random_int(random, 0, 255));
-    const std::uint32_t bits = random() & (rules.type == ChannelType::half ? 0xffffu : 0xffffffffu);
-    const std::uint32_t plain = Machine{rules}.write(random_channel(random));
-    return random_int(random, 0, 1) == 0 ? bits : plain;
-}
 
 // None, or one about where the deepest column ends.
 std::uint32_t any_limit(Random& random, std::uint32_t depth) {
@@ -241,10 +147,10 @@ TEST_CASE(
                 const PassScene scene{random, depth, depth % 3 == 0, ties, rules, Colors::plain};
                 BlockCodes opaque{}, front{}, back{};
                 for (auto& channel : opaque)
-                    for (auto& code : channel) code = any_code(random, rules);
+                    for (auto& code : channel) code = any_stored_code(random, rules.color);
                 for (std::size_t lane = 0; lane < block_lanes; ++lane) {
                     Codes f{}, b = scalar::column(opaque, lane);
-                    scene.peel_dual({rules}, lane, f, b);
+                    scene.peel_dual(rules, lane, f, b);
                     scalar::put_column(f, lane, front);
                     scalar::put_column(b, lane, back);
                     pixels += 1;
@@ -256,9 +162,9 @@ TEST_CASE(
                     wrong += f == front && b == back ? 0 : 1;
                 }
             }
-        INFO("type " << static_cast<int>(rules.type) << ", half " << static_cast<int>(rules.rounding.half) << ", unorm "
-                     << static_cast<int>(rules.rounding.unorm) << ", blend " << static_cast<int>(rules.blend)
-                     << ", flushes " << rules.flushes);
+        INFO("type " << static_cast<int>(rules.color.type) << ", half " << static_cast<int>(rules.color.rounding.half)
+                     << ", unorm " << static_cast<int>(rules.color.rounding.unorm) << ", blend "
+                     << static_cast<int>(rules.color.blend) << ", flushes " << rules.color.flushes);
         CHECK(pixels > 0);
         CHECK(refused == 0);
         CHECK(wrong == 0);
@@ -276,10 +182,10 @@ TEST_CASE(
                     rules.most_passes = any_limit(random, depth);
                     const PassScene scene{random, depth, depth % 3 == 0, ties, rules, colors};
                     BlockCodes cleared{}, front{};
-                    cleared[3].fill(Machine{rules}.write(1.0f));
+                    cleared[3].fill(ColorMachine{rules.color}.write(1.0f));
                     for (std::size_t lane = 0; lane < block_lanes; ++lane) {
                         Codes f = scalar::column(cleared, lane);
-                        scene.peel_front_to_back({rules}, lane, f);
+                        scene.peel_front_to_back(rules, lane, f);
                         scalar::put_column(f, lane, front);
                     }
                     for (const Simd simd : available_simd()) {
@@ -288,9 +194,9 @@ TEST_CASE(
                         wrong += peel_front(scene.block, f, b, rules) && f == front && b == BlockCodes{} ? 0 : 1;
                     }
                 }
-        INFO("type " << static_cast<int>(rules.type) << ", half " << static_cast<int>(rules.rounding.half) << ", unorm "
-                     << static_cast<int>(rules.rounding.unorm) << ", blend " << static_cast<int>(rules.blend)
-                     << ", flushes " << rules.flushes);
+        INFO("type " << static_cast<int>(rules.color.type) << ", half " << static_cast<int>(rules.color.rounding.half)
+                     << ", unorm " << static_cast<int>(rules.color.rounding.unorm) << ", blend "
+                     << static_cast<int>(rules.color.blend) << ", flushes " << rules.color.flushes);
         CHECK(wrong == 0);
     }
 }
@@ -312,7 +218,7 @@ TEST_CASE("colours that MAX does not order are told on float targets, wherever t
                             const SimdScope kernels{simd};
                             BlockCodes f{}, b{};
                             const bool is_plain = peel_both_ends(scene.block, f, b, rules);
-                            wrong += is_plain == (rules.type == ChannelType::unorm8) ? 0 : 1;
+                            wrong += is_plain == (rules.color.type == ChannelType::unorm8) ? 0 : 1;
                         }
                     }
     CHECK(wrong == 0);
@@ -322,8 +228,8 @@ TEST_CASE("the last quad puts a front over what is behind it, and leaves every c
     Random random{95};
     std::uint64_t wrong = 0;
     for (const BlockRules& rules : all_rules()) {
-        if (rules.type != ChannelType::unorm8) continue;
-        const Machine machine{rules};
+        if (rules.color.type != ChannelType::unorm8) continue;
+        const ColorMachine machine{rules.color};
         for (int trial = 0; trial < 64; ++trial)
             for (const FrontAlpha meaning : {FrontAlpha::covers, FrontAlpha::lets_through}) {
                 const bool is_empty = trial < 16;

@@ -123,28 +123,6 @@ TEST_CASE("gather and scatter move the same codes on every instruction set, what
     });
 }
 
-TEST_CASE("the numbers at which two planes differ are found alike on every instruction set") {
-    for_each_set([] {
-        Random random{505};
-        Tally tally;
-        for (int round = 0; round < 2000; ++round) {
-            std::array<Word, 512 + spare_words> a{}, b{}, wanted{}, got{};
-            const std::uint32_t part = 1 + below(random, 8);
-            for (std::size_t i = 0; i < a.size(); ++i) {
-                a[i] = any_word(random);
-                b[i] = one_in(random, part) ? any_word(random) : a[i];
-            }
-            const std::size_t first = below(random, 256), count = below(random, 257);
-            const std::size_t expected = scalar::find_differing(a.data(), b.data(), first, count, wanted.data());
-            const std::size_t found = find_differing(a.data(), b.data(), first, count, got.data());
-            const bool same = expected == found && std::equal(wanted.data(), wanted.data() + found, got.data());
-            tally.expect(same, [&] { return fmt::format("round {}: {} numbers from {} on", round, count, first); });
-        }
-        INFO("first wrong: " << tally.first());
-        CHECK(tally.wrong() == 0);
-    });
-}
-
 TEST_CASE("the depth test in a plane kills, counts and writes alike on every instruction set", "[slow]") {
     for_each_set([] {
         Random random{502};

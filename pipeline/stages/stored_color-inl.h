@@ -1,30 +1,29 @@
-// peeling/closed/block_targets-inl.h - block_targets.h a vector of columns at a time. For *_simd.cpp alone: Highway compiles it once a set,
+// pipeline/stages/stored_color-inl.h - stored_color.h a vector of pixels at a time. For *_simd.cpp alone: Highway compiles it once a set,
 // wherever foreach_target.h asks (rasterizer/reference/kernels.md 3).
 //
-// Rule     While the passes of a block run, an 8-bit channel is held as its code, a float as what blending makes of its
-//          value: without denormals where the device flushes them.
+// Rule     Between blends an 8-bit channel is held as its code, a float as what blending makes of its value: without
+//          denormals where the device flushes them.
 // Numbers  Halves are multiples of 2^-24 and 1 - x of a half is 0 or at least 2^-11, so that no product or sum of them is
 //          a denormal of binary32, which flushing would make 0.
-// Tests    tests/peeling/closed/block_passes_test.cpp
+// Tests    tests/peeling/closed/block_passes_test.cpp, tests/pipeline/stages/layer_blend_test.cpp
 #include "hwy/highway.h"
-#include "peeling/closed/block_targets.h"
-#include "peeling/closed/columns.h"
 #include "pipeline/formats/half-inl.h"
 #include "pipeline/formats/unorm8-inl.h"
+#include "pipeline/stages/stored_color.h"
 
-#if defined(STRATA_PEELING_BLOCK_TARGETS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef STRATA_PEELING_BLOCK_TARGETS_INL_H
-#undef STRATA_PEELING_BLOCK_TARGETS_INL_H
+#if defined(STRATA_PIPELINE_STORED_COLOR_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRATA_PIPELINE_STORED_COLOR_INL_H
+#undef STRATA_PIPELINE_STORED_COLOR_INL_H
 #else
-#define STRATA_PEELING_BLOCK_TARGETS_INL_H
+#define STRATA_PIPELINE_STORED_COLOR_INL_H
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace strata::peeling::HWY_NAMESPACE {
+namespace strata::pipeline::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-namespace formats = pipeline::HWY_NAMESPACE;
 
-using Words = hn::CappedTag<std::uint32_t, block_lanes>;
+inline constexpr std::size_t most_lanes = 16;  // of a block of columns
+using Words = hn::CappedTag<std::uint32_t, most_lanes>;
 using Signed = hn::RebindToSigned<Words>;
 using Floats = hn::RebindToFloat<Words>;
 
@@ -47,30 +46,30 @@ HWY_INLINE FloatVec greater(FloatVec a, FloatVec b) {
 }
 
 template <class Rules>
-class VectorTarget;
+class StoredColors;
 
-template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code, pipeline::BlendStorage storage>
-class VectorTarget<Unorm8Rules<blend, to_code, storage>> {
+template <BlendRounding blend, UnormRounding to_code, BlendStorage storage>
+class StoredColors<Unorm8Rules<blend, to_code, storage>> {
   public:
     using Held = WordVec;
     static constexpr bool is_float = false;
 
-    HWY_INLINE explicit VectorTarget(const BlockRules&) {}
+    HWY_INLINE explicit StoredColors(const ColorRules&) {}
     HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, blends_values ? 1.0f : 255.0f); }
     HWY_INLINE static Held held(WordVec codes) { return codes; }
     HWY_INLINE static WordVec codes(Held x) { return x; }
     HWY_INLINE static FloatVec value(Held x) {
-        if constexpr (to_code == pipeline::UnormRounding::half_up) return formats::unorm8_values(Words{}, x);
+        if constexpr (to_code == UnormRounding::half_up) return unorm8_values(Words{}, x);
         return hn::Mul(number(x), hn::Set(Floats{}, 1.0f / 255.0f));
     }
-    HWY_INLINE static Held stored(FloatVec x) { return formats::unorm8_codes<to_code>(Words{}, x); }
+    HWY_INLINE static Held stored(FloatVec x) { return unorm8_codes<to_code>(Words{}, x); }
     HWY_INLINE static FloatVec operand(Held x) { return blends_values ? value(x) : number(x); }
     HWY_INLINE static FloatVec rest(FloatVec x) { return hn::Sub(one(), x); }
 
     // Unorm8Arithmetic::combine with BlendEquation::add. s F + d G is at most 2 * 255^2, exact in binary32, and is cut to
     // 255^2; the shifts divide by 255 and round as fragment-stages.md 8.2 says.
     HWY_INLINE static Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) {
-        using enum pipeline::BlendRounding;
+        using enum BlendRounding;
         const Signed di;
         const FloatVec source = hn::Mul(s, s_factor), destination = hn::Mul(d, d_factor);
         if constexpr (blends_values) return stored(hn::Add(source, destination));
@@ -82,7 +81,7 @@ class VectorTarget<Unorm8Rules<blend, to_code, storage>> {
     }
 
   private:
-    static constexpr bool blends_values = storage == pipeline::BlendStorage::cached_tiles;
+    static constexpr bool blends_values = storage == BlendStorage::cached_tiles;
 
     // Codes are at most 255: exact in binary32, and positive as signed words.
     HWY_INLINE static FloatVec number(Held x) { return hn::ConvertTo(Floats{}, hn::BitCast(Signed{}, x)); }
@@ -94,21 +93,21 @@ class VectorTarget<Unorm8Rules<blend, to_code, storage>> {
     }
 };
 
-template <pipeline::ChannelType type, pipeline::HalfRounding half>
-class VectorTarget<FloatRules<type, half>> {
+template <ChannelType type, HalfRounding half>
+class StoredColors<FloatRules<type, half>> {
   public:
     using Held = FloatVec;
     static constexpr bool is_float = true;
 
-    HWY_INLINE explicit VectorTarget(const BlockRules& rules)
+    HWY_INLINE explicit StoredColors(const ColorRules& rules)
         : kept_of_small_{hn::Set(Words{}, rules.flushes ? 0x80000000u : ~0u)} {}
     HWY_INLINE static FloatVec one() { return hn::Set(Floats{}, 1.0f); }
     HWY_INLINE Held held(WordVec codes) const {
-        if constexpr (is_half) return formats::values_of_halves(Words{}, codes);
+        if constexpr (is_half) return values_of_halves(Words{}, codes);
         return flushed(hn::BitCast(Floats{}, codes));
     }
     HWY_INLINE static WordVec codes(Held x) {
-        if constexpr (is_half) return formats::codes_of_halves(Words{}, x);
+        if constexpr (is_half) return codes_of_halves(Words{}, x);
         return hn::BitCast(Words{}, x);
     }
     HWY_INLINE static FloatVec value(Held x) { return x; }
@@ -117,11 +116,11 @@ class VectorTarget<FloatRules<type, half>> {
     HWY_INLINE FloatVec rest(FloatVec x) const { return flushed(hn::Sub(one(), x)); }
     HWY_INLINE Held add(FloatVec s, FloatVec s_factor, FloatVec d, FloatVec d_factor) const {
         const FloatVec sum = hn::Add(flushed(hn::Mul(s, s_factor)), flushed(hn::Mul(d, d_factor)));
-        return rounded(formats::canonical(Words{}, flushed(sum)));
+        return rounded(canonical(Words{}, flushed(sum)));
     }
 
   private:
-    static constexpr bool is_half = type == pipeline::ChannelType::half;
+    static constexpr bool is_half = type == ChannelType::half;
 
     HWY_INLINE FloatVec flushed(FloatVec x) const {
         if constexpr (is_half) return x;
@@ -130,13 +129,13 @@ class VectorTarget<FloatRules<type, half>> {
         return hn::BitCast(Floats{}, hn::IfThenElse(is_small, hn::And(bits, kept_of_small_), bits));
     }
     HWY_INLINE static FloatVec rounded(FloatVec x) {
-        if constexpr (is_half) return formats::rounded_to_half<half>(Words{}, x);
+        if constexpr (is_half) return rounded_to_half<half>(Words{}, x);
         return x;
     }
 
     WordVec kept_of_small_;
 };
 
-}  // namespace strata::peeling::HWY_NAMESPACE
+}  // namespace strata::pipeline::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -1,11 +1,12 @@
-// peeling/closed/block_targets.h - how a colour target keeps what the passes of a block store: the scalar twins of block_targets-inl.h.
+// pipeline/stages/stored_color.h - how a colour target keeps and blends a channel, for passes that blend no pixel twice: the scalar twins
+// of stored_color-inl.h.
 //
 // Rule     A channel is kept as a code. A program reads its value, and what it writes is converted once. A blend takes
 //          operands, codes of 8 bits as whole numbers and floats without denormals, and rounds its sum once, or each
-//          product, as blend_unorm8.h and blend_float.h say. No pass blends a pixel twice: of BlendStorage::cached_tiles
-//          there remains that codes of 8 bits are blended as the values that they stand for, in binary32.
+//          product, as blend_unorm8.h and blend_float.h say. Of BlendStorage::cached_tiles there remains that codes of
+//          8 bits are blended as the values that they stand for, in binary32.
 // Numbers  Codes of values that are not negative order as the values do: MAX of a plain colour is that of its code.
-// Tests    tests/peeling/closed/block_passes_test.cpp
+// Tests    tests/peeling/closed/block_passes_test.cpp, tests/pipeline/stages/layer_blend_test.cpp
 #pragma once
 #include <bit>
 #include <cstdint>
@@ -17,32 +18,35 @@
 #include "pipeline/stages/blend_float.h"
 #include "pipeline/stages/blend_unorm8.h"
 
-namespace strata::peeling {
+namespace strata::pipeline {
 
-// What the passes of a block go by.
-struct BlockRules {
-    pipeline::ChannelType type = pipeline::ChannelType::unorm8;
-    pipeline::ColorRounding rounding = pipeline::HalfRounding::nearest_even;
-    pipeline::BlendRounding blend = pipeline::BlendRounding::nearest;
+// What storing and blending a colour go by.
+struct ColorRules {
+    ChannelType type = ChannelType::unorm8;
+    ColorRounding rounding = HalfRounding::nearest_even;
+    BlendRounding blend = BlendRounding::nearest;
     bool flushes = true;  // denormals, in blends of floats
-    pipeline::BlendStorage storage = pipeline::BlendStorage::target;
-    std::uint32_t most_passes = ~0u;  // that peel, where a frame ends sooner
+    BlendStorage storage = BlendStorage::target;
 };
 
-// Colours from 0 to this one, with alphas from 0 to 1, have no sum beyond the halves, and MAX keeps one of them.
-inline constexpr float most_plain_color = 1024.0f;
+[[nodiscard]] inline ColorRules color_rules(const DeviceProfile& profile, Format format) {
+    return {.type = info(format).type,
+            .rounding = profile.color_rounding(),
+            .blend = profile.blend_rounding,
+            .flushes = profile.denormals == DenormalRule::flush,
+            .storage = profile.blend_storage};
+}
 
 // The rules as types, for loops that are compiled for them.
-template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code,
-          pipeline::BlendStorage storage = pipeline::BlendStorage::target>
+template <BlendRounding blend, UnormRounding to_code, BlendStorage storage = BlendStorage::target>
 struct Unorm8Rules {};
-template <pipeline::ChannelType type, pipeline::HalfRounding half>
+template <ChannelType type, HalfRounding half>
 struct FloatRules {};
 
-template <pipeline::UnormRounding to_code, class Body>
-void with_blend(const BlockRules& rules, const Body& body) {
-    using enum pipeline::BlendRounding;
-    using enum pipeline::BlendStorage;
+template <UnormRounding to_code, class Body>
+void with_blend(const ColorRules& rules, const Body& body) {
+    using enum BlendRounding;
+    using enum BlendStorage;
     if (rules.storage == cached_tiles) return body(Unorm8Rules<nearest, to_code, cached_tiles>{});
     switch (rules.blend) {
         case nearest: return body(Unorm8Rules<nearest, to_code>{});
@@ -53,10 +57,10 @@ void with_blend(const BlockRules& rules, const Body& body) {
 
 // Calls body with the type of the rules.
 template <class Body>
-void with_rules(const BlockRules& rules, const Body& body) {
-    using enum pipeline::ChannelType;
-    using enum pipeline::HalfRounding;
-    using enum pipeline::UnormRounding;
+void with_rules(const ColorRules& rules, const Body& body) {
+    using enum ChannelType;
+    using enum HalfRounding;
+    using enum UnormRounding;
     if (rules.type == single) return body(FloatRules<single, nearest_even>{});
     if (rules.type == half && rules.rounding.half == nearest_even) return body(FloatRules<half, nearest_even>{});
     if (rules.type == half) return body(FloatRules<half, toward_zero>{});
@@ -67,25 +71,25 @@ void with_rules(const BlockRules& rules, const Body& body) {
 inline namespace strict {
 
 // The value of an 8-bit code, as programs read it.
-template <pipeline::UnormRounding to_code>
+template <UnormRounding to_code>
 [[nodiscard]] constexpr float code_value(std::uint32_t code) noexcept {
-    return to_code == pipeline::UnormRounding::half_up ? pipeline::unorm8_value(code) : pipeline::unorm8_product(code);
+    return to_code == UnormRounding::half_up ? unorm8_value(code) : unorm8_product(code);
 }
 
 namespace scalar {
 
 template <class Rules>
-struct Target;
+struct StoredColor;
 
 // Values of codes are multiples of about 2^-8: no product of them is a denormal.
-template <pipeline::BlendRounding blend, pipeline::UnormRounding to_code, pipeline::BlendStorage storage>
-struct Target<Unorm8Rules<blend, to_code, storage>> {
-    static constexpr bool blends_values = storage == pipeline::BlendStorage::cached_tiles;
+template <BlendRounding blend, UnormRounding to_code, BlendStorage storage>
+struct StoredColor<Unorm8Rules<blend, to_code, storage>> {
+    static constexpr bool blends_values = storage == BlendStorage::cached_tiles;
     static constexpr float one = blends_values ? 1.0f : 255.0f;
 
-    explicit Target(const BlockRules&) noexcept {}
+    explicit StoredColor(const ColorRules&) noexcept {}
     [[nodiscard]] static float value(std::uint32_t code) noexcept { return code_value<to_code>(code); }
-    [[nodiscard]] static std::uint32_t code(float x) noexcept { return pipeline::to_unorm8<to_code>(x); }
+    [[nodiscard]] static std::uint32_t code(float x) noexcept { return to_unorm8<to_code>(x); }
     // What MAX leaves of x, above 0.
     [[nodiscard]] static std::uint32_t max_code(float x) noexcept { return code(x); }
     [[nodiscard]] static float operand(std::uint32_t code) noexcept {
@@ -97,38 +101,37 @@ struct Target<Unorm8Rules<blend, to_code, storage>> {
             const float source = s * s_factor, destination = d * d_factor;
             return code(source + destination);
         }
-        using Arithmetic = pipeline::Unorm8Arithmetic<blend>;
-        return static_cast<std::uint32_t>(
-            Arithmetic::template combine<pipeline::BlendEquation::add>(s, s_factor, d, d_factor));
+        using Arithmetic = Unorm8Arithmetic<blend>;
+        return static_cast<std::uint32_t>(Arithmetic::template combine<BlendEquation::add>(s, s_factor, d, d_factor));
     }
 };
 
-template <pipeline::ChannelType type, pipeline::HalfRounding half>
-struct Target<FloatRules<type, half>> {
+template <ChannelType type, HalfRounding half>
+struct StoredColor<FloatRules<type, half>> {
     static constexpr float one = 1.0f;
     bool flushes;
 
-    explicit Target(const BlockRules& rules) noexcept : flushes{rules.flushes} {}
+    explicit StoredColor(const ColorRules& rules) noexcept : flushes{rules.flushes} {}
     [[nodiscard]] static float value(std::uint32_t code) noexcept {
-        if constexpr (type == pipeline::ChannelType::single) return std::bit_cast<float>(code);
-        return pipeline::half_to_float(static_cast<std::uint16_t>(code));
+        if constexpr (type == ChannelType::single) return std::bit_cast<float>(code);
+        return half_to_float(static_cast<std::uint16_t>(code));
     }
     [[nodiscard]] static std::uint32_t code(float x) noexcept {
-        if constexpr (type == pipeline::ChannelType::single) return std::bit_cast<std::uint32_t>(x);
-        return pipeline::to_half<half>(x);
+        if constexpr (type == ChannelType::single) return std::bit_cast<std::uint32_t>(x);
+        return to_half<half>(x);
     }
     [[nodiscard]] float flushed(float x) const noexcept {
-        return flushes ? pipeline::flushed<pipeline::DenormalRule::flush>(x) : x;
+        return flushes ? strict::flushed<DenormalRule::flush>(x) : x;
     }
     [[nodiscard]] std::uint32_t max_code(float x) const noexcept { return code(flushed(x)); }
     [[nodiscard]] float operand(std::uint32_t code) const noexcept { return flushed(value(code)); }
     [[nodiscard]] float rest(float x) const noexcept { return flushed(one - x); }
     [[nodiscard]] std::uint32_t add(float s, float s_factor, float d, float d_factor) const noexcept {
         const float sum = flushed(s * s_factor) + flushed(d * d_factor);
-        return code(pipeline::canonical(flushed(sum)));
+        return code(canonical(flushed(sum)));
     }
 };
 
 }  // namespace scalar
 }  // namespace strict
-}  // namespace strata::peeling
+}  // namespace strata::pipeline

@@ -1,0 +1,122 @@
+// tests/support/color_machine.h - a colour target of the machine as a model: one channel at a time, in binary64 rounded to binary32 after
+// every operation (a product or sum of binary32 that is rounded twice is rounded once: 53 >= 2 * 24 + 2), stored by rules of its own.
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "pipeline/stages/stored_color.h"
+#include "tests/support/random_numbers.h"
+
+// A namespace of its own: names of the model are short.
+namespace strata::testing::color_model {
+
+using pipeline::BlendRounding;
+using pipeline::BlendStorage;
+using pipeline::ChannelType;
+using pipeline::HalfRounding;
+using pipeline::UnormRounding;
+
+// Every rule that a colour is stored and blended by.
+inline std::vector<pipeline::ColorRules> all_color_rules() {
+    std::vector<pipeline::ColorRules> rules;
+    for (const auto by : {BlendRounding::nearest, BlendRounding::truncate, BlendRounding::each_product})
+        for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
+            rules.push_back({ChannelType::unorm8, {HalfRounding::nearest_even, unorm}, by, true});
+    for (const auto unorm : {UnormRounding::half_up, UnormRounding::product_even})
+        rules.push_back({ChannelType::unorm8,
+                         {HalfRounding::nearest_even, unorm},
+                         BlendRounding::nearest,
+                         true,
+                         BlendStorage::cached_tiles});
+    for (const bool flushes : {false, true}) {
+        rules.push_back({ChannelType::single, HalfRounding::nearest_even, BlendRounding::nearest, flushes});
+        for (const auto half : {HalfRounding::nearest_even, HalfRounding::toward_zero})
+            rules.push_back({ChannelType::half, half, BlendRounding::nearest, flushes});
+    }
+    return rules;
+}
+
+inline float rounded(double exact) { return static_cast<float>(exact); }
+inline float product(float a, float b) { return rounded(double{a} * b); }
+inline float sum(float a, float b) { return rounded(double{a} + b); }
+
+// The half nearest to x, or the next one toward zero: units of 2^(exponent - 10), of 2^-24 for small ones.
+inline float model_half(float x, HalfRounding rounding) {
+    if (!std::isfinite(x) || x == 0) return x;
+    const int unit = std::max(std::ilogb(x), -14) - 10;
+    const double units = std::ldexp(double{x}, -unit);
+    const double whole = rounding == HalfRounding::nearest_even ? std::nearbyint(units) : std::trunc(units);
+    const double half = std::copysign(std::ldexp(whole, unit), x);
+    if (std::fabs(half) < 65536) return rounded(half);
+    return std::copysign(rounding == HalfRounding::nearest_even ? std::numeric_limits<float>::infinity() : 65504.0f, x);
+}
+
+// A target of the machine.
+struct ColorMachine {
+    pipeline::ColorRules rules;
+
+    [[nodiscard]] bool is_unorm8() const { return rules.type == ChannelType::unorm8; }
+    // Codes are blended as numbers, and not as the values that they stand for.
+    [[nodiscard]] bool blends_codes() const { return is_unorm8() && rules.storage == BlendStorage::target; }
+    [[nodiscard]] float flushed(float x) const {
+        return rules.flushes && std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0f, x) : x;
+    }
+    [[nodiscard]] float read(std::uint32_t code) const {
+        if (rules.type == ChannelType::single) return std::bit_cast<float>(code);
+        if (rules.type == ChannelType::half) return pipeline::half_to_float(static_cast<std::uint16_t>(code));
+        if (rules.rounding.unorm == UnormRounding::half_up) return rounded(code / 255.0);
+        return product(static_cast<float>(code), rounded(1.0 / 255.0));
+    }
+    [[nodiscard]] std::uint32_t write(float x) const {
+        if (rules.type == ChannelType::single) return std::bit_cast<std::uint32_t>(x);
+        if (rules.type == ChannelType::half && std::isnan(x)) return pipeline::to_half<HalfRounding::nearest_even>(x);
+        if (rules.type == ChannelType::half)
+            return pipeline::to_half<HalfRounding::toward_zero>(model_half(x, rules.rounding.half));  // a half already
+        const float clamped = std::isnan(x) ? 0.0f : std::clamp(x, 0.0f, 1.0f);
+        if (rules.rounding.unorm == UnormRounding::half_up)
+            return static_cast<std::uint32_t>(std::floor(double{clamped} * 255 + 0.5));
+        return static_cast<std::uint32_t>(std::nearbyint(product(clamped, 255)));
+    }
+    [[nodiscard]] std::uint32_t max(float x, std::uint32_t code) const {
+        return is_unorm8() ? std::max(write(x), code) : write(std::max(flushed(x), read(code)));
+    }
+
+    // s F + d G, the factors as values or codes: a float of the source that is to be stored, `rest` for 1 - alpha.
+    [[nodiscard]] std::uint32_t integers(std::uint32_t s, std::uint32_t F, std::uint32_t d, std::uint32_t G) const {
+        const auto part = [](std::uint32_t ab) { return (ab + ab / 256 + 128) / 256; };
+        if (rules.blend == BlendRounding::each_product) return std::min(part(s * F) + part(d * G), 255u);
+        const double t = std::min(s * F + d * G, 65025u) / 255.0;
+        return static_cast<std::uint32_t>(std::floor(rules.blend == BlendRounding::nearest ? t + 0.5 : t));
+    }
+    [[nodiscard]] std::uint32_t floats(float s, float F, float d, float G) const {
+        const float result = flushed(sum(flushed(product(s, F)), flushed(product(d, G))));
+        return write(std::isnan(result) ? std::bit_cast<float>(0x7fffffffu) : result);
+    }
+    [[nodiscard]] std::uint32_t over(std::uint32_t s, std::uint32_t alpha, std::uint32_t d) const {
+        if (blends_codes()) return integers(s, alpha, d, 255 - alpha);
+        const float a = flushed(read(alpha));
+        return floats(flushed(read(s)), a, flushed(read(d)), flushed(sum(1, -a)));
+    }
+    [[nodiscard]] std::uint32_t under(std::uint32_t s, std::uint32_t d, std::uint32_t transmittance) const {
+        if (blends_codes()) return integers(s, transmittance, d, 255);
+        return floats(flushed(read(s)), flushed(read(transmittance)), flushed(read(d)), 1);
+    }
+    [[nodiscard]] std::uint32_t through(std::uint32_t alpha, std::uint32_t transmittance) const {
+        if (blends_codes()) return integers(alpha, 0, transmittance, 255 - alpha);
+        const float a = flushed(read(alpha));
+        return floats(a, 0, flushed(read(transmittance)), flushed(sum(1, -a)));
+    }
+};
+
+// A stored code: any, or that of a plain value.
+inline std::uint32_t any_stored_code(Random& random, const pipeline::ColorRules& rules) {
+    if (rules.type == ChannelType::unorm8) return static_cast<std::uint32_t>(random_int(random, 0, 255));
+    const std::uint32_t bits = random() & (rules.type == ChannelType::half ? 0xffffu : 0xffffffffu);
+    const std::uint32_t plain = ColorMachine{rules}.write(random_channel(random));
+    return random_int(random, 0, 1) == 0 ? bits : plain;
+}
+
+}  // namespace strata::testing::color_model
