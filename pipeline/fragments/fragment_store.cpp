@@ -208,23 +208,20 @@ std::array<float, 2> FragmentStore::alpha_ends(std::size_t number) const noexcep
     return {std::bit_cast<float>(least), std::bit_cast<float>(greatest)};
 }
 
-// Places that memory is asked for before they are taken: stores seldom fit into the second cache, and fragments lie here and there.
-constexpr std::size_t ahead = 32;
-
 // Calls `take` with the number of each place and where its fragment lies in the array that begins where fragments have `start` bytes
-// before it, and has `bytes` of each.
+// before it, and has `bytes` of each. Memory is asked for all places of a batch before any is taken: stores seldom fit into the second
+// cache, and fragments lie here and there.
 template <class Take>
 void FragmentStore::for_each_place(std::span<const std::uint32_t> places, std::uint32_t start, std::uint32_t bytes,
                                    const Take& take) const noexcept {
+    std::array<const std::byte*, rasterizer::batch_capacity> at;
     const Packed* const batches = batches_.data();
-    const auto at = [&](std::size_t i) {
-        const Packed& packed = batches[places[i] >> 8];
-        return packed.begin + (packed.count * start + (places[i] & 0xff) * bytes);
-    };
     for (std::size_t i = 0; i < places.size(); ++i) {
-        __builtin_prefetch(at(std::min(i + ahead, places.size() - 1)));
-        take(i, at(i));
+        const Packed& packed = batches[places[i] >> 8];
+        at[i] = packed.begin + (packed.count * start + (places[i] & 0xff) * bytes);
+        __builtin_prefetch(at[i]);
     }
+    for (std::size_t i = 0; i < places.size(); ++i) take(i, at[i]);
 }
 
 // Array by array: where a batch's array begins follows from its count and from the bytes that a fragment has before it.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/fragments/layer_lists.h"
 #include "rasterizer/base/uninitialized.h"
 
 namespace strata::pipeline {
@@ -22,10 +23,18 @@ struct SelectedFragments {
     struct Rank {
         UninitializedVector<std::uint32_t> key, place, pixel;
         std::size_t count = 0;
+        LayerLists::Layer lent;  // instead, if it has any
         void reserve(std::size_t most) {
             count = 0;
+            lent = {};
             if (key.size() >= most) return;
             for (auto* const array : {&key, &place, &pixel}) array->resize(most);
+        }
+        // Fragments from number `first` on.
+        [[nodiscard]] LayerLists::Layer part(std::size_t first, std::size_t fragments) const noexcept {
+            const auto of = [=](std::span<const std::uint32_t> all) { return all.subspan(first, fragments); };
+            if (!lent.pixel.empty()) return {of(lent.key), of(lent.place), of(lent.pixel)};
+            return {of(key), of(place), of(pixel)};
         }
     };
     // The arrays of a rank that is being filled, for a loop that keeps them in registers.
@@ -71,6 +80,12 @@ struct SelectedFragments {
     template <std::size_t count>
     void end_ranks(const std::array<Filling, count>& filled) noexcept {
         for (std::size_t r = 0; r < count; ++r) of_rank[r].count = filled[r].count;
+    }
+    // The first rank is this layer, which outlives the pass.
+    void lend(const LayerLists::Layer& layer) {
+        open(0);
+        of_rank[0].lent = layer;
+        of_rank[0].count = layer.pixel.size();
     }
     [[nodiscard]] std::uint64_t visited() const noexcept {
         std::uint64_t fragments = 0;

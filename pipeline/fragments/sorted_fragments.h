@@ -99,6 +99,20 @@ class SortedFragments {
             count_updates(pixel, last);
         return updates_[column.begin + first];
     }
+    // The same of all `first` up to one `last`.
+    struct Updates {
+        const std::uint32_t* by_number;  // null where the column arrived in order
+        std::uint32_t last, step;
+        [[nodiscard]] std::uint32_t of(std::uint32_t first) const noexcept {
+            return by_number != nullptr ? by_number[first] : step * (last - first - 1) + 1;
+        }
+    };
+    [[nodiscard]] Updates updates(std::size_t pixel, std::uint32_t first, std::uint32_t last) {
+        static_cast<void>(passing(pixel, first, last));
+        const Column& column = columns_[pixel];
+        return {column.arrival == ColumnArrival::mixed ? updates_.data() + column.begin : nullptr, last,
+                column.arrival == ColumnArrival::far_to_near ? 1u : 0u};
+    }
     // The one of [first, last) that passes `updates`-th there, 1 <= updates <= passing. The last is the nearest.
     [[nodiscard]] std::uint32_t update(std::size_t pixel, std::uint32_t first, std::uint32_t last,
                                        std::uint32_t updates);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "pipeline/fragments/layer_lists.h"
 #include "pipeline/fragments/sorted_fragments.h"
 
 namespace strata::pipeline {
@@ -10,15 +11,17 @@ namespace strata::pipeline {
 class SortedSets {
   public:
     // The one that the present pass visits.
-    [[nodiscard]] SortedFragments& present() noexcept { return sets_[present_]; }
-    [[nodiscard]] const SortedFragments& present() const noexcept { return sets_[present_]; }
+    [[nodiscard]] SortedFragments& present() noexcept { return sets_[present_].fragments; }
+    [[nodiscard]] const SortedFragments& present() const noexcept { return sets_[present_].fragments; }
+    // Its fragments by layers.
+    [[nodiscard]] LayerLists& layers() noexcept { return sets_[present_].layers; }
     void forget() noexcept {
-        for (SortedFragments& set : sets_) set.forget();
+        for (Set& set : sets_) set.fragments.forget();
     }
     // Makes a set that serves the present one; false if none does.
     [[nodiscard]] bool find(const SortRequest& request) noexcept {
         for (std::size_t s = 0; s < sets_.size(); ++s)
-            if (sets_[s].serves(request)) {
+            if (sets_[s].fragments.serves(request)) {
                 present_ = s;
                 return true;
             }
@@ -26,16 +29,23 @@ class SortedSets {
     }
     // True if this request may still be sorted, in the set that was not present last. It becomes the present one.
     [[nodiscard]] bool may_sort(const SortRequest& request) noexcept {
-        if (!std::ranges::all_of(sets_, [&](const SortedFragments& set) { return set.may_sort(request); }))
-            return false;
+        if (!std::ranges::all_of(sets_, [&](const Set& set) { return set.fragments.may_sort(request); })) return false;
         if (sets_[present_].bytes() > 0) present_ = 1 - present_;
+        layers().forget();
         return true;
     }
     // Memory that the other set takes.
     [[nodiscard]] std::uint64_t bytes_of_other() const noexcept { return sets_[1 - present_].bytes(); }
 
   private:
-    std::array<SortedFragments, 2> sets_;
+    struct Set {
+        SortedFragments fragments;
+        LayerLists layers;  // of these fragments
+        [[nodiscard]] std::uint64_t bytes() const noexcept {
+            return fragments.bytes() == 0 ? 0 : fragments.bytes() + layers.bytes();
+        }
+    };
+    std::array<Set, 2> sets_;
     std::size_t present_ = 0;
 };
 

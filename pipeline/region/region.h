@@ -215,13 +215,13 @@ class Region {
     }
     void open_tile_cache(const PassState& state);
     void close_tile_cache();
-    // Selections: region_selection.cpp.
+    // Selections: selections/selected_pass.cpp.
     [[nodiscard]] bool may_select(const PassState& state, const PreparedDraw& list);
     void capture_unseen(const PreparedDraw& list, const rasterizer::FragmentNeeds& kept);
     void select(const PassState& state);
     void select_nearest(const PassState& state);
-    void select_key(const KeyWindow& window);
-    void select_nearest_alone(const PassState& state);
+    [[nodiscard]] bool select_layer(const PassState& state);
+    [[nodiscard]] bool select_taken_layer(const PassState& state);
     [[nodiscard]] StoredDepth stored_depth(const PassState& state) const;
     [[nodiscard]] std::uint32_t* depth_of_kept(const PassState& state);
     void count_visits(std::uint64_t fragments) noexcept {

@@ -14,12 +14,10 @@ GROUPS = {
     "closed forms of dual and front_to_back": ["peeling/closed/*"],
     "replay: fragments captured and recalled": ["pipeline/fragments/fragment_store.*", "pipeline/region/region_replay.cpp"],
     "selections: passes visit what they keep": [
-        "pipeline/fragments/sorted_*", "pipeline/fragments/stored_updates.cpp", "pipeline/fragments/selected_fragments.h",
-        "pipeline/fragments/compared_depths.cpp", "pipeline/fragments/first_that.h", "pipeline/region/region_select_compared.cpp",
-        "pipeline/fragments/earliest_index.h", "pipeline/fragments/sort_arrivals.h",
-        "pipeline/region/region_select_runs.cpp", "pipeline/fragments/key_windows.h",
-        "pipeline/frame/selection.h", "pipeline/region/region_select.cpp", "pipeline/region/region_selection.cpp",
-        "pipeline/region/region_layer.cpp"],
+        "pipeline/selections/*", "pipeline/frame/selection.h", "pipeline/region/region_layer.cpp", "pipeline/fragments/sorted_*",
+        "pipeline/fragments/layer_lists.*", "pipeline/fragments/stored_updates.cpp", "pipeline/fragments/selected_fragments.h",
+        "pipeline/fragments/compared_depths.cpp", "pipeline/fragments/first_that.h", "pipeline/fragments/earliest_index.h",
+        "pipeline/fragments/sort_arrivals.h"],
     "rows: passes without batches": [
         "rasterizer/walk/*rows*", "rasterizer/walk/row_walk*", "rasterizer/walk/tiny_walk*", "pipeline/stages/tiny_colors*",
         "pipeline/region/region_rows.cpp", "pipeline/stages/sum_rows*"],

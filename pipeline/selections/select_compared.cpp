@@ -1,12 +1,12 @@
-// pipeline/region/region_select_compared.cpp - which fragments peels visit that compare another depth than a key: not rounded, within an
+// pipeline/selections/select_compared.cpp - which fragments peels visit that compare another depth than a key: not rounded, within an
 // epsilon, or another path's (execution.md 7.1).
 #include <algorithm>
 #include <array>
 #include <bit>
 
-#include "pipeline/fragments/key_windows.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/selections/key_windows.h"
 
 namespace strata::pipeline {
 

@@ -1,13 +1,13 @@
-// pipeline/region/region_select_runs.cpp - which fragments passes visit that ask for the order of arrival: runs that arrive in the order of
+// pipeline/selections/select_runs.cpp - which fragments passes visit that ask for the order of arrival: runs that arrive in the order of
 // depth, what ends them and what lies behind; and arrivals by their number, which a stencil counts (execution.md 7.1).
 #include <algorithm>
 #include <bit>
 #include <numeric>
 #include <utility>
 
-#include "pipeline/fragments/key_windows.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/selections/key_windows.h"
 
 namespace strata::pipeline {
 

@@ -1,4 +1,4 @@
-// pipeline/region/region_selection.cpp - geometry passes that visit only what decides: the fragments that a selection keeps go through
+// pipeline/selections/selected_pass.cpp - geometry passes that visit only what decides: the fragments that a selection keeps go through
 // the stages, and the others are counted as if they had (execution.md 7.1). Literal execution never takes this way: it is
 // what this one is tested against.
 #include <algorithm>

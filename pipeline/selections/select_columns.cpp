@@ -1,4 +1,4 @@
-// pipeline/region/region_select.cpp - which fragments a pass with a selection visits: found in the sorted columns of a tile, pixel by pixel
+// pipeline/selections/select_columns.cpp - which fragments a pass with a selection visits: found in the sorted columns of a tile, pixel by pixel
 // (execution.md 7.1).
 #include <algorithm>
 #include <array>
@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "pipeline/fragments/key_windows.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
+#include "pipeline/selections/key_windows.h"
 #include "rasterizer/rules/depth_code.h"
 
 namespace strata::pipeline {
@@ -42,6 +42,8 @@ void Region::select(const PassState& state) {
         return state.selection.keeps == Keeps::ends ? select_ends_compared(state) : select_nearest_compared(state);
     switch (state.selection.keeps) {
         case Keeps::nearest:
+            if (!select_layer(state)) select_nearest(state);
+            return;
         case Keeps::last_two:
         case Keeps::previous: return select_nearest(state);
         case Keeps::window: return select_window(state);
@@ -66,7 +68,6 @@ std::uint32_t* Region::depth_of_kept(const PassState& state) {
 // the visited one counts itself.
 void Region::select_nearest(const PassState& state) {
     const Keeps keeps = state.selection.keeps;
-    if (keeps == Keeps::nearest && !state.stencil.enabled) return select_nearest_alone(state);
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     const KeyWindow window =
@@ -88,35 +89,6 @@ void Region::select_nearest(const PassState& state) {
         if (has_two) selected.add(p, words[sorted.update(p, first, tested, updates - 1)], 0);
         selected.add(p, words[first], has_two ? 1 : 0);
     });
-    selected.inside += inside;
-    selected.passed += passed;
-}
-
-// The same where no stencil counts, and the nearest alone is kept: what most peels look for.
-void Region::select_nearest_alone(const PassState& state) {
-    SortedFragments& sorted = scratch_->sorted.present();
-    SelectedFragments& selected = scratch_->selected;
-    const StoredDepth stored = stored_depth(state);
-    std::uint32_t* const depth = depth_of_kept(state);
-    const bool is_done =
-        state.selection.keys_suffice && depth != nullptr && std::ranges::none_of(state.color, &Target::exists);
-    SelectedFragments::Filling nearest = selected.begin_ranks<1>()[0];
-    std::uint64_t inside = 0, passed = 0, done = 0;
-    const KeyWindow window =
-        window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    for_each_column(sorted, window, &stored, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, tested, low] = column;
-        inside += end - first;
-        const std::uint32_t updates = sorted.passing(p, first, tested);
-        if (updates == 0) return;
-        passed += updates;
-        const std::uint64_t word = words[first];
-        if (depth != nullptr) depth[p] = static_cast<std::uint32_t>(word >> 32);
-        done += is_done ? 1 : 0;
-        if (!is_done) nearest.add(p, word);
-    });
-    count_visits(done);
-    selected.end_ranks<1>({nearest});
     selected.inside += inside;
     selected.passed += passed;
 }
@@ -153,9 +125,9 @@ void Region::select_window(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
     selected.start(sorted.occupied().size());
+    if (select_taken_layer(state)) return;
     const KeyWindow window =
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    if (window.is_one_key()) return select_key(window);
     std::vector<std::uint64_t> in_order;
     std::uint64_t inside = 0;
     for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
@@ -166,29 +138,6 @@ void Region::select_window(const PassState& state) {
         for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
     });
     selected.inside = inside;
-}
-
-// The same of windows of one key: most hold one fragment. Its word is not all ones, as that behind the last is.
-void Region::select_key(const KeyWindow& window) {
-    SortedFragments& sorted = scratch_->sorted.present();
-    SelectedFragments& selected = scratch_->selected;
-    SelectedFragments::Filling alone = selected.begin_ranks<1>()[0];
-    std::uint64_t more = 0;
-    for_some_columns(sorted, [&](std::size_t from, std::span<const std::uint32_t> pixels) {
-        window.put_low(pixels, selected.windows);
-        const auto first = sorted.numbers_below(from, selected.windows.low, Cursor::low);
-        for (std::size_t k = 0; k < pixels.size(); ++k) {
-            const std::uint64_t key = selected.windows.low[k];
-            const std::uint64_t* word = sorted.column_begin(from + k) + first[k];
-            const auto is_kept = [key](std::uint64_t w) { return w >> 32 == key && w != ~std::uint64_t{0}; };
-            if (!is_kept(*word)) continue;
-            alone.add(pixels[k], *word);
-            for (std::size_t rank = 1; is_kept(*++word); ++rank, ++more)
-                [[unlikely]] selected.add(pixels[k], *word, rank);
-        }
-    });
-    selected.end_ranks<1>({alone});
-    selected.inside = alone.count + more;
 }
 
 namespace {
@@ -304,9 +253,9 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     const SelectedFragments::Rank& all = selected.of_rank[selected.rank];
     const std::size_t count = std::min<std::size_t>(all.count - selected.next, batch_capacity);
     FragmentBatch& batch = scratch_->recalled;
-    const std::span<const std::uint32_t> places{all.place.data() + selected.next, count};
-    std::copy_n(all.pixel.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.pixel.begin());
-    std::copy_n(all.key.begin() + static_cast<std::ptrdiff_t>(selected.next), count, batch.code.begin());
+    const auto [key, place, pixel] = all.part(selected.next, count);
+    std::ranges::copy(pixel, batch.pixel.begin());
+    std::ranges::copy(key, batch.code.begin());
     find_positions(batch, count);
     const bool is_compared = scratch_->sorted.present().is_compared();
     const bool is_reference_key = state.selection.compared && !is_compared;
@@ -328,7 +277,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     fetched.reference &= !is_reference_key && !is_known_behind;  // of a comparison of codes, which are the keys
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it
-    store().fetch(places, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
+    store().fetch(place, fetched, frame_.trace ? Numbers::yes : Numbers::no, batch);
     if (!frame_.trace) std::fill_n(batch.primitive.begin(), count, ~0u);
     return &batch;
 }

@@ -1,4 +1,4 @@
-// pipeline/fragments/key_windows.h - the windows of a selection in the sorted columns of a tile: keys in [low, high) at every pixel
+// pipeline/selections/key_windows.h - the windows of a selection in the sorted columns of a tile: keys in [low, high) at every pixel
 // (execution.md 7.1).
 #pragma once
 #include <algorithm>
@@ -128,11 +128,9 @@ struct KeyWindow {
     std::uint64_t behind_codes, greatest;
     RangeBound range;
 
-    [[nodiscard]] bool is_one_key() const noexcept { return at.exists() && !has_other_end(); }
-    [[nodiscard]] bool has_high() const noexcept { return at.exists() || has_other_end(); }
-    // Whether something ends windows beside `at`.
-    [[nodiscard]] bool has_other_end() const noexcept {
-        return end <= 0xffffffff || before.exists() || also_before.exists() || up_to.exists() ||
+    // Whether something ends windows.
+    [[nodiscard]] bool has_high() const noexcept {
+        return at.exists() || end <= 0xffffffff || before.exists() || also_before.exists() || up_to.exists() ||
                before_value.exists() || range.exists();
     }
     // The ends of the windows of `pixels`, bound after bound.

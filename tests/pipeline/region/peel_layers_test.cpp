@@ -1,0 +1,224 @@
+// Peels whose passes find what they keep in lists of layers, and peels that leave those lists: another bound, another surface, another range,
+// a pass twice. Model: literal execution, which visits every fragment.
+#include <bit>
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/region/both_ways.h"
+#include "tests/support/random_numbers.h"
+
+// A namespace of its own: names of the bodies are short.
+namespace strata::testing::peel_layers {
+namespace {
+
+using namespace pipeline;
+
+// Up to nine layers a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without any.
+FragmentScene any_layers(Random& random) {
+    FragmentScene made{16, 16};
+    for (auto& pixel : made.pixels) {
+        for (int n = random_int(random, 0, 9); n-- > 0;)
+            pixel.fragments.push_back({static_cast<float>(random_int(random, 0, 11)) / 16.0f, random_color(random)});
+        if (random_int(random, 0, 3) == 0)
+            pixel.opaque = GivenFragment{static_cast<float>(random_int(random, 4, 20)) / 32.0f, {0, 1, 0, 1}};
+    }
+    return made;
+}
+
+// What may be different in one pass of a peel, or in the quad before it.
+enum class Step {
+    next,           // as a peel goes on
+    again,          // with the bound of the pass before
+    first,          // without a bound
+    other_bound,    // at one pixel
+    other_surface,  // at one pixel
+    cleared,        // a surface that is one depth everywhere
+    counted,        // by a stencil, too
+    range,          // of other keys
+    part,           // of the list
+    at,             // composites the layer that was found last
+    at_other        // the same of a depth that is another at one pixel
+};
+
+struct Walk {
+    std::vector<Step> steps;
+    std::uint64_t seed;
+    bool keys_suffice;
+};
+
+Walk random_walk(Random& random) {
+    Walk walk{{Step::first}, random(), random_int(random, 0, 1) == 0};
+    const int disturbed = random_int(random, 0, 3);  // how often
+    for (int n = random_int(random, 2, 14); n-- > 0;) {
+        const bool is_plain = random_int(random, 0, 3) >= disturbed;
+        const int any = random_int(random, 0, static_cast<int>(Step::at_other));
+        walk.steps.push_back(is_plain ? (random_int(random, 0, 2) == 0 ? Step::at : Step::next)
+                                      : static_cast<Step>(any));
+    }
+    return walk;
+}
+
+// Of D32F any depth has a code, of the others the nearest one.
+std::uint32_t code_of(const Region& region, float depth) {
+    const DepthFormat format = region.frame().key_request().format;
+    return format == DepthFormat::d32f ? std::bit_cast<std::uint32_t>(depth)
+                                       : strata::rasterizer::to_depth_code(depth, format, DepthRounding::nearest);
+}
+
+// The depth of one pixel of the frame, wherever it lies.
+void put_depth(Region& region, Target target, int x, int y, float depth) {
+    PassState state;
+    state.depth = {.enabled = true, .func = CompareFunc::always, .write = true};
+    state.depth_target = target;
+    static_cast<void>(region.full_screen(state, [=, &region](const FragmentBatch& in, const Loads&, Outputs& out) {
+        out.replaces_depth = true;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            out.depth[i] = code_of(region, depth);
+            if (in.x[i] != x || in.y[i] != y) out.discard(static_cast<int>(i));
+        }
+    }));
+}
+
+class Peel {
+  public:
+    Peel(Region& region, const Walk& walk) : region_{region}, walk_{walk}, random_{walk.seed} {
+        region_.clear(peeled_, {.depth = 0.25f});
+    }
+
+    void run() {
+        for (const Step step : walk_.steps) take(step);
+        region_.publish(color_);
+    }
+
+  private:
+    void take(Step step) {
+        const int x = random_int(random_, 0, 15), y = random_int(random_, 0, 15);
+        const float depth = static_cast<float>(random_int(random_, -2, 17)) / 16.0f;
+        if (step == Step::at || step == Step::at_other) {
+            if (step == Step::at_other) put_depth(region_, peeled_, x, y, depth);
+            return composite();
+        }
+        if (step == Step::other_bound) put_depth(region_, peeled_, x, y, depth);
+        if (step == Step::cleared)
+            region_.clear(nearest_, {.depth = depth});
+        else
+            region_.copy(region_.opaque_depth(), nearest_);
+        if (step == Step::other_surface) put_depth(region_, nearest_, x, y, depth);
+        if (step == Step::range) {
+            least_ = code_of(region_, static_cast<float>(random_int(random_, 0, 6)) / 16.0f);
+            most_ = random_int(random_, 0, 1) == 0
+                        ? ~0u
+                        : code_of(region_, static_cast<float>(random_int(random_, 5, 12)) / 16.0f);
+        }
+        if (step == Step::part) {
+            const auto first = static_cast<std::uint32_t>(random_int(random_, 0, 300));
+            part_ = {first, first + static_cast<std::uint32_t>(random_int(random_, 100, 900))};
+        }
+        const bool begins = step == Step::first || (step == Step::part && random_int(random_, 0, 1) == 0);
+        draw(begins, step == Step::counted);
+        if (step != Step::again) std::swap(peeled_, nearest_);
+    }
+
+    [[nodiscard]] std::span<const PrimitiveRange> part() const {
+        return part_.first < part_.last ? std::span{&part_, 1} : std::span<const PrimitiveRange>{};
+    }
+
+    void draw(bool is_first, bool is_counted) {
+        PassState state;
+        state.stencil = {.enabled = is_counted,
+                         .front = {.func = CompareFunc::always, .ref = 0, .pass = StencilOp::incr},
+                         .back = {}};
+        if (is_counted) state.stencil_target = updates_;
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = nearest_;
+        if (has_color_) state.color[0] = color_;
+        state.reads[0] = peeled_;
+        state.primitives = part();
+        state.selection = {.keeps = Keeps::nearest, .least = least_, .most = most_, .keys_suffice = walk_.keys_suffice};
+        if (!is_first) state.selection.behind = peeled_;
+        static_cast<void>(region_.draw(state, [=, this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            if (has_color_) out.color[0] = in.color;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+                const bool is_inside = in.code[i] >= least_ && in.code[i] <= most_;
+                if (!is_inside || (!is_first && in.code[i] <= own.depth(0)[i])) out.discard(static_cast<int>(i));
+            }
+        }));
+    }
+
+    void composite() {
+        PassState state;
+        state.color[0] = color_;
+        state.blend[0] = blend_mode::over;
+        state.reads[0] = peeled_;
+        state.primitives = part();
+        state.selection = {.keeps = Keeps::window, .at = peeled_};
+        static_cast<void>(region_.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            out.color[0] = in.color;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+                if (in.code[i] != own.depth(0)[i]) out.discard(static_cast<int>(i));
+        }));
+    }
+
+    Region& region_;
+    const Walk& walk_;
+    Random random_;
+    Target color_ = region_.make(Format::rgba32f), peeled_ = region_.make_depth(), nearest_ = region_.make_depth();
+    Target updates_ = region_.make(Format::s8);
+    std::uint32_t least_ = 0, most_ = ~0u;
+    PrimitiveRange part_{};
+    bool has_color_ =
+        !walk_.keys_suffice || walk_.seed % 3 == 0;  // what follows from a key beside a colour that does not
+};
+
+std::string difference_of_walk(const Walk& walk, const FragmentScene& scene, DepthFormat format, std::uint64_t bytes) {
+    TestFrame test{scene, walk.seed % 4 == 0 ? "softpipe" : "ideal"};
+    test.frame.depth.format = format;
+    test.frame.replay = {bytes, {}};
+    const Body body = [&](Region& region) { Peel{region, walk}.run(); };
+    const WhatIsLeft literal = run_one_way(test.frame, body, Execution::literal, {});
+    const std::string checked =
+        difference_of(literal, run_one_way(test.frame, body, Execution::replay, {.check_selections = true}));
+    return checked + difference_of(literal, run_one_way(test.frame, body, Execution::replay, {}));
+}
+
+}  // namespace
+
+TEST_CASE("passes of a peel leave and count what visiting everything does, wherever the peel leaves its course") {
+    Random random{2081};
+    for (int round = 0; round < 250; ++round) {
+        const FragmentScene scene = any_layers(random);
+        const Walk walk = random_walk(random);
+        const auto format = std::array{DepthFormat::d32f, DepthFormat::d24, DepthFormat::d16}[round % 3];
+        // Tiles of 8 x 8 pixels with some three hundred fragments: the least of these memories holds no lists of layers.
+        const std::uint64_t bytes =
+            std::array{1u << 20, 1u << 20, (1u << 18) + 14'000}[static_cast<std::size_t>(round / 3 % 3)];
+        INFO("round " << round << ", format " << static_cast<int>(format) << ", bytes " << bytes);
+        REQUIRE(difference_of_walk(walk, scene, format, bytes) == "");
+    }
+}
+
+TEST_CASE("a peel that goes on as it began visits a fragment once, one that leaves its course goes on right") {
+    Random random{2082};
+    const FragmentScene scene = any_layers(random);
+    std::uint64_t fragments = 0;
+    for (const auto& pixel : scene.pixels) fragments += pixel.fragments.size();
+    const Walk plain{{Step::first, Step::next, Step::next, Step::next, Step::next, Step::next}, 1, false};
+    TestFrame test{scene, "ideal"};
+    test.frame.replay = {std::uint64_t{1} << 20, {}};
+    const WhatIsLeft tiled = run_one_way(test.frame,
+                                         [&](Region& region) {
+                                             Peel{region, plain}.run();
+                                         },
+                                         Execution::replay, {});
+    CHECK(tiled.visited > 0);
+    CHECK(tiled.visited <= fragments);
+    Walk depths = plain;
+    depths.keys_suffice = true;
+    const WhatIsLeft by_keys = run_one_way(test.frame,
+                                           [&](Region& region) {
+                                               Peel{region, depths}.run();
+                                           },
+                                           Execution::replay, {});
+    CHECK(by_keys.visited == tiled.visited);
+}
+
+}  // namespace strata::testing::peel_layers
