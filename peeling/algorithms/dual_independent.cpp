@@ -17,24 +17,10 @@ using namespace pipeline;
 
 namespace {
 
-// Whether a batch has lanes of a kind.
-struct Has {
-    bool near, far, between;
-    Has(const PeelLanes& side, std::size_t count) noexcept
-        : near{any(side.is_near, count)}, far{any(side.is_far, count)}, between{any(side.is_between, count)} {}
-
-  private:
-    [[nodiscard]] static bool any(const Lanes<std::uint32_t>& mask, std::size_t count) noexcept {
-        std::uint32_t some = 0;
-        for (std::size_t i = 0; i < count; ++i) some |= mask[i];
-        return some != 0;
-    }
-};
-
 // The targets that the batch has nothing for. min_max was cleared to what is written there. Of codes UNDER and OVER leave (0, 0, 0, 0)
 // out; of floats they make 0 of -0 and flush denormals, but only once: what lies between leaves that to the ends of its pixel, where
 // it has them.
-unsigned neutral_targets(const Has& has, bool stores_codes, bool has_ends) noexcept {
+unsigned neutral_targets(const PeelSides& has, bool stores_codes, bool has_ends) noexcept {
     const bool keeps_colors = stores_codes || (has_ends && !has.near && !has.far);
     return (has.between ? 0u : 1u) | (keeps_colors && !has.near ? 2u : 0u) | (keeps_colors && !has.far ? 4u : 0u);
 }
@@ -70,7 +56,7 @@ Drawn peel(Region& region, Target min_max, Target next_min_max, Target front, Ta
         PeelLanes side;
         classify(compare, in, own.color(0), own.depth(1), side);
         write_min_max(in, side.is_between, out.color[0]);
-        const Has has{side, lanes(in)};
+        const PeelSides has{side, lanes(in)};
         if (has.near) premultiply(in.color, out.color[1], lanes(in));
         choose(has.near, side.is_near, out.color[1], out.color[1], lanes(in));
         choose(has.far, side.is_far, in.color, out.color[2], lanes(in));

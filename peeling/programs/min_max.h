@@ -13,6 +13,20 @@ struct alignas(64) PeelLanes {
     pipeline::Lanes<std::uint32_t> is_near, is_far, is_between;
 };
 
+// Whether a batch has lanes of a kind.
+struct PeelSides {
+    bool near, far, between;
+    PeelSides(const PeelLanes& side, std::size_t count) noexcept
+        : near{any(side.is_near, count)}, far{any(side.is_far, count)}, between{any(side.is_between, count)} {}
+
+  private:
+    [[nodiscard]] static bool any(const pipeline::Lanes<std::uint32_t>& mask, std::size_t count) noexcept {
+        std::uint32_t some = 0;
+        for (std::size_t i = 0; i < count; ++i) some |= mask[i];
+        return some != 0;
+    }
+};
+
 inline namespace strict {
 
 // z beyond the opaque surface, before `near` or behind `far`: skipped, no lane set. near == far counts as near.

@@ -39,21 +39,22 @@ HWY_INLINE WordMask first_lanes(std::size_t count) {
     return hn::Lt(hn::Iota(d, 0), hn::Set(d, static_cast<Word>(count)));
 }
 
-// One vector of lanes: where they lie in a plane, and whether that is one run of neighbours.
+// One vector of lanes: where they lie in a plane, and whether that is one run of neighbours, or among those of two vectors.
 struct Group {
     WordMask in_batch;
-    WordVec pixel;
+    WordVec pixel, behind_first;
     Word first;
-    bool is_run;
+    bool is_run, is_near;
 };
 
 HWY_INLINE Group group_at(const PixelLanes& at, std::size_t i) {
     const Words d;
     const WordMask in_batch = first_lanes(at.count - i);
     const WordVec pixel = hn::LoadU(d, at.pixel + i);
-    const WordVec run = counting(at.pixel[i]);
-    const bool is_run = hn::AllTrue(d, hn::Or(hn::Eq(pixel, run), hn::Not(in_batch)));
-    return {in_batch, pixel, at.pixel[i], is_run};
+    const WordVec behind_first = hn::IfThenElseZero(in_batch, hn::Sub(pixel, hn::Set(d, at.pixel[i])));
+    const bool is_run = hn::AllTrue(d, hn::Or(hn::Eq(behind_first, hn::Iota(d, 0)), hn::Not(in_batch)));
+    const bool is_near = hn::AllTrue(d, hn::Lt(behind_first, hn::Set(d, static_cast<Word>(2 * hn::Lanes(d)))));
+    return {in_batch, pixel, behind_first, at.pixel[i], is_run, is_near};
 }
 
 // Lanes that are not used go to spare words, one each: a gather or scatter may touch them without harm.
@@ -62,10 +63,19 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<Words>> spare_index(Plane plane, WordMask 
     return hn::BitCast(hn::RebindToSigned<Words>{}, hn::IfThenElse(used, pixel, spare));
 }
 
-// The stored words of a group: one plain load where its pixels are neighbours, as in rows of large triangles.
+// The stored words of a group: one plain load where its pixels are neighbours, as in rows of large triangles; two where few pixels
+// are missing between them, as in a layer of a peel.
 HWY_INLINE WordVec load(Plane plane, const Group& group) {
     const Words d;
-    if (group.is_run) return hn::LoadU(d, plane.words + group.first);
+    const Word* const words = plane.words + group.first;
+    if (group.is_run) return hn::LoadU(d, words);
+    if (group.is_near && group.first + 2 * hn::Lanes(d) <= plane.pixels + spare_words) {
+        const WordVec lanes = hn::Set(d, static_cast<Word>(hn::Lanes(d)));
+        const WordMask is_second = hn::Not(hn::Lt(group.behind_first, lanes));
+        const auto index = hn::IndicesFromVec(d, hn::And(group.behind_first, hn::Sub(lanes, hn::Set(d, 1))));
+        return hn::IfThenElse(is_second, hn::TableLookupLanes(hn::LoadU(d, words + hn::Lanes(d)), index),
+                              hn::TableLookupLanes(hn::LoadU(d, words), index));
+    }
     return hn::GatherIndex(d, plane.words, spare_index(plane, group.in_batch, group.pixel));
 }
 

@@ -36,10 +36,13 @@ int any_count(Random& random) { return counts[below(random, counts.size())]; }
 
 constexpr std::size_t plane_pixels = 300;
 
-// Distinct pixels: one run, runs of some length with gaps between them, or any order.
+// Distinct pixels: one run, runs of some length with gaps between them, up to the last pixel of the plane with a few missing, or any order.
 CodeLanes any_pixels(Random& random) {
     CodeLanes pixel{};
-    const std::uint32_t kind = below(random, 4), start = below(random, 45), run = 1 + below(random, 40);
+    const std::uint32_t kind = below(random, 5), start = below(random, 45), run = 1 + below(random, 40);
+    for (std::uint32_t p = 0, i = 0; kind == 4 && i < 256; ++p)
+        if (below(random, plane_pixels - p) < 256 - i) pixel[i++] = p;
+    if (kind == 4) return pixel;
     for (std::uint32_t i = 0; i < 256; ++i)
         pixel[i] = kind == 0   ? i + start
                    : kind == 1 ? i + (i >= run ? start : 0)
