@@ -1,6 +1,7 @@
 #include "peeling/memory_need.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "peeling/render.h"
@@ -21,13 +22,41 @@ constexpr int block_px = 8;  // of the parts of it whose density is told
 constexpr std::uint64_t word_bytes = 4;
 // A transformed vertex with what set-up takes of it, a triangle set up, and its place in the bins of a few tiles.
 constexpr std::uint64_t vertex_bytes = 32, triangle_bytes = 64;
-// A captured fragment with its depth, colour and place in the sorted sets; what a closed form keeps of one; one in a pixel's list;
+// A captured fragment with its depth, colour and place in the sorted sets and their layers; what a closed form keeps of one; one in a pixel's list;
 // and what the audit holds of one: its step of the trace, and itself in a list.
-constexpr std::uint64_t captured_bytes = 56, closed_bytes = 8, listed_bytes = 32, audited_bytes = 64;
+constexpr std::uint64_t captured_bytes = 80, closed_bytes = 8, listed_bytes = 32, audited_bytes = 64;
 
 // Fragments a pixel: of the region, and of its densest block.
 struct Density {
     double mean = 0, most = 0;
+};
+
+// Of the rehearsal's pixels; its tile may run in parts, and a part more than once.
+class Coverage {
+  public:
+    void put(Region& region) {
+        std::vector<std::uint32_t> own(region.rect().area());
+        RegionShortcuts{region}.count_coverage(own);
+        const auto width = static_cast<std::size_t>(region.rect().width());
+        for (std::size_t i = 0; i < own.size(); ++i)
+            fragments_[(static_cast<std::size_t>(region.rect().y0) + i / width) * side +
+                       static_cast<std::size_t>(region.rect().x0) + i % width] = own[i];
+    }
+    [[nodiscard]] Density density() const {
+        constexpr auto block = static_cast<std::size_t>(block_px);
+        std::array<std::uint64_t, side * side / (block * block)> blocks{};
+        std::uint64_t all = 0;
+        for (std::size_t i = 0; i < fragments_.size(); ++i) {
+            blocks[i / side / block * (side / block) + i % side / block] += fragments_[i];
+            all += fragments_[i];
+        }
+        return {static_cast<double>(all) / static_cast<double>(fragments_.size()),
+                static_cast<double>(std::ranges::max(blocks)) / static_cast<double>(block * block)};
+    }
+
+  private:
+    static constexpr auto side = static_cast<std::size_t>(side_px);
+    std::array<std::uint32_t, side * side> fragments_{};
 };
 
 struct Rehearsal {
@@ -37,21 +66,6 @@ struct Rehearsal {
     Density density;
     int channels = 4;
 };
-
-Density density_of(Region& region) {
-    const auto width = static_cast<std::size_t>(region.rect().width());
-    std::vector<std::uint32_t> coverage(region.rect().area());
-    RegionShortcuts{region}.count_coverage(coverage);
-    std::vector<std::uint64_t> blocks(coverage.size() / (block_px * block_px));
-    std::uint64_t all = 0;
-    for (std::size_t i = 0; i < coverage.size(); ++i) {
-        const std::size_t column = i % width / block_px, row = i / width / block_px;
-        blocks[row * (width / block_px) + column] += coverage[i];
-        all += coverage[i];
-    }
-    const auto most = static_cast<double>(*std::max_element(blocks.begin(), blocks.end()));
-    return {static_cast<double>(all) / static_cast<double>(coverage.size()), most / (block_px * block_px)};
-}
 
 // The same frame as small as a tile. Its own execution, for a whole frame's targets are others than a tile's.
 Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& profile, const RenderOptions& options,
@@ -63,6 +77,7 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
     small.tile_size = side_px;
     small.threads = 1;
     small.audit = false;
+    Coverage coverage;
     Algorithm watched = algorithm;
     watched.body = [&](Region& region) {
         if (algorithm.body)
@@ -70,13 +85,14 @@ Rehearsal rehearse(const DrawList& list, const View& view, const DeviceProfile& 
         else if (algorithm.closed_form == nullptr || !algorithm.closed_form(region))
             algorithm.run(region);
         found.target_words = std::max(found.target_words, RegionShortcuts{region}.target_words());
-        found.density = density_of(region);
+        coverage.put(region);
     };
     Renderer renderer{list, view, profile, small};
     const RenderResult result = renderer.render(watched);
     found.is_refused = result.outcome == Outcome::refused;
     found.is_tiled = result.frame.work.tile_size != 0;
     found.is_replayed = found.is_tiled && algorithm.replayed.has_value();
+    found.density = coverage.density();
     found.layers = result.frame.layers.size();
     found.channels = result.frame.color.channels();
     return found;

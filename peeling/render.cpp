@@ -10,6 +10,7 @@
 #include "peeling/render_diagnostics.h"
 #include "peeling/shadow_light.h"
 #include "peeling/stopwatch.h"
+#include "pipeline/fragments/fragment_store.h"
 #include "pipeline/frame/effects.h"
 #include "pipeline/region/check_pass.h"
 #include "pipeline/region/executor.h"
@@ -23,6 +24,10 @@ namespace strata::peeling {
 using namespace pipeline;
 
 namespace {
+
+// What sorting takes of a captured fragment, with lists of layers or with compared depths (sorted_fragments.h, layer_lists.h), and what a
+// closed form takes of one (columns.h).
+constexpr std::uint64_t sorted_bytes = 33, column_bytes = 32;
 
 // A light's map in the depth that the device writes by itself; none if it cannot be had, for then nothing runs.
 std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfile& profile,
@@ -124,7 +129,10 @@ struct Renderer::State {
         if (!replays || !algorithm.replayed) return {};
         rasterizer::FragmentNeeds needs = *algorithm.replayed;
         needs.reference = compares_apart;
-        return {options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)), needs};
+        return {.bytes = options.fragment_memory / static_cast<std::uint64_t>(thread_count(options.threads)),
+                .needs = needs,
+                .bytes_a_fragment = FragmentStore::bytes_of(needs) + sorted_bytes,
+                .bytes_in_columns = is_closed(options, algorithm) ? column_bytes : 0};
     }
 
     // A right peel needs a pass a fragment of the deepest pixel, and one. Where another depth is compared than stored, or by
@@ -264,7 +272,7 @@ struct Renderer::State {
         const Body body = body_of(algorithm);
         std::optional<Audit> audit;
         if (options.audit && traces == nullptr) audit.emplace(f, body, algorithm, audit_memory(), options.threads);
-        const Watch watch = traces != nullptr ? keep_traces(f, *traces) : audit ? audit->watch() : Watch{};
+        const Watch watch = traces != nullptr ? keep_traces(*traces) : audit ? audit->watch() : Watch{};
         {
             const Stopwatch stopwatch{result.seconds.passes};
             result.frame =

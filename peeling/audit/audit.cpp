@@ -14,6 +14,7 @@
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
+#include "pipeline/region/tile_parts.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/input_error.h"
 #include "rasterizer/base/parallel.h"
@@ -25,11 +26,8 @@ using rasterizer::Rect;
 
 namespace in_parts {
 
-// A tile, or some rows of it, or a part of one row.
-struct Part {
-    std::size_t tile = 0;
-    Rect rect;
-};
+// A region, or some rows of it, or a part of one row.
+using Part = RegionPlace;
 
 // The findings in some parts of the frame, and the parts that did not fit into the memory.
 struct Looked {
@@ -46,14 +44,6 @@ struct Looked {
 using namespace in_parts;
 
 namespace {
-
-// Rows are halved first, a single row then by columns. A part of one pixel must not come here.
-std::array<Part, 2> halves(const Part& part) {
-    const auto [x0, y0, x1, y1] = part.rect;
-    const int x = (x0 + x1) / 2, y = (y0 + y1) / 2;
-    if (y1 - y0 > 1) return {Part{part.tile, {x0, y0, x1, y}}, Part{part.tile, {x0, y, x1, y1}}};
-    return {Part{part.tile, {x0, y0, x, y1}}, Part{part.tile, {x, y0, x1, y1}}};
-}
 
 // A count without pixels has no place to move.
 void move(PixelCount& count, int dx, int dy) {
@@ -86,18 +76,23 @@ struct Audit::Impl {
     RegionScratchPool pool{};  // for those looks, as are the fragment lists
     std::mutex free_lists_mutex{};
     std::vector<FragmentLists> free_fragment_lists{};
-    std::vector<Looked> tiles;
+    std::vector<RegionPlace> places{};  // of regions; of a frame that is one region, its tiles
+    std::vector<Looked> found_at{};     // by place
 
     Impl(const Frame& f, const Body& b, const Algorithm& a, std::uint64_t bytes, int t)
         : frame{f}, body{b}, algorithm{a}, shared{bytes, thread_count(t)}, alone{bytes, 1}, threads{t}, still{f} {
         still.replay = {};
         still.trace = false;
-        const auto& geometry = f.transparent->geometry;
-        tiles.resize(static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y));
+    }
+
+    // A frame that is run again as a whole begins again.
+    void begin(std::span<const RegionPlace> regions) {
+        places.assign(regions.begin(), regions.end());
+        if (places[0].extent == Extent::frame) places = tile_parts(still, threads);
+        found_at.assign(places.size(), {});
     }
 
     [[nodiscard]] bool has_order() const { return algorithm.ties != TiePolicy::none; }
-    [[nodiscard]] Rect rect(std::size_t tile) const { return tile_rect(frame.transparent->geometry, tile); }
     [[nodiscard]] AuditedPixel pixel_at(const Region& region, std::uint32_t pixel, const Image& color) const {
         const auto width = static_cast<std::uint32_t>(region.rect().width());
         AuditedPixel at{.x = region.rect().x0 + static_cast<int>(pixel % width),
@@ -113,7 +108,7 @@ struct Audit::Impl {
     [[nodiscard]] Looked look_at(const Part& part, const PixelTraces* traces, const Image& color,
                                  const AuditMemory& memory) {
         RegionBooks books;
-        Region region{still, {part.rect, part.tile, Extent::tile}, books, {}, &pool};
+        Region region{still, part, books, {}, &pool};
         const std::vector<std::uint32_t> coverage = coverage_of(region);
         PixelAudit pixels{frame, algorithm};
         Looked looked;
@@ -122,7 +117,7 @@ struct Audit::Impl {
         for (; range.last < coverage.size();) {
             range = next_range(coverage, part.rect.width(), range.last, memory.fragments());
             if (coverage[range.first] > memory.fragments()) {
-                looked.left.push_back({part.tile, rect_of(range, part.rect)});
+                looked.left.push_back({rect_of(range, part.rect), part.tile, Extent::tile});
                 continue;
             }
             list_visible(region, range, coverage, Bookkeeping::silent, fragment_lists);
@@ -151,23 +146,25 @@ struct Audit::Impl {
         const bool is_traced = !has_order() || RegionShortcuts{region}.trace().is_complete();
         std::optional<PixelTraces> traces;
         if (has_order() && is_traced) traces.emplace(RegionShortcuts{region}.trace(), region.rect());
-        const auto look_at_tile = [&](std::size_t tile) {
-            const Part part{tile, rect(tile)};
-            tiles[tile] = is_traced ? look_at(part, traces ? &*traces : nullptr, color, shared) : Looked{{}, {part}};
+        const auto look_at_place = [&](std::size_t place) {
+            const Part& part = places[place];
+            found_at[place] =
+                is_traced ? look_at(part, traces ? &*traces : nullptr, color, shared) : Looked{{}, {part}};
         };
-        // Each tile writes its own entry of `tiles`: workers need no lock for it.
-        if (region.rect() == rect(number)) return look_at_tile(number);
-        parallel_for(tiles.size(), threads, look_at_tile);
+        // Each place has its own entry of `found_at`: workers need no lock for it.
+        if (region.rect() == places[number].rect) return look_at_place(number);
+        parallel_for(places.size(), threads, look_at_place);
     }
 
     // A tile that the executor found equal to another has that one's figures, moved to its place.
-    void copy(std::size_t like, std::size_t tile) {
-        const int dx = rect(tile).x0 - rect(like).x0, dy = rect(tile).y0 - rect(like).y0;
-        Looked& there = tiles[tile] = tiles[like];
+    void copy(std::size_t like, std::size_t number) {
+        const RegionPlace &from = places[like], &to = places[number];
+        const int dx = to.rect.x0 - from.rect.x0, dy = to.rect.y0 - from.rect.y0;
+        Looked& there = found_at[number] = found_at[like];
         move(there.found.ties, dx, dy);
         move(there.found.misordered, dx, dy);
         for (Part& part : there.left)
-            part = {tile, {part.rect.x0 + dx, part.rect.y0 + dy, part.rect.x1 + dx, part.rect.y1 + dy}};
+            part = {{part.rect.x0 + dx, part.rect.y0 + dy, part.rect.x1 + dx, part.rect.y1 + dy}, to.tile, to.extent};
     }
 
     // Runs a part again, in as many parts as the memory makes of it. Single pixels that do not fit are left.
@@ -189,7 +186,7 @@ struct Audit::Impl {
             // The frame's answers to the body's questions, as a part alone might answer them otherwise and end
             // earlier.
             books.script = result.answers;
-            Region region{again, {next.rect, next.tile, Extent::tile}, books, {}, &scratch};
+            Region region{again, next, books, {}, &scratch};
             const bool fits = run_traced(region);
             if (fits) {
                 std::optional<PixelTraces> traces;
@@ -198,7 +195,7 @@ struct Audit::Impl {
             } else if (next.rect.area() == 1) {
                 looked.left.push_back(next);
             } else {
-                for (const Part& half : halves(next)) open.push_back(half);
+                for (const Rect& half : halves(next.rect)) open.push_back({half, next.tile, next.extent});
             }
         }
         return looked;
@@ -229,7 +226,7 @@ struct Audit::Impl {
 
     [[nodiscard]] AuditResult finish(const FrameResult& result) {
         Looked all;
-        for (Looked& tile : tiles) all.add(std::move(tile));
+        for (Looked& looked : found_at) all.add(std::move(looked));
         try {
             // First all workers with their shares, then one after the other with all of the memory, for what
             // was left.
@@ -242,7 +239,7 @@ struct Audit::Impl {
         }
         if (!all.left.empty()) {
             RegionBooks books;
-            Region region{still, {all.left.front().rect, all.left.front().tile, Extent::tile}, books, {}, &pool};
+            Region region{still, all.left.front(), books, {}, &pool};
             throw_too_deep(all.left.front(), coverage_of(region).front(), alone.bytes);
         }
         // A frame without a pixel has made no order error, which is 0 and not "no order".
@@ -257,7 +254,8 @@ Audit::Audit(const Frame& frame, const Body& body, const Algorithm& algorithm, s
 Audit::~Audit() = default;
 
 Watch Audit::watch() {
-    return {.ended = [this](Region& region, std::size_t number,
+    return {.begun = [this](std::span<const RegionPlace> regions) { impl_->begin(regions); },
+            .ended = [this](Region& region, std::size_t number,
                             const Image& color) { impl_->look_at(region, number, color); },
             .alike = [this](std::size_t like, std::size_t region) { impl_->copy(like, region); }};
 }

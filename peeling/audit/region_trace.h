@@ -13,7 +13,7 @@ struct RegionTrace {
     std::vector<pipeline::TraceEntry> entries;  // pixels count in `rect`
 };
 
-// Keeps the traces of `frame` in `traces` while it runs. A frame that runs as a whole leaves one; the others stay empty.
-[[nodiscard]] pipeline::Watch keep_traces(const pipeline::Frame& frame, std::vector<RegionTrace>& traces);
+// Keeps the traces of a frame's regions in `traces` while it runs; one, if it runs as a whole.
+[[nodiscard]] pipeline::Watch keep_traces(std::vector<RegionTrace>& traces);
 
 }  // namespace strata::peeling

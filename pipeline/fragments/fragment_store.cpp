@@ -93,11 +93,11 @@ void FragmentStore::for_each_array(const FragmentNeeds& needs, auto& batch, Visi
             if (rasterizer::names(needs.units, u, c)) visit(batch.unit[u][c]);
 }
 
-std::size_t FragmentStore::packed_bytes(std::size_t count) const noexcept {
+std::size_t FragmentStore::bytes_of(const FragmentNeeds& needs) noexcept {
     static const FragmentBatch shape{};         // only the types of its arrays are looked at
     std::size_t bytes = sizeof(std::uint32_t);  // `alive`, whether it is kept or not
-    for_each_array(needs_, shape, [&](const auto& array) { bytes += bytes_in(array); });
-    return count * bytes;
+    for_each_array(needs, shape, [&](const auto& array) { bytes += bytes_in(array); });
+    return bytes;
 }
 
 void FragmentStore::start(const FragmentNeeds& needs, std::uint64_t limit) {
@@ -123,7 +123,7 @@ void FragmentStore::finish() {
 void FragmentStore::append(const FragmentBatch& batch, const Lanes<std::uint32_t>& alive) {
     if (state_ != State::filling) return;
     const auto count = static_cast<std::size_t>(batch.count);
-    if (used_chunks_ == 0 || used_bytes_ + packed_bytes(count) > chunk_bytes) {
+    if (used_chunks_ == 0 || used_bytes_ + count * bytes_of(needs_) > chunk_bytes) {
         // The limit counts whole chunks. One batch too much ends the store: half of a list cannot be replayed.
         if ((used_chunks_ + 1) * chunk_bytes > limit_) {
             forget();

@@ -45,6 +45,8 @@ class FragmentStore {
     [[nodiscard]] static constexpr std::uint32_t place(std::size_t batch, std::size_t lane) noexcept {
         return static_cast<std::uint32_t>(batch << 8 | lane);
     }
+    // What a fragment with these arrays takes.
+    [[nodiscard]] static std::size_t bytes_of(const rasterizer::FragmentNeeds& needs) noexcept;
     [[nodiscard]] std::size_t count(std::size_t number) const noexcept { return batches_[number].count; }
     [[nodiscard]] bool has_dead(std::size_t number) const noexcept { return batches_[number].has_dead; }
     // The least range that holds the primitives of a batch. In later batches neither of its ends is less.
@@ -64,8 +66,9 @@ class FragmentStore {
     [[nodiscard]] std::uint64_t used_bytes() const noexcept { return used_chunks_ * std::uint64_t{chunk_bytes}; }
     [[nodiscard]] std::uint64_t bytes() const noexcept { return chunks_.size() * std::uint64_t{chunk_bytes}; }
 
+    static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;  // memory is taken in whole chunks
+
   private:
-    static constexpr std::size_t chunk_bytes = std::size_t{256} << 10;
     enum class State : std::uint8_t { empty, filling, complete, too_large };
     struct Packed {
         const std::byte* begin;
@@ -80,7 +83,6 @@ class FragmentStore {
     template <class Take>
     void for_each_place(std::span<const std::uint32_t> places, std::uint32_t start, std::uint32_t bytes,
                         const Take& take) const noexcept;
-    [[nodiscard]] std::size_t packed_bytes(std::size_t count) const noexcept;
 
     State state_ = State::empty;
     rasterizer::FragmentNeeds needs_, recalled_;

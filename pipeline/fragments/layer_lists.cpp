@@ -143,8 +143,8 @@ LayerLists::Layer LayerLists::layer() const noexcept {
 }
 
 std::span<const LayerLists::Tied> LayerLists::tied() const noexcept {
-    const auto [first, last] = std::ranges::equal_range(tied_, next_ - 1, {}, &Tied::layer);
-    return {first, last};
+    const auto first = std::ranges::lower_bound(tied_, next_ - 1, {}, &Tied::layer);
+    return {first, std::ranges::lower_bound(tied_, next_, {}, &Tied::layer)};
 }
 
 // A pixel behind its last layer has the surface's depth again.

@@ -15,8 +15,11 @@ namespace strata::pipeline {
 // The arrays and the memory that replay may take for a region's fragments. Texture coordinates are not among its needs:
 // colours are kept shaded.
 struct Replay {
-    std::uint64_t bytes = 0;          // a region; 0: every pass rasterizes
-    rasterizer::FragmentNeeds needs;  // what the algorithm's passes look at, all together
+    std::uint64_t bytes = 0;            // a region; 0: every pass rasterizes
+    rasterizer::FragmentNeeds needs{};  // what the algorithm's passes look at, all together
+    // What a fragment takes there, of a region; and of a row of a region, where columns as deep as the deepest do, too. Tiles are cut until one
+    // of them fits (tile_parts.h). 0: nothing is said.
+    std::uint64_t bytes_a_fragment = 0, bytes_in_columns = 0;
 };
 
 struct PreparedDraw;

@@ -10,6 +10,7 @@
 #include "pipeline/region/region.h"
 #include "pipeline/region/region_scratch.h"
 #include "pipeline/region/region_shortcuts.h"
+#include "pipeline/region/tile_parts.h"
 #include "rasterizer/base/float_environment.h"
 #include "rasterizer/base/parallel.h"
 
@@ -35,10 +36,9 @@ class FrameRun {
           instruments_{instruments},
           watch_{watch},
           extent_{execution == Execution::literal ? Extent::frame : Extent::tile} {
-        const auto& geometry = frame.transparent->geometry;
-        const std::size_t tiles =
-            static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
-        regions_.resize(extent_ == Extent::frame ? 1 : tiles);
+        places_ = extent_ == Extent::frame ? std::vector<RegionPlace>{{frame.rect(), 0, Extent::frame}}
+                                           : tile_parts(frame, threads);
+        regions_.resize(places_.size());
         twin_.assign(regions_.size(), no_twin);
         for (std::size_t r = 0; r < regions_.size(); ++r) weight_of_all_ += weight(r);
         const rasterizer::Rect rect = frame.rect();
@@ -50,6 +50,7 @@ class FrameRun {
     }
 
     FrameResult finish() {
+        if (watch_.begun) watch_.begun(places_);
         const std::vector<std::size_t> others = run_one_blank_of_each_size();
         parallel_for(others.size(), threads_, [&](std::size_t i) {
             if (twin_[others[i]] == no_twin)
@@ -64,9 +65,7 @@ class FrameRun {
     }
 
   private:
-    [[nodiscard]] rasterizer::Rect rect(std::size_t r) const {
-        return extent_ == Extent::frame ? frame_.rect() : tile_rect(frame_.transparent->geometry, r);
-    }
+    [[nodiscard]] const rasterizer::Rect& rect(std::size_t r) const { return places_[r].rect; }
 
     // Copies a part of the frame into its place; parts are disjoint, so threads do not meet.
     void copy_into(const Image& part, const rasterizer::Rect& at, Image& whole) const {
@@ -77,11 +76,11 @@ class FrameRun {
                                                   whole.index(at.x0 - frame_.rect().x0, at.y0 - frame_.rect().y0 + y)));
     }
 
-    // True if no list has a triangle in tile `r` and the frame promises that its body does not depend on place there
+    // True if no list has a triangle in region `r`, a tile, and the frame promises that its body does not depend on place there
     // (execution.md 6).
     [[nodiscard]] bool is_blank(std::size_t r) const {
         const auto is_empty = [&](const PreparedDraw* list) {
-            return list == nullptr || list->geometry.bin(r).empty();
+            return list == nullptr || list->geometry.bin(places_[r].tile).empty();
         };
         return extent_ == Extent::tile && frame_.effects == Effects::needed && frame_.alike_where_blank &&
                is_empty(frame_.transparent) && is_empty(frame_.second) && is_empty(frame_.opaque);
@@ -127,7 +126,7 @@ class FrameRun {
         if (extent_ == Extent::frame) return 1;
         std::size_t triangles = 1;
         for (const PreparedDraw* list : {frame_.transparent, frame_.second, frame_.opaque})
-            if (list != nullptr) triangles += list->geometry.bin(r).size();
+            if (list != nullptr) triangles += list->geometry.bin(places_[r].tile).size();
         return triangles;
     }
 
@@ -155,7 +154,7 @@ class FrameRun {
         RegionBooks books;
         books.script = script;
         books.passes_before = passes_before_;
-        Region region{frame_, {rect(r), r, extent_}, books, instruments_, &scratch_};
+        Region region{frame_, places_[r], books, instruments_, &scratch_};
         body_(region);
         RegionShortcuts shortcuts{region};
         shortcuts.write_image(books.published, result_.color);
@@ -356,7 +355,8 @@ class FrameRun {
     const Watch& watch_;
     Extent extent_;
     RegionScratchPool scratch_;
-    std::vector<RegionRun> regions_;
+    std::vector<RegionPlace> places_;
+    std::vector<RegionRun> regions_;  // at these places
     static constexpr std::size_t no_twin = ~std::size_t{0};
     std::vector<std::size_t> blanks_, twin_;  // blank regions that ran; by region: which of them it is like
     std::vector<int> passes_before_;          // by loop, once a limit has asked for them

@@ -9,9 +9,11 @@
 // Tests    tests/peeling/execution_test.cpp
 #pragma once
 #include <functional>
+#include <span>
 
 #include "pipeline/frame/frame_result.h"
 #include "pipeline/frame/instruments.h"
+#include "pipeline/frame/region_place.h"
 #include "pipeline/frame/run_settings.h"
 
 namespace strata::pipeline {
@@ -24,7 +26,9 @@ using Body = std::function<void(Region&)>;  // once a region, never a fragment
 // Looks at regions while their targets and traces are there, from any thread. A region that runs again is looked at again, and
 // what was seen before is void; so is all of it if the frame is run again as a whole.
 struct Watch {
-    // Region number `region` (a tile, or 0: the frame) has ended, and its part of `color` is written.
+    // The regions that will run: tiles and parts of tiles, or the frame. Other functions name them by their number.
+    std::function<void(std::span<const RegionPlace>)> begun{};
+    // Region number `region` has ended, and its part of `color` is written.
     std::function<void(Region&, std::size_t region, const Image& color)> ended{};
     // Region `region` is blank, and did not run: it left what region `like`, of the same size, left.
     std::function<void(std::size_t like, std::size_t region)> alike{};

@@ -220,17 +220,24 @@ TEST_CASE("runs in deep columns are what visiting everything finds, in every ord
         }
 }
 
-TEST_CASE("the fragments that a peel visits grow with its layers, and not with their square", "[slow]") {
+TEST_CASE(
+    "the fragments that a peel visits grow with its layers, and not with their square, in much memory and in little",
+    "[slow]") {
     for (const Machine& machine : one_layer_peels)
         for (const std::uint32_t layers : {16u, 64u, 256u, 1024u}) {
             const FragmentScene scene = deep_scene(layers);
             RenderOptions options = options_for(scene);
             options.tile_size = 8;
             options.audit = false;
-            const std::uint64_t visited = render(scene, machine, options).frame.work.visited;
             const std::uint64_t fragments = std::uint64_t{layers} * scene.pixels.size();
-            INFO(machine.algorithm << ", " << layers << " layers: " << visited << " of " << fragments);
-            CHECK(visited >= fragments);
-            CHECK(visited <= 2 * fragments + 8 * scene.pixels.size());
+            const auto visited = [&](std::uint64_t memory) {
+                options.fragment_memory = memory;
+                return render(scene, machine, options).frame.work.visited;
+            };
+            const std::uint64_t in_much = visited(std::uint64_t{256} << 20);
+            INFO(machine.algorithm << ", " << layers << " layers: " << in_much << " of " << fragments);
+            CHECK(in_much >= fragments);
+            CHECK(in_much <= 2 * fragments + 8 * scene.pixels.size());
+            CHECK(visited(std::uint64_t{1} << 20) == in_much);
         }
 }

@@ -1,0 +1,103 @@
+#include "pipeline/region/tile_parts.h"
+
+#include <algorithm>
+
+#include "pipeline/fragments/fragment_store.h"
+#include "pipeline/frame/frame.h"
+#include "pipeline/vertices/prepare.h"
+#include "rasterizer/base/parallel.h"
+#include "rasterizer/walk/tile_rasterizer.h"
+
+namespace strata::pipeline {
+
+using rasterizer::Geometry;
+using rasterizer::Rect;
+
+namespace {
+
+// Fragments of a region, and those of its deepest pixel; or bounds of both.
+struct Depths {
+    std::uint64_t all = 0, deepest = 0;
+};
+
+bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
+    constexpr std::uint64_t least_columns = 16;  // of a block
+    const std::uint64_t columns = std::max(least_columns, static_cast<std::uint64_t>(rect.width()));
+    return of.all * replay.bytes_a_fragment + FragmentStore::chunk_bytes <= replay.bytes ||
+           (replay.bytes_in_columns > 0 && columns * of.deepest * replay.bytes_in_columns <= replay.bytes);
+}
+
+// A triangle has a fragment at most for each pixel of its box.
+Depths bounds_of(const Geometry& geometry, std::size_t tile) {
+    const Rect rect = tile_rect(geometry, tile), viewport = geometry.state.viewport;
+    Depths most{0, geometry.bin(tile).size()};
+    for (const std::uint32_t number : geometry.bin(tile)) {
+        const auto [x0, y0, x1, y1] = geometry.triangles[number].box;
+        const Rect box{viewport.x0 + x0, viewport.y0 + y0, viewport.x0 + x1, viewport.y0 + y1};
+        most.all += intersection(rect, box).area();
+    }
+    return most;
+}
+
+class CutTile {
+  public:
+    CutTile(const Frame& frame, std::size_t tile)
+        : tile_{tile},
+          rect_{tile_rect(frame.repeated()->geometry, tile)},
+          replay_{frame.replay},
+          fragments_(rect_.area()) {
+        constexpr rasterizer::FragmentNeeds nothing{false, false, false, false, false, false};
+        auto add = [&](FragmentBatch& batch) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(batch.count); ++i) ++fragments_[batch.pixel[i]];
+        };
+        const Geometry& geometry = frame.repeated()->geometry;
+        rasterizer::TileRasterizer{rect_}.draw(geometry, geometry.bin(tile), frame.key_request(), nothing,
+                                               rasterizer::BatchSink{add});
+    }
+    void cut(std::vector<RegionPlace>& parts) const { cut(rect_, parts); }
+
+  private:
+    void cut(const Rect& part, std::vector<RegionPlace>& parts) const {
+        if (part.area() == 1 || fits(replay_, part, depths_of(part)))
+            return parts.push_back({part, tile_, Extent::tile});
+        for (const Rect& half : halves(part)) cut(half, parts);
+    }
+    [[nodiscard]] Depths depths_of(const Rect& part) const {
+        const auto width = static_cast<std::size_t>(rect_.width());
+        Depths found;
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x) {
+                const std::uint64_t own =
+                    fragments_[static_cast<std::size_t>(y - rect_.y0) * width + static_cast<std::size_t>(x - rect_.x0)];
+                found.all += own;
+                found.deepest = std::max(found.deepest, own);
+            }
+        return found;
+    }
+
+    std::size_t tile_;
+    Rect rect_;
+    Replay replay_;
+    std::vector<std::uint32_t> fragments_;  // by pixel
+};
+
+}  // namespace
+
+std::vector<RegionPlace> tile_parts(const Frame& frame, int threads) {
+    const Geometry& geometry = frame.repeated()->geometry;
+    const std::size_t tiles = static_cast<std::size_t>(geometry.tiles_x) * static_cast<std::size_t>(geometry.tiles_y);
+    const bool cuts = frame.replay.bytes >= 2 * FragmentStore::chunk_bytes && frame.replay.bytes_a_fragment > 0;
+    std::vector<std::vector<RegionPlace>> parts(tiles);
+    parallel_for(tiles, threads, [&](std::size_t tile) {
+        const Rect rect = tile_rect(geometry, tile);
+        if (cuts && !fits(frame.replay, rect, bounds_of(geometry, tile)))
+            CutTile{frame, tile}.cut(parts[tile]);
+        else
+            parts[tile].push_back({rect, tile, Extent::tile});
+    });
+    std::vector<RegionPlace> all;
+    for (const auto& of_tile : parts) all.insert(all.end(), of_tile.begin(), of_tile.end());
+    return all;
+}
+
+}  // namespace strata::pipeline

@@ -1,0 +1,28 @@
+// pipeline/region/tile_parts.h - the regions of a frame in replay: its tiles, and of a tile whose fragments take more than a region's memory
+// parts, so that no region falls back on rasterizing every pass.
+//
+// Rule     A tile is halved, across its longer side, until each part fits or is a pixel. A part fits by its fragments (Replay::bytes_a_fragment),
+//          or by a row of columns, sixteen of them at least, that are as deep as its deepest (Replay::bytes_in_columns). Parts stand where
+//          their tile would stand. Memory of less than two chunks of a store cuts nothing.
+// Source   execution.md 5.3.
+// Tests    tests/pipeline/region/tile_parts_test.cpp, tests/peeling/execution_test.cpp
+#pragma once
+#include <array>
+#include <vector>
+
+#include "pipeline/frame/region_place.h"
+
+namespace strata::pipeline {
+
+struct Frame;
+
+// Of an area above 1.
+[[nodiscard]] constexpr std::array<rasterizer::Rect, 2> halves(const rasterizer::Rect& r) noexcept {
+    const int x = (r.x0 + r.x1) / 2, y = (r.y0 + r.y1) / 2;
+    if (r.height() >= r.width()) return {{{r.x0, r.y0, r.x1, y}, {r.x0, y, r.x1, r.y1}}};
+    return {{{r.x0, r.y0, x, r.y1}, {x, r.y0, r.x1, r.y1}}};
+}
+
+[[nodiscard]] std::vector<RegionPlace> tile_parts(const Frame& frame, int threads);
+
+}  // namespace strata::pipeline

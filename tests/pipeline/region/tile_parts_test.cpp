@@ -1,0 +1,110 @@
+// Model: the fragments of a scene, given pixel by pixel.
+#include "pipeline/region/tile_parts.h"
+
+#include <catch2/catch.hpp>
+
+#include "pipeline/fragments/fragment_store.h"
+#include "tests/pipeline/frames.h"
+#include "tests/support/random_numbers.h"
+
+namespace {
+
+using namespace strata::testing;
+using namespace strata::pipeline;
+using strata::rasterizer::Rect;
+
+// Pixels with few fragments, and some with many.
+FragmentScene uneven_scene(Random& random) {
+    FragmentScene made{32, 16};
+    for (auto& pixel : made.pixels)
+        for (int n = random_int(random, 0, random_int(random, 0, 20) == 0 ? 90 : 5); n-- > 0;)
+            pixel.fragments.push_back({0.5f, {1, 1, 1, 1}});
+    return made;
+}
+
+struct Room {
+    std::uint64_t all = 0, deepest = 0;
+    Room(const FragmentScene& scene, const Rect& rect) {
+        for (int y = rect.y0; y < rect.y1; ++y)
+            for (int x = rect.x0; x < rect.x1; ++x) {
+                const std::uint64_t own = scene.pixels[static_cast<std::size_t>(y * scene.width + x)].fragments.size();
+                all += own;
+                deepest = std::max(deepest, own);
+            }
+    }
+    [[nodiscard]] bool fits(const Replay& replay, const Rect& rect) const {
+        const auto columns = static_cast<std::uint64_t>(std::max(16, rect.width()));
+        const bool in_columns =
+            replay.bytes_in_columns > 0 && columns * deepest * replay.bytes_in_columns <= replay.bytes;
+        return in_columns || all * replay.bytes_a_fragment + (256 << 10) <= replay.bytes;
+    }
+};
+
+Rect tile_of(const Rect& part, int tile_side) {
+    const int x = part.x0 / tile_side * tile_side, y = part.y0 / tile_side * tile_side;
+    return {x, y, x + tile_side, y + tile_side};
+}
+
+}  // namespace
+
+TEST_CASE("tiles are cut into parts that fit or are pixels, and none that fits is cut") {
+    Random random{2086};
+    std::size_t cut = 0, whole = 0, pixels = 0;
+    for (int round = 0; round < 40; ++round) {
+        const FragmentScene scene = uneven_scene(random);
+        TestFrame test{scene, "ideal", 16};
+        test.frame.replay = {.bytes = 512 << 10,
+                             .bytes_a_fragment = static_cast<std::uint64_t>(random_int(random, 1, 12000)),
+                             .bytes_in_columns = static_cast<std::uint64_t>(
+                                 random_int(random, -600, 600) < 0 ? 0 : random_int(random, 1, 700))};
+        const auto parts = tile_parts(test.frame, 1 + round % 3);
+        std::vector<int> covered(scene.pixels.size());
+        bool is_right = true;
+        for (const RegionPlace& part : parts) {
+            const Rect around = tile_of(part.rect, 16);
+            const bool is_whole = part.rect == around, fits = Room{scene, part.rect}.fits(test.frame.replay, part.rect);
+            is_right &=
+                part.extent == Extent::tile && part.tile == static_cast<std::size_t>(around.y0 / 16 * 2 + around.x0 / 16);
+            is_right &= intersection(part.rect, around) == part.rect && (fits || part.rect.area() == 1);
+            is_right &= is_whole || !Room{scene, around}.fits(test.frame.replay, around);
+            cut += is_whole ? 0 : 1;
+            whole += is_whole ? 1 : 0;
+            pixels += part.rect.area() == 1 ? 1 : 0;
+            for (int y = part.rect.y0; y < part.rect.y1; ++y)
+                for (int x = part.rect.x0; x < part.rect.x1; ++x) ++covered[static_cast<std::size_t>(y * 32 + x)];
+        }
+        INFO("round " << round);
+        CHECK(is_right);
+        CHECK(std::ranges::all_of(covered, [](int n) { return n == 1; }));
+    }
+    CHECK(cut > 100);
+    CHECK(whole > 10);
+    CHECK(pixels > 10);
+}
+
+TEST_CASE("tiles are not cut where nothing is said of a fragment, or memory holds less than two chunks") {
+    Random random{2087};
+    TestFrame test{uneven_scene(random), "ideal", 16};
+    const auto parts_with = [&](const Replay& replay) {
+        test.frame.replay = replay;
+        return tile_parts(test.frame, 1).size();
+    };
+    constexpr std::uint64_t chunk = FragmentStore::chunk_bytes;
+    CHECK(parts_with({.bytes = 2 * chunk, .bytes_a_fragment = 100'000}) > 2);
+    CHECK(parts_with({.bytes = 2 * chunk - 1, .bytes_a_fragment = 100'000}) == 2);
+    CHECK(parts_with({.bytes = 2 * chunk}) == 2);
+    CHECK(parts_with({.bytes = 0, .bytes_a_fragment = 1}) == 2);
+}
+
+TEST_CASE("halves are of the longer side, and make up the whole") {
+    for (int width = 1; width <= 9; ++width)
+        for (int height = 1; height <= 9; ++height) {
+            if (width * height == 1) continue;
+            const Rect whole{3, 5, 3 + width, 5 + height};
+            const auto [a, b] = halves(whole);
+            CHECK(a.area() + b.area() == whole.area());
+            CHECK(intersection(a, b).area() == 0);
+            CHECK((height >= width ? a.width() == width : a.height() == height));
+            CHECK(std::min(a.area(), b.area()) * 3 >= whole.area());
+        }
+}
