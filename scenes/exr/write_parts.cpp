@@ -24,15 +24,22 @@ class SinkStream : public Imf::OStream {
     explicit SinkStream(const ByteSink& sink) : OStream{sink.path.c_str()}, sink_{sink} {}
     void write(const char bytes[], int size) override {
         const auto count = static_cast<std::size_t>(size);
+        if (is_ending_ && count == block_place_bytes && std::all_of(bytes, bytes + size, [](char b) { return b == 0; }))
+            lacks_block_ = true;
         if (sink_.write(bytes, count) != count) throw std::runtime_error("a write failed");
     }
     std::uint64_t tellp() override { return static_cast<std::uint64_t>(sink_.position()); }
     void seekp(std::uint64_t position) override {
         if (!sink_.seek(static_cast<std::int64_t>(position))) throw std::runtime_error("a seek failed");
     }
+    // All rows were given; what follows are the tables of blocks.
+    void end() noexcept { is_ending_ = true; }
+    [[nodiscard]] bool lacks_block() const noexcept { return lacks_block_; }
 
   private:
+    static constexpr std::size_t block_place_bytes = 8;
     const ByteSink& sink_;
+    bool is_ending_ = false, lacks_block_ = false;
 };
 
 void tell_space(Imf::Header& header, StoredSpace space) {
@@ -92,14 +99,20 @@ int threads_for(std::span<const PartSource> parts) {
 
 }  // namespace
 
+// A block that could not be packed (zlib had no memory) is left out without a word, and what follows it too: OpenEXR 3.1 returns from
+// OutputFile::writePixels before it asks its tasks for failures. The tables of blocks, written when the file closes, then hold a 0.
 std::string write_parts(const ByteSink& sink, std::span<const PartSource> parts) try {
     std::vector<Imf::Header> headers;
     for (const PartSource& part : parts) headers.push_back(header_of(part.header));
     SinkStream stream{sink};
-    Imf::MultiPartOutputFile file{stream, headers.data(), static_cast<int>(headers.size()), false, threads_for(parts)};
-    for (int number = 0; const PartSource& part : parts)
-        part.header.is_deep ? write_deep(file, number++, part) : write_flat(file, number++, part);
-    return "";
+    {
+        const auto count = static_cast<int>(headers.size());
+        Imf::MultiPartOutputFile file{stream, headers.data(), count, false, threads_for(parts)};
+        for (int number = 0; const PartSource& part : parts)
+            part.header.is_deep ? write_deep(file, number++, part) : write_flat(file, number++, part);
+        stream.end();
+    }
+    return stream.lacks_block() ? "not all blocks of rows could be packed" : "";
 } catch (const std::bad_alloc&) {
     throw;
 } catch (const std::exception& failure) {

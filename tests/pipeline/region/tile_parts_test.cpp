@@ -63,8 +63,8 @@ TEST_CASE("tiles are cut into parts that fit or are pixels, and none that fits i
         for (const RegionPlace& part : parts) {
             const Rect around = tile_of(part.rect, 16);
             const bool is_whole = part.rect == around, fits = Room{scene, part.rect}.fits(test.frame.replay, part.rect);
-            is_right &=
-                part.extent == Extent::tile && part.tile == static_cast<std::size_t>(around.y0 / 16 * 2 + around.x0 / 16);
+            is_right &= part.extent == Extent::tile &&
+                        part.tile == static_cast<std::size_t>(around.y0 / 16 * 2 + around.x0 / 16);
             is_right &= intersection(part.rect, around) == part.rect && (fits || part.rect.area() == 1);
             is_right &= is_whole || !Room{scene, around}.fits(test.frame.replay, around);
             cut += is_whole ? 0 : 1;

@@ -1,0 +1,72 @@
+// zlib has no memory for a block: its two functions that OpenEXR calls are this program's here, which fail when a test says so.
+#include <dlfcn.h>
+#include <zlib.h>
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "scenes/files/image_io.h"
+#include "scenes/files/system_error.h"
+#include "tests/scenes/image_support.h"
+#include "tests/scenes/scenes_support.h"
+
+namespace {
+
+std::atomic<int> calls = 0, failing = 0;  // the call that fails, from 1; 0: none
+
+template <class Function, class... Values>
+int unless_failing(const char* name, Values... values) {
+    if (++calls == failing) return Z_MEM_ERROR;
+    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name))(values...);
+}
+
+}  // namespace
+
+int compress(Bytef* to, uLongf* size, const Bytef* from, uLong count) {
+    return unless_failing<decltype(compress)>("compress", to, size, from, count);
+}
+int compress2(Bytef* to, uLongf* size, const Bytef* from, uLong count, int level) {
+    return unless_failing<decltype(compress2)>("compress2", to, size, from, count, level);
+}
+
+namespace {
+
+using namespace strata::scenes;
+using strata::pipeline::Format;
+using strata::test::TemporaryFolder;
+
+// A write whose n-th block cannot be packed says so and leaves no file, whichever it is.
+template <class Write>
+void fails_at_each_block(const Write& write) {
+    const TemporaryFolder folder;
+    calls = failing = 0;
+    write(folder / "whole.exr");
+    const int blocks = calls;
+    REQUIRE(blocks > 4);
+    for (int n = 1; n <= blocks; ++n) {
+        INFO("block " << n << " of " << blocks);
+        calls = 0;
+        failing = n;
+        CHECK_THROWS_AS(write(folder / "broken.exr"), strata::SystemError);
+        failing = 0;
+        CHECK_FALSE(std::filesystem::exists(folder / "broken.exr"));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("an EXR whose block cannot be packed is refused, whichever block it is") {
+    const OutputColor image{.color = strata::test::wild_image(Format::rgba8, 40, 100, 5),
+                            .depth = strata::test::wild_image(Format::d24, 40, 100, 6)};
+    fails_at_each_block([&](const std::string& path) { write_image(path, image); });
+}
+
+TEST_CASE("a deep EXR whose block cannot be packed is refused, whichever block it is") {
+    DeepFragments fragments{.width = 2, .height = 3, .count = std::vector<std::uint32_t>(6, 40)};
+    fragments.depth_code.resize(240);
+    fragments.z.resize(240);
+    fragments.rgba.resize(240);
+    fragments.primitive.resize(240);
+    fails_at_each_block([&](const std::string& path) { write_deep(path, fragments, {}); });
+}
