@@ -27,10 +27,12 @@ bool fits(const Replay& replay, const Rect& rect, const Depths& of) {
            (replay.bytes_in_columns > 0 && columns * of.deepest * replay.bytes_in_columns <= replay.bytes);
 }
 
-// A triangle has a fragment at most for each pixel of its box.
-Depths bounds_of(const Geometry& geometry, std::size_t tile) {
+// A triangle has a fragment at most for each pixel of its box, which is seldom asked for: most tiles fit if all had as many as there are triangles.
+Depths bounds_of(const Geometry& geometry, std::size_t tile, const Replay& replay) {
     const Rect rect = tile_rect(geometry, tile), viewport = geometry.state.viewport;
-    Depths most{0, geometry.bin(tile).size()};
+    const std::uint64_t triangles = geometry.bin(tile).size();
+    if (const Depths everywhere{triangles * rect.area(), triangles}; fits(replay, rect, everywhere)) return everywhere;
+    Depths most{0, triangles};
     for (const std::uint32_t number : geometry.bin(tile)) {
         const auto [x0, y0, x1, y1] = geometry.triangles[number].box;
         const Rect box{viewport.x0 + x0, viewport.y0 + y0, viewport.x0 + x1, viewport.y0 + y1};
@@ -90,7 +92,7 @@ std::vector<RegionPlace> tile_parts(const Frame& frame, int threads) {
     std::vector<std::vector<RegionPlace>> parts(tiles);
     parallel_for(tiles, threads, [&](std::size_t tile) {
         const Rect rect = tile_rect(geometry, tile);
-        if (cuts && !fits(frame.replay, rect, bounds_of(geometry, tile)))
+        if (cuts && !fits(frame.replay, rect, bounds_of(geometry, tile, frame.replay)))
             CutTile{frame, tile}.cut(parts[tile]);
         else
             parts[tile].push_back({rect, tile, Extent::tile});
