@@ -68,6 +68,10 @@ struct SelectedFragments {
         if (of_rank.size() <= last_rank) of_rank.resize(last_rank + 1);
         for (; ranks <= last_rank; ++ranks) of_rank[ranks].reserve(columns);
     }
+    // The ranks of Keeps::ends are places in the window: nearest, the next two inwards from either end, farthest. What is tied with an
+    // end has ranks behind them. So a batch of the inner ones holds nothing else.
+    static constexpr std::size_t end_ranks_count = 4;
+    [[nodiscard]] static constexpr bool is_inner_end(std::size_t number) noexcept { return number == 1 || number == 2; }
     // The first ranks, empty, to be filled in a loop.
     template <std::size_t count>
     [[nodiscard]] std::array<Filling, count> begin_ranks() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "pipeline/fragments/ends_course.h"
 #include "pipeline/fragments/layer_lists.h"
 #include "pipeline/fragments/sorted_fragments.h"
 
@@ -15,6 +16,7 @@ class SortedSets {
     [[nodiscard]] const SortedFragments& present() const noexcept { return sets_[present_].fragments; }
     // Its fragments by layers.
     [[nodiscard]] LayerLists& layers() noexcept { return sets_[present_].layers; }
+    [[nodiscard]] EndsCourse& ends_course() noexcept { return sets_[present_].ends_course; }
     void forget() noexcept {
         for (Set& set : sets_) set.fragments.forget();
     }
@@ -32,6 +34,7 @@ class SortedSets {
         if (!std::ranges::all_of(sets_, [&](const Set& set) { return set.fragments.may_sort(request); })) return false;
         if (sets_[present_].bytes() > 0) present_ = 1 - present_;
         layers().forget();
+        ends_course().forget();
         return true;
     }
     // Memory that the other set takes.
@@ -41,6 +44,7 @@ class SortedSets {
     struct Set {
         SortedFragments fragments;
         LayerLists layers;  // of these fragments
+        EndsCourse ends_course;
         [[nodiscard]] std::uint64_t bytes() const noexcept {
             return fragments.bytes() == 0 ? 0 : fragments.bytes() + layers.bytes();
         }

@@ -220,7 +220,7 @@ void for_some_columns(const SortedFragments& sorted, const Visit& visit) {
 // A column of sorted fragments, and its window: numbers [first, last), keys from `low` on; [first, tested) lies before what is stored,
 // if that is asked for.
 struct WindowColumn {
-    std::uint32_t pixel;
+    std::uint32_t number, pixel;
     std::span<const std::uint64_t> words;
     std::uint32_t first, last, tested;
     std::uint64_t low;
@@ -244,7 +244,8 @@ void for_each_column(SortedFragments& sorted, const KeyWindow& window, const Sto
             const auto words = sorted.column(from + k);
             const std::uint32_t last = is_open ? static_cast<std::uint32_t>(words.size()) : std::max(first[k], end[k]);
             const std::uint32_t tested = stored == nullptr ? last : std::min(last, surface[k]);
-            visit(WindowColumn{pixels[k], words, first[k], last, tested, ends.low[k]});
+            visit(WindowColumn{static_cast<std::uint32_t>(from + k), pixels[k], words, first[k], last, tested,
+                               ends.low[k]});
         }
     });
 }

@@ -75,7 +75,7 @@ void Region::select_nearest(const PassState& state) {
     const StoredDepth stored = stored_depth(state);
     std::uint64_t inside = 0, passed = 0;
     for_each_column(sorted, window, &stored, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, tested, low] = column;
+        const auto& [number, p, words, first, end, tested, low] = column;
         inside += end - first;
         const std::uint32_t updates = sorted.passing(p, first, tested);
         if (keeps == Keeps::previous) {
@@ -131,84 +131,13 @@ void Region::select_window(const PassState& state) {
     std::vector<std::uint64_t> in_order;
     std::uint64_t inside = 0;
     for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, last, tested, low] = column;
+        const auto& [number, p, words, first, last, tested, low] = column;
         inside += last - first;
         if (last == first) return;
         const auto kept = in_order_of_arrival(words.subspan(first, last - first), in_order);
         for (std::size_t rank = 0; rank < kept.size(); ++rank) selected.add(p, kept[rank], rank);
     });
     selected.inside = inside;
-}
-
-namespace {
-
-// The ranks of Keeps::ends are places in the window: nearest, the next two inwards from either end, farthest. What is tied with an end
-// has ranks behind them. So a batch of the inner ones holds nothing else.
-constexpr std::size_t end_ranks = 4;
-constexpr bool is_inner(std::size_t rank) noexcept { return rank == 1 || rank == 2; }
-
-// Where MAX leaves (-z, z) of what lies between the ends: of the nearest and of the farthest of it.
-struct InnerRange {
-    Word *near = nullptr, *far = nullptr;
-    // False where the program has to say it: where depths are not above 0 and normal, or less than what is stored, a profile decides.
-    [[nodiscard]] bool put(std::size_t pixel, std::uint64_t nearest, std::uint64_t farthest) const noexcept {
-        constexpr std::uint32_t zero = rasterizer::ordered_code(0.0f), least = zero | 0x00800000u;
-        const float nearer = -std::bit_cast<float>(static_cast<std::uint32_t>(nearest) ^ zero);
-        const float farther = std::bit_cast<float>(static_cast<std::uint32_t>(farthest) ^ zero);
-        if (near == nullptr || nearest < least || !(std::bit_cast<float>(near[pixel]) < nearer) ||
-            !(std::bit_cast<float>(far[pixel]) < farther))
-            return false;
-        near[pixel] = std::bit_cast<Word>(nearer);
-        far[pixel] = std::bit_cast<Word>(farther);
-        return true;
-    }
-};
-
-}  // namespace
-
-// Ends are taken by the columns' own keys: where a bound was flushed as a denormal, they are still the ones that decide.
-void Region::select_ends(const PassState& state) {
-    SortedFragments& sorted = scratch_->sorted.present();
-    SelectedFragments& selected = scratch_->selected;
-    const FragmentSelection& selection = state.selection;
-    const KeyWindow window = window_of(selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
-    InnerRange inner;
-    const bool has_range = is_one_sample(state.color[0]) && at(state.color[0]).format() == Format::rg32f &&
-                           state.blend[0] == blend_mode::max && profile().blend_storage == BlendStorage::target;
-    if (selection.keys_suffice && has_range && frame_.key == DepthKey::shader_z) {
-        const Texels written = at(state.color[0]).texels(0);
-        inner = {written.plane(0).words, written.plane(1).words};
-    }
-    std::uint64_t done = 0;
-    auto ranks = selected.begin_ranks<end_ranks>();
-    SelectedFragments::Filling &nearest = ranks[0], &after_nearest = ranks[1], &before_farthest = ranks[2],
-                               &farthest = ranks[3];
-    for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, last, tested, low] = column;
-        selected.inside += last - first;
-        std::size_t rank = end_ranks;  // of what is tied with an end
-        const auto key = [&column](std::uint32_t k) { return column.words[k] >> 32; };
-        std::uint32_t near_end = first, far_begin = last;
-        if (first < last) nearest.add(p, words[near_end++]);
-        while (near_end < last && key(near_end) == key(first)) selected.add(p, words[near_end++], rank++);
-        while (far_begin > near_end && key(far_begin - 1) == key(last - 1)) --far_begin;
-        if (near_end < far_begin) {
-            const bool has_two = near_end + 1 < far_begin;
-            if (inner.put(p, key(near_end), key(far_begin - 1))) {
-                done += has_two ? 2 : 1;
-            } else {
-                after_nearest.add(p, words[near_end]);
-                if (has_two) before_farthest.add(p, words[far_begin - 1]);
-            }
-        }
-        if (far_begin < last) farthest.add(p, words[far_begin]);
-        for (std::uint32_t k = far_begin + 1; k < last; ++k) selected.add(p, words[k], rank++);
-        // Only where the window writes nothing but its first key does the value of those outside come from outside.
-        if (selection.outside == Outside::one_value && near_end == last && last - first < words.size())
-            after_nearest.add(p, words[first > 0 ? 0 : last]);
-    });
-    selected.end_ranks<end_ranks>(ranks);
-    count_visits(done);
 }
 
 // The samples that the present batch is drawn to.
@@ -273,7 +202,7 @@ FragmentBatch* Region::next_selected(const PassState& state) {
     if (frame_.key == DepthKey::shader_z && fetched.shader_z)
         fetched.shader_z = put_depths(batch.code, count, batch.shader_z);
     const bool has_ends = state.selection.keeps == Keeps::ends;
-    fetched.color &= !(has_ends && state.selection.keys_suffice && is_inner(selected.rank));
+    fetched.color &= !(has_ends && state.selection.keys_suffice && SelectedFragments::is_inner_end(selected.rank));
     fetched.reference &= !is_reference_key && !is_known_behind;  // of a comparison of codes, which are the keys
     fetched.code =
         frame_.key == DepthKey::shader_z && pass_needs(state, {}, frame_.effects).code;  // else the key is it

@@ -81,7 +81,7 @@ void Region::select_run(const PassState& state) {
     const std::uint32_t* const depths = storage(state.depth_target).depth(0);
     const bool is_float = storage(state.depth_target).format() == Format::d32f;
     for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, tested, low] = column;
+        const auto& [number, p, words, first, end, tested, low] = column;
         selected.inside += end - first;
         std::uint32_t count = counts[p], depth = depths[p];
         RunWalk walk{sorted, p, first, end};
@@ -132,7 +132,7 @@ void Region::select_nearest_after(const PassState& state) {
     std::uint32_t* const counts = at(state.stencil_target).stencil_plane(0).words;
     std::vector<std::uint32_t> dead;
     for_each_column(sorted, window, &stored, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, tested, low] = column;
+        const auto& [number, p, words, first, end, tested, low] = column;
         const std::uint32_t dying = std::min(full_stencil - counts[p], end - first);
         selected.inside += end - first;
         selected.killed += dying;
@@ -172,7 +172,7 @@ void Region::select_last_run(const PassState& state) {
         window_of(state.selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); });
     std::vector<std::uint64_t> kept;
     for_each_column(sorted, window, nullptr, selected.windows, [&](const WindowColumn& column) {
-        const auto& [p, words, first, end, tested, low] = column;
+        const auto& [number, p, words, first, end, tested, low] = column;
         kept.clear();
         for (std::uint32_t k = first; k-- > 0 && words[k] >> 32 == low - 1;) kept.push_back(words[k]);
         if (const std::uint32_t updates = sorted.passing(p, first, end); updates > 0) {

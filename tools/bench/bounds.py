@@ -3,7 +3,8 @@
 
     tools/bench/bounds.py [--models ../shared/models] [--captures ../shared/nv2a] [--before STRATA] [--repeat 3] [--rows formats,...]
 
-Standard library alone. Every ratio is of two processor times of one run of this script, the median of `--repeat` pairs taken in turn.
+Standard library alone. Every ratio is of two times of one run of this script, the median of `--repeat` pairs taken in turn: of a job the quickest
+of some frames on one thread, of a whole command the processor's.
 `--before` is a built command to compare whole commands with; without it their rows are left out. Exit status 1 if a bound is not kept.
 """
 import argparse
@@ -17,7 +18,7 @@ import tempfile
 from peels import ROOT, bench_command, frame_ms, processor_ms
 
 MODEL_SIZE, SLICES = "1024x1024", "volume-beam:slices=64,order=near"
-FRAMES = 3  # of a job that are timed together
+FRAMES = 5  # of a job in one turn
 LAYER_SIZE = {"planes": "96x96", "teapot": "256x256", "bunny": "256x256"}
 LAYER_PROFILES = ("geforce3", "geforce8", "ideal")
 

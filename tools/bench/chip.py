@@ -3,7 +3,7 @@
 
     tools/bench/chip.py [--size 1024x1024] [--models ../shared/models] [--scenes bunny,dragon] [--repeat 8] [--count]
 
-Standard library alone. Times are the processor's, of a frame on one thread, in turns: each ratio is the median of the turns' ratios.
+Standard library alone. Times are of a turn's quickest frames on one thread: each ratio is the median of the turns' ratios.
 --count adds instructions (valgrind, on AVX2), which no other work on the machine changes. The exit status is 1 if a bound is missed.
 """
 import argparse
@@ -64,7 +64,7 @@ def instructions(command, algorithm, frames):
 def main():
     options = parse_arguments()
     kept = True
-    print(f"Processor time of a frame at {options.size}, one thread, best instruction set, {TURNS} turns of {options.repeat} frames; "
+    print(f"The quickest frame of a turn at {options.size}, one thread, best instruction set, {TURNS} turns of {options.repeat} frames; "
           f"shadow_map has {PASSES} passes, and its ratio is a pass over a pass.\n")
     print("| scene | job | ms | beside it | ms | ratio | most | kept |" + (" instructions | beside it | ratio |" if options.count else ""))
     print("|" + "---|" * (11 if options.count else 8))

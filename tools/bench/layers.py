@@ -4,7 +4,7 @@
     tools/bench/layers.py [--slices 16,64,256] [--size 128x128] [--out tools/bench/layers.svg]
 
 Standard library alone. A peel whose line stays level costs the same for every layer; one that rises visits fragments again. Beside
-each stands a_buffer. Times are of the processor, on one thread: other work on the machine counts little.
+each stands a_buffer. Times are of the quickest frames, on one thread, which other work on the machine disturbs least.
 """
 import argparse
 import math
@@ -51,7 +51,7 @@ def picture(times, layers):
     text = lambda x, y, words, anchor="middle": f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{words}</text>'  # noqa: E731
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH + LEGEND}" height="{HEIGHT}" font-family="sans-serif" font-size="12">',
              f'<rect width="{WIDTH + LEGEND}" height="{HEIGHT}" fill="white"/>',
-             text(WIDTH / 2, HEIGHT - 14, "layers"), text(WIDTH / 2, 24, "microseconds of the processor a layer")]
+             text(WIDTH / 2, HEIGHT - 14, "layers"), text(WIDTH / 2, 24, "microseconds a layer")]
     for n in layers:
         lines.append(text(across(n), HEIGHT - MARGIN + 18, n))
     for power in range(low, high + 1):

@@ -1,0 +1,171 @@
+// Peels from both ends whose passes go on from window to window, and peels that leave that course: another range, another surface, another
+// clear, a pass twice. Model: literal execution, which visits every fragment.
+#include <bit>
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/region/both_ways.h"
+#include "tests/support/random_numbers.h"
+
+// A namespace of its own: names of the bodies are short.
+namespace strata::testing::peel_ends {
+namespace {
+
+using namespace pipeline;
+
+// Up to eleven depths a pixel in any order, ties and opaque surfaces at a layer's own depth among them; pixels without any. `rare` depths are
+// 0 or denormal.
+FragmentScene any_depths(Random& random, bool has_rare) {
+    FragmentScene made{16, 16};
+    for (auto& pixel : made.pixels) {
+        for (int n = random_int(random, 0, 11); n-- > 0;) {
+            const bool is_rare = has_rare && random_int(random, 0, 9) == 0;
+            const float depth = static_cast<float>(random_int(random, 1, 15)) / 16.0f;
+            pixel.fragments.push_back({is_rare ? (depth < 0.5f ? 0.0f : 1e-40f) : depth, random_color(random)});
+        }
+        if (random_int(random, 0, 3) == 0)
+            pixel.opaque = GivenFragment{static_cast<float>(random_int(random, 4, 32)) / 32.0f, {0, 1, 0, 1}};
+    }
+    return made;
+}
+
+// What may be different in one pass of a peel.
+enum class Step {
+    next,           // as a peel goes on
+    again,          // with the range of the pass before
+    first,          // of everything
+    other_range,    // at one pixel
+    other_surface,  // at one pixel
+    other_clear,    // of what the pass leaves
+    other_outside,  // what a fragment outside does
+    no_keys         // does not promise that keys suffice
+};
+
+struct Walk {
+    std::vector<Step> steps;
+    std::uint64_t seed;
+};
+
+Walk random_walk(Random& random) {
+    Walk walk{{Step::first}, random()};
+    const int disturbed = random_int(random, 0, 2);  // how often
+    for (int n = random_int(random, 2, 12); n-- > 0;) {
+        const bool is_plain = random_int(random, 0, 3) >= disturbed;
+        walk.steps.push_back(
+            is_plain ? Step::next : static_cast<Step>(random_int(random, 0, static_cast<int>(Step::no_keys))));
+    }
+    return walk;
+}
+
+// Draws over the whole frame, and keeps of it one pixel.
+template <class Put>
+void put_pixel(Region& region, const PassState& state, int x, int y, const Put& put) {
+    static_cast<void>(region.full_screen(state, [=](const FragmentBatch& in, const Loads&, Outputs& out) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+            put(out, i);
+            if (in.x[i] != x || in.y[i] != y) out.discard(static_cast<int>(i));
+        }
+    }));
+}
+
+class Peel {
+  public:
+    Peel(Region& region, const Walk& walk) : region_{region}, walk_{walk}, random_{walk.seed} {
+        region_.clear(ends_, {.color = {0, 0, 0, 0}});
+        region_.copy(region_.opaque_depth(), surface_);
+    }
+
+    void run() {
+        for (const Step step : walk_.steps) take(step);
+        region_.publish(ends_);
+    }
+
+  private:
+    void take(Step step) {
+        const int x = random_int(random_, 0, 15), y = random_int(random_, 0, 15);
+        const float near = static_cast<float>(random_int(random_, -1, 12)) / 16.0f;
+        const float far = static_cast<float>(random_int(random_, 2, 17)) / 16.0f;
+        if (step == Step::first) region_.clear(range_, {.color = {1, 1, 0, 0}});  // from -1 to 1
+        if (step == Step::other_range) {
+            PassState state;
+            state.color[0] = range_;
+            put_pixel(region_, state, x, y, [=](Outputs& out, std::size_t i) {
+                out.color[0][0][i] = -near;
+                out.color[0][1][i] = far;
+            });
+        }
+        if (step == Step::other_surface) {
+            PassState state;
+            state.depth = {.enabled = true, .func = CompareFunc::always, .write = true};
+            state.depth_target = surface_;
+            put_pixel(region_, state, x, y, [=](Outputs& out, std::size_t i) {
+                out.replaces_depth = true;
+                out.depth[i] = std::bit_cast<std::uint32_t>(std::max(far, 0.0f));
+            });
+        }
+        const bool is_other = step == Step::other_clear;
+        region_.clear(next_, {.color = {is_other ? -0.5f : -1.0f, is_other ? 0.25f : -1.0f, 0, 0}});
+        if (step == Step::other_outside) outside_ = outside_ == Outside::discarded ? Outside::one_value : Outside::discarded;
+        draw(step != Step::no_keys);
+        if (step != Step::again) std::swap(range_, next_);
+    }
+
+    // The near end leaves its colour, and everything else that is not discarded a quarter.
+    void draw(bool keys_suffice) {
+        PassState state;
+        state.color = {next_, ends_};
+        state.blend = {blend_mode::max, blend_mode::max};
+        state.reads = {range_, surface_};
+        state.needs.code = false;
+        state.selection = {.keeps = Keeps::ends,
+                           .outside = outside_,
+                           .before = surface_,
+                           .range = range_,
+                           .keys_suffice = keys_suffice};
+        const bool discards = outside_ == Outside::discarded;
+        static_cast<void>(region_.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
+                const float z = in.shader_z[i], near = -own.color(0)[0][i], far = own.color(0)[1][i];
+                const bool is_inside = z < std::bit_cast<float>(own.depth(1)[i]) && z >= near && z <= far;
+                const bool is_near = is_inside && z == near, is_between = is_inside && z != near && z != far;
+                out.color[0][0][i] = is_between ? -z : -1.0f;
+                out.color[0][1][i] = is_between ? z : -1.0f;
+                for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = is_near ? in.color[c][i] : 0.25f;
+                if (!is_inside && discards) out.discard(static_cast<int>(i));
+            }
+        }));
+    }
+
+    Region& region_;
+    const Walk& walk_;
+    Random random_;
+    Target range_ = region_.make(Format::rg32f), next_ = region_.make(Format::rg32f);
+    Target ends_ = region_.make(Format::rgba32f), surface_ = region_.make_depth();
+    Outside outside_ = walk_.seed % 2 == 0 ? Outside::discarded : Outside::one_value;
+};
+
+std::string difference_of_walk(const Walk& walk, const FragmentScene& scene) {
+    TestFrame test{scene, walk.seed % 4 == 0 ? "softpipe" : "ideal"};
+    test.frame.depth.format = DepthFormat::d32f;
+    test.frame.key = DepthKey::shader_z;
+    test.frame.replay = {std::uint64_t{1} << 20, {}};
+    const Body body = [&](Region& region) { Peel{region, walk}.run(); };
+    const WhatIsLeft literal = run_one_way(test.frame, body, Execution::literal, {});
+    REQUIRE(literal.refusal.empty());
+    const std::string checked =
+        difference_of(literal, run_one_way(test.frame, body, Execution::replay, {.check_selections = true}));
+    return checked + difference_of(literal, run_one_way(test.frame, body, Execution::replay, {}));
+}
+
+}  // namespace
+
+TEST_CASE("a peel from both ends leaves and counts what visiting everything does, wherever it leaves its course") {
+    Random random{2091};
+    for (int round = 0; round < 250; ++round) {
+        const FragmentScene scene = any_depths(random, round % 4 == 0);
+        const Walk walk = random_walk(random);
+        INFO("round " << round);
+        REQUIRE(difference_of_walk(walk, scene) == "");
+    }
+}
+
+}  // namespace strata::testing::peel_ends
