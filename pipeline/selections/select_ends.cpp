@@ -62,13 +62,13 @@ void Region::select_ends(const PassState& state) {
     InnerPlanes inner;
     if (has_range) inner = {at(state.color[0]).texels(0).plane(0).words, at(state.color[0]).texels(0).plane(1).words};
     EndsCourse& course = scratch_->sorted.ends_course();
-    bool goes_on = false, has_course = has_range && is_of_a_range(selection);
+    const bool has_course = has_range && is_of_a_range(selection);
+    bool goes_on = false;
     if (has_course) {
         const Texels range = storage(selection.range).texels(0);
         const std::uint32_t* const surface = codes_of(selection.before);
         const bool keeps_empty = selection.outside == Outside::one_value;
-        goes_on =
-            course.is_at({range.plane(0).words, range.plane(1).words, surface}, sorted.pixels(), keeps_empty);
+        goes_on = course.is_at({range.plane(0).words, range.plane(1).words, surface}, sorted.pixels(), keeps_empty);
         course.begin({inner.near, inner.far, surface}, sorted.pixels(), keeps_empty);
     }
     std::uint64_t done = 0;
@@ -95,7 +95,6 @@ void Region::select_ends(const PassState& state) {
                 if (has_two) before_farthest.add(p, words[far_begin - 1]);
             }
             if (has_course) course.leave(left, p, between.near, between.far);
-            has_course &= between.is_plain;
         } else if (has_course) {
             course.leave_empty(left);
         }
@@ -109,10 +108,9 @@ void Region::select_ends(const PassState& state) {
         for (const auto& [number, first, last] : course.windows())
             visit({number, sorted.occupied()[number], sorted.column(number), first, last, last, 0});
     else
-        for_each_column(
-            sorted, window_of(selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); }),
-            nullptr, selected.windows, visit);
-    if (!has_course) course.forget();
+        for_each_column(sorted,
+                        window_of(selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); }),
+                        nullptr, selected.windows, visit);
     selected.end_ranks<end_ranks>(ranks);
     count_visits(done);
 }

@@ -12,10 +12,12 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 GROUPS = {
     "closed forms of dual and front_to_back": ["peeling/closed/*"],
-    "replay: fragments captured and recalled": ["pipeline/fragments/fragment_store.*", "pipeline/region/region_replay.cpp"],
+    "replay: fragments captured and recalled": [
+        "pipeline/fragments/fragment_store.*", "pipeline/region/region_replay.cpp", "pipeline/region/tile_parts.*"],
     "selections: passes visit what they keep": [
         "pipeline/selections/*", "pipeline/frame/selection.h", "pipeline/region/region_layer.cpp", "pipeline/fragments/sorted_*",
-        "pipeline/fragments/layer_lists.*", "pipeline/fragments/stored_updates.cpp", "pipeline/fragments/selected_fragments.h",
+        "pipeline/fragments/layer_lists.*", "pipeline/fragments/ends_course.h", "pipeline/fragments/stored_updates.cpp",
+        "pipeline/fragments/selected_fragments.h",
         "pipeline/fragments/compared_depths.cpp", "pipeline/fragments/first_that.h", "pipeline/fragments/earliest_index.h",
         "pipeline/fragments/sort_arrivals.h"],
     "rows: passes without batches": [

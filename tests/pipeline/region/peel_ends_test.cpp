@@ -37,7 +37,7 @@ enum class Step {
     other_surface,  // at one pixel
     other_clear,    // of what the pass leaves
     other_outside,  // what a fragment outside does
-    no_keys         // does not promise that keys suffice
+    no_keys         // leaves something else of what lies between, and does not promise that keys suffice
 };
 
 struct Walk {
@@ -50,8 +50,8 @@ Walk random_walk(Random& random) {
     const int disturbed = random_int(random, 0, 2);  // how often
     for (int n = random_int(random, 2, 12); n-- > 0;) {
         const bool is_plain = random_int(random, 0, 3) >= disturbed;
-        walk.steps.push_back(
-            is_plain ? Step::next : static_cast<Step>(random_int(random, 0, static_cast<int>(Step::no_keys))));
+        walk.steps.push_back(is_plain ? Step::next
+                                      : static_cast<Step>(random_int(random, 0, static_cast<int>(Step::no_keys))));
     }
     return walk;
 }
@@ -88,6 +88,7 @@ class Peel {
         if (step == Step::other_range) {
             PassState state;
             state.color[0] = range_;
+            state.blend[0].write_mask = static_cast<std::uint8_t>(random_int(random_, 1, 3));  // near, far or both
             put_pixel(region_, state, x, y, [=](Outputs& out, std::size_t i) {
                 out.color[0][0][i] = -near;
                 out.color[0][1][i] = far;
@@ -104,7 +105,8 @@ class Peel {
         }
         const bool is_other = step == Step::other_clear;
         region_.clear(next_, {.color = {is_other ? -0.5f : -1.0f, is_other ? 0.25f : -1.0f, 0, 0}});
-        if (step == Step::other_outside) outside_ = outside_ == Outside::discarded ? Outside::one_value : Outside::discarded;
+        if (step == Step::other_outside)
+            outside_ = outside_ == Outside::discarded ? Outside::one_value : Outside::discarded;
         draw(step != Step::no_keys);
         if (step != Step::again) std::swap(range_, next_);
     }
@@ -127,8 +129,9 @@ class Peel {
                 const float z = in.shader_z[i], near = -own.color(0)[0][i], far = own.color(0)[1][i];
                 const bool is_inside = z < std::bit_cast<float>(own.depth(1)[i]) && z >= near && z <= far;
                 const bool is_near = is_inside && z == near, is_between = is_inside && z != near && z != far;
-                out.color[0][0][i] = is_between ? -z : -1.0f;
-                out.color[0][1][i] = is_between ? z : -1.0f;
+                const float left = keys_suffice ? z : 0.5f * z;
+                out.color[0][0][i] = is_between ? -left : -1.0f;
+                out.color[0][1][i] = is_between ? left : -1.0f;
                 for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = is_near ? in.color[c][i] : 0.25f;
                 if (!is_inside && discards) out.discard(static_cast<int>(i));
             }
