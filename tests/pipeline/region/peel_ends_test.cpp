@@ -111,7 +111,7 @@ class Peel {
         if (step != Step::again) std::swap(range_, next_);
     }
 
-    // The near end leaves its colour, and everything else that is not discarded a quarter.
+    // The near end leaves its colour, and everything else that is not discarded a value that rises from pass to pass.
     void draw(bool keys_suffice) {
         PassState state;
         state.color = {next_, ends_};
@@ -124,6 +124,7 @@ class Peel {
                            .range = range_,
                            .keys_suffice = keys_suffice};
         const bool discards = outside_ == Outside::discarded;
+        const float others = static_cast<float>(++passes_) / 32.0f;
         static_cast<void>(region_.draw(state, [=](const FragmentBatch& in, const Loads& own, Outputs& out) {
             for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
                 const float z = in.shader_z[i], near = -own.color(0)[0][i], far = own.color(0)[1][i];
@@ -132,7 +133,7 @@ class Peel {
                 const float left = keys_suffice ? z : 0.5f * z;
                 out.color[0][0][i] = is_between ? -left : -1.0f;
                 out.color[0][1][i] = is_between ? left : -1.0f;
-                for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = is_near ? in.color[c][i] : 0.25f;
+                for (std::size_t c = 0; c < 4; ++c) out.color[1][c][i] = is_near ? in.color[c][i] : others;
                 if (!is_inside && discards) out.discard(static_cast<int>(i));
             }
         }));
@@ -143,6 +144,7 @@ class Peel {
     Random random_;
     Target range_ = region_.make(Format::rg32f), next_ = region_.make(Format::rg32f);
     Target ends_ = region_.make(Format::rgba32f), surface_ = region_.make_depth();
+    int passes_ = 0;
     Outside outside_ = walk_.seed % 2 == 0 ? Outside::discarded : Outside::one_value;
 };
 
