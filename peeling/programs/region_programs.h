@@ -10,6 +10,7 @@ namespace strata::peeling {
                                                                 pipeline::Target peeled, pipeline::Outside outside) {
     pipeline::FragmentSelection selection{.keeps = pipeline::Keeps::nearest, .outside = outside, .behind = peeled};
     if (!compare.is_plain()) selection.compared = compare;
+    selection.repeats = selection.compared.has_value();
     return selection;
 }
 

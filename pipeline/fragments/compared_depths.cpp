@@ -27,7 +27,8 @@ namespace {
 // Depths of words as they stand.
 bool SortedFragments::take_compared(const FragmentStore& store) {
     const DepthCompare& compare = *request_.compared;
-    compared_.resize(words_.size());
+    const bool is_value = request_.key == DepthKey::shader_z;
+    is_value ? compared_.resize(words_.size()) : stored_.resize(words_.size() + few_stored);
     if (size() == 0) return true;  // not even what stands between columns has a place then
     const auto batch = std::make_unique<rasterizer::FragmentBatch>();
     rasterizer::FragmentNeeds reference_alone;
@@ -44,9 +45,8 @@ bool SortedFragments::take_compared(const FragmentStore& store) {
         store.fetch({places.data(), count}, reference_alone, FragmentStore::Numbers::no, *batch);
         for (std::size_t i = 0; i < count; ++i) {
             const double z = batch->reference_z[i];
-            const double own =
-                request_.key == DepthKey::shader_z ? compare.own(z) : compare.own(batch->reference_code[i], z);
-            compared_[first + i] = own;
+            const double own = is_value ? compare.own(z) : compare.own(batch->reference_code[i], z);
+            own_depth(first + i) = own;
             has_order &= !std::isnan(own);
         }
     }
@@ -67,20 +67,30 @@ bool SortedFragments::sort_compared(const FragmentStore& store, const std::uint3
     for (const std::uint32_t p : occupied_) {
         columns_[p].arrival = ColumnArrival::mixed;
         const std::size_t begin = columns_[p].begin, end = begin + columns_[p].size;
+        for (std::size_t k = begin; surface != nullptr && k < end; ++k)
+            if (is_hidden(words_[k], surface[p])) own_depth(k) = std::numeric_limits<double>::infinity();
+        const auto pair = [this](std::size_t k) { return std::pair{own_depth(k), words_[k]}; };
+        bool is_sorted = true;
+        for (std::size_t k = begin + 1; k < end; ++k) is_sorted &= !arrives_before(pair(k), pair(k - 1));
+        if (is_sorted) continue;
         column.clear();
-        for (std::size_t k = begin; k < end; ++k) {
-            const bool is_last = surface != nullptr && is_hidden(words_[k], surface[p]);
-            column.emplace_back(is_last ? std::numeric_limits<double>::infinity() : compared_[k], words_[k]);
-        }
-        if (!std::ranges::is_sorted(column, arrives_before)) std::ranges::sort(column, arrives_before);
-        for (std::size_t k = begin; k < end; ++k) std::tie(compared_[k], words_[k]) = column[k - begin];
+        for (std::size_t k = begin; k < end; ++k) column.push_back(pair(k));
+        std::ranges::sort(column, arrives_before);
+        for (std::size_t k = begin; k < end; ++k) std::tie(own_depth(k), words_[k]) = column[k - begin];
     }
     for (auto& cursor : compared_cursors_) cursor.assign(occupied_.size(), 0);
     if (is_value)
         take_extremes();
     else
-        least_stored_.resize(words_.size());
+        end_columns();
     return true;
+}
+
+void SortedFragments::end_columns() {
+    constexpr Stored nothing{std::numeric_limits<double>::infinity(), ~std::uint64_t{0}, 0};
+    for (const std::uint32_t begin : begin_) stored_[begin - 1] = nothing;
+    std::fill_n(stored_.end() - few_stored, few_stored, nothing);
+    surfaces_.assign(occupied_.size(), ~0u);  // which no code is
 }
 
 void SortedFragments::take_extremes() {

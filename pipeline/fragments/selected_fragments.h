@@ -19,6 +19,22 @@ struct WindowEnds {
 // Several fragments of a pixel follow each other in the order of arrival, and a batch holds no pixel twice: so the
 // first ones of all pixels go ahead, then all second ones.
 struct SelectedFragments {
+    // The arrays of a rank that is being filled, for a loop that keeps them in registers.
+    struct Filling {
+        std::uint32_t *key, *place, *pixel;
+        std::size_t count;
+        // A word of SortedFragments.
+        [[gnu::always_inline]] inline void add(std::uint32_t at_pixel, std::uint64_t word) noexcept {
+            add_if(true, at_pixel, word);
+        }
+        // There is room for it in any case.
+        [[gnu::always_inline]] inline void add_if(bool is_kept, std::uint32_t at_pixel, std::uint64_t word) noexcept {
+            key[count] = static_cast<std::uint32_t>(word >> 32);
+            place[count] = static_cast<std::uint32_t>(word);
+            pixel[count] = at_pixel;
+            count += is_kept ? 1 : 0;
+        }
+    };
     // Pixels rise. Room for one fragment of every pixel that has any, so that nothing asks for it while they are added.
     struct Rank {
         UninitializedVector<std::uint32_t> key, place, pixel;
@@ -30,22 +46,12 @@ struct SelectedFragments {
             if (key.size() >= most) return;
             for (auto* const array : {&key, &place, &pixel}) array->resize(most);
         }
+        [[nodiscard]] Filling filling() noexcept { return {key.data(), place.data(), pixel.data(), count}; }
         // Fragments from number `first` on.
         [[nodiscard]] LayerLists::Layer part(std::size_t first, std::size_t fragments) const noexcept {
             const auto of = [=](std::span<const std::uint32_t> all) { return all.subspan(first, fragments); };
             if (!lent.pixel.empty()) return {of(lent.key), of(lent.place), of(lent.pixel)};
             return {of(key), of(place), of(pixel)};
-        }
-    };
-    // The arrays of a rank that is being filled, for a loop that keeps them in registers.
-    struct Filling {
-        std::uint32_t *key, *place, *pixel;
-        std::size_t count;
-        // A word of SortedFragments.
-        [[gnu::always_inline]] inline void add(std::uint32_t at_pixel, std::uint64_t word) noexcept {
-            key[count] = static_cast<std::uint32_t>(word >> 32);
-            place[count] = static_cast<std::uint32_t>(word);
-            pixel[count++] = at_pixel;
         }
     };
     std::vector<Rank> of_rank;
@@ -54,6 +60,7 @@ struct SelectedFragments {
     WindowEnds windows;                         // of the occupied pixels
     bool is_routed = false;                     // of Keeps::arrivals: sample s takes what has rank s
     bool is_ready = false;                      // chosen for the present pass
+    bool is_remembered = false;                 // what the pass left of them: repeated_pass.h
     std::uint64_t inside = 0;                   // fragments in their pixel's window
     std::uint64_t passed = 0;                   // of these, the ones that pass the depth test, of Keeps::nearest
     std::uint64_t killed = 0;                   // of these, the ones that the stencil test of Keeps::previous kills
@@ -62,7 +69,7 @@ struct SelectedFragments {
         columns = pixels_with_fragments;
         ranks = rank = next = 0;
         inside = passed = killed = 0;
-        is_routed = false;
+        is_routed = is_remembered = false;
     }
     void open(std::size_t last_rank) {
         if (of_rank.size() <= last_rank) of_rank.resize(last_rank + 1);
@@ -70,26 +77,28 @@ struct SelectedFragments {
     }
     // The ranks of Keeps::ends are places in the window: nearest, the next two inwards from either end, farthest. What is tied with an
     // end has ranks behind them. So a batch of the inner ones holds nothing else.
-    static constexpr std::size_t end_ranks_count = 4;
+    static constexpr std::size_t end_ranks = 4;
+    using Ends = std::array<Filling, end_ranks>;
     [[nodiscard]] static constexpr bool is_inner_end(std::size_t number) noexcept { return number == 1 || number == 2; }
-    // The first ranks, empty, to be filled in a loop.
-    template <std::size_t count>
-    [[nodiscard]] std::array<Filling, count> begin_ranks() {
-        if (ranks < count) open(count - 1);
-        std::array<Filling, count> begun;
-        for (std::size_t r = 0; r < count; ++r)
-            begun[r] = {of_rank[r].key.data(), of_rank[r].place.data(), of_rank[r].pixel.data(), 0};
+    // The ranks of the ends, empty, to be filled in a loop.
+    [[nodiscard]] Ends begin_ends() {
+        if (ranks < end_ranks) open(end_ranks - 1);
+        Ends begun;
+        for (std::size_t r = 0; r < end_ranks; ++r) begun[r] = of_rank[r].filling();
         return begun;
     }
-    template <std::size_t count>
-    void end_ranks(const std::array<Filling, count>& filled) noexcept {
-        for (std::size_t r = 0; r < count; ++r) of_rank[r].count = filled[r].count;
+    void finish_ends(const Ends& filled) noexcept {
+        for (std::size_t r = 0; r < end_ranks; ++r) of_rank[r].count = filled[r].count;
     }
     // The first rank is this layer, which outlives the pass.
     void lend(const LayerLists::Layer& layer) {
         open(0);
         of_rank[0].lent = layer;
         of_rank[0].count = layer.pixel.size();
+    }
+    // The pixels of the first rank.
+    [[nodiscard]] std::span<const std::uint32_t> kept() const noexcept {
+        return ranks == 0 ? std::span<const std::uint32_t>{} : of_rank[0].part(0, of_rank[0].count).pixel;
     }
     [[nodiscard]] std::uint64_t visited() const noexcept {
         std::uint64_t fragments = 0;
@@ -101,8 +110,8 @@ struct SelectedFragments {
         if (at_rank >= ranks) [[unlikely]]
             open(at_rank);
         Rank& to = of_rank[at_rank];
-        Filling filling{to.key.data(), to.place.data(), to.pixel.data(), to.count++};
-        filling.add(static_cast<std::uint32_t>(pixel), word);
+        to.filling().add(static_cast<std::uint32_t>(pixel), word);
+        ++to.count;
     }
 };
 

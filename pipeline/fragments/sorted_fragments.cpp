@@ -71,7 +71,7 @@ bool SortedFragments::sort(const FragmentStore& store, const SortRequest& reques
             column.arrival = sort_arrivals({words_.data() + column.begin, column.size});
     }
     if (request.compared && !sort_compared(store, surface)) return false;
-    updates_.resize(words_.size());
+    if (!request.compared) updates_.resize(words_.size());
     for (auto& [bounds, cursors] : cursors_) {
         bounds.assign(occupied_.size(), ~std::uint64_t{0});  // that none is
         cursors.assign(occupied_.size(), 0);

@@ -140,7 +140,7 @@ class SortedFragments {
     [[nodiscard]] std::uint32_t passing_without(std::size_t pixel, std::uint32_t first, std::uint32_t last,
                                                 std::span<const std::uint32_t> dead);
 
-    // Of a request by compared depth: a column's depths, rising; infinity for what is not before the surface.
+    // Of a request by compared depth and by values: a column's depths, rising; infinity for what is not before the surface.
     [[nodiscard]] std::span<const double> compared(std::size_t number) const noexcept {
         return {compared_.data() + begin_[number], begin_[number + 1] - begin_[number] - 1};
     }
@@ -159,13 +159,27 @@ class SortedFragments {
     // Bytes that the present sorting takes.
     [[nodiscard]] std::uint64_t bytes() const noexcept { return state_ == State::sorted ? needed_bytes() : 0; }
 
-    // Of a request by a compared depth: the fragments from number `first` on, before `surface`, under the same test of their stored
-    // codes. `word` is (stored code, place) of the last that passes; without one nothing passes.
+    // Of a request by a compared depth and by stored codes: a column's fragments whose compared depth is greater than `bound`, before
+    // `surface`, under the same test of their codes. `word` is (stored code, place) of the last that passes, if any does.
     struct Passing {
-        std::uint64_t word = 0;
-        std::uint32_t passed = 0;
+        std::uint64_t word;
+        std::uint32_t passed;
+        std::uint32_t inside;  // how many lie behind
     };
-    [[nodiscard]] Passing passing_stored(std::size_t pixel, std::uint32_t first, std::uint32_t surface);
+    [[nodiscard]] Passing passing_behind(std::size_t number, double bound, std::uint32_t surface) {
+        if (surfaces_[number] != surface) [[unlikely]]
+            count_stored_updates(number, surface);
+        const Stored* const column = stored_.data() + begin_[number];
+        const std::uint32_t size = begin_[number + 1] - begin_[number] - 1;
+        // Nobody foretells where a bound lies: among few that is counted without a branch.
+        std::uint32_t first = 0;
+        for (std::uint32_t k = 0; k < few_stored; ++k) first += (k < size) & (column[k].compared <= bound);
+        if (first == few_stored) [[unlikely]] {
+            std::uint32_t& cursor = compared_cursors_[0][number];
+            first = cursor = first_that(size, cursor, [=](std::uint32_t k) { return column[k].compared > bound; });
+        }
+        return {column[first].least, column[first].passed, size - first};
+    }
 
   private:
     enum class State : std::uint8_t { empty, sorted, declined };
@@ -178,10 +192,14 @@ class SortedFragments {
     [[nodiscard]] bool sort_compared(const FragmentStore& store, const std::uint32_t* surface);
     [[nodiscard]] bool take_compared(const FragmentStore& store);
     void take_extremes();
+    void end_columns();
+    [[nodiscard]] double& own_depth(std::size_t word) noexcept {
+        return request_.key == DepthKey::shader_z ? compared_[word] : stored_[word].compared;
+    }
     [[nodiscard]] bool has_sortable_keys(const rasterizer::FragmentBatch& batch) const noexcept;
     void count_updates(std::size_t pixel, std::uint32_t last);
     void count_later(std::size_t pixel, std::uint32_t last);
-    void count_stored_updates(std::size_t pixel, std::uint32_t surface);
+    void count_stored_updates(std::size_t number, std::uint32_t surface);
 
     State state_ = State::empty;
     SortRequest request_;
@@ -220,8 +238,16 @@ class SortedFragments {
     UninitializedVector<double> compared_;
     UninitializedVector<std::uint32_t> least_key_, greatest_key_;
     std::array<std::vector<std::uint32_t>, 4> compared_cursors_;
-    UninitializedVector<std::uint64_t>
-        least_stored_;  // by word, where keys are stored codes: the least of it and those behind
+    // The same where keys are stored codes: what is compared, the least word of it and those behind, and how many of them pass before
+    // the surface that their column was counted for. Together, for passes look them up together; none behind a column's last.
+    struct Stored {
+        double compared;
+        std::uint64_t least;
+        std::uint32_t passed;
+    };
+    static constexpr std::uint32_t few_stored = 4;  // so many more stand at the end
+    UninitializedVector<Stored> stored_;
+    std::vector<std::uint32_t> surfaces_;            // by column
     std::vector<std::uint64_t> by_code_, by_place_;  // of one column, while it is counted
     std::vector<std::uint32_t> reach_;
 };

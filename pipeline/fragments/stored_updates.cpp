@@ -34,16 +34,16 @@ class PrefixMaximum {
 
 // The rule itself, quicker than what follows for columns of few.
 constexpr std::uint32_t few = 8;
-void put_few(std::span<const std::uint64_t> stored, std::uint32_t surface, std::uint32_t* updates) noexcept {
+template <class Passed>
+void count_few(std::span<const std::uint64_t> stored, std::uint32_t surface, const Passed& passed) noexcept {
     const auto blocks = [](std::uint64_t g, std::uint64_t f) {  // words of (code, place)
         return g < f && static_cast<std::uint32_t>(g) < static_cast<std::uint32_t>(f);
     };
-    std::fill_n(updates, stored.size(), 0u);
     for (std::size_t k = 0; k < stored.size(); ++k) {
         if (stored[k] >> 32 >= surface) continue;
         std::size_t from = stored.size();
         while (from > 0 && !blocks(stored[from - 1], stored[k])) --from;
-        for (; from <= k; ++from) ++updates[from];
+        for (; from <= k; ++from) ++passed(from);
     }
 }
 
@@ -53,32 +53,25 @@ void sort_if_needed(std::vector<std::uint64_t>& words) {
 
 }  // namespace
 
-SortedFragments::Passing SortedFragments::passing_stored(std::size_t pixel, std::uint32_t first,
-                                                         std::uint32_t surface) {
-    if (first >= of(pixel).size() || surface == 0) return {};
-    if (columns_[pixel].updates_end != surface) count_stored_updates(pixel, surface);
-    const std::uint64_t least = least_stored_[columns_[pixel].begin + first];
-    if (least >> 32 >= surface) return {};
-    return {least, updates_[columns_[pixel].begin + first]};
-}
-
-// `updates_` first takes where intervals begin and end, and then their sum.
-void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surface) {
-    const std::uint32_t begin = columns_[pixel].begin;
-    const auto size = static_cast<std::uint32_t>(of(pixel).size());
-    const std::uint64_t* const stored = words_.data() + begin;
-    std::uint32_t* const updates = updates_.data() + begin;
+// What passes is first where intervals begin and end, and then their sum.
+void SortedFragments::count_stored_updates(std::size_t number, std::uint32_t surface) {
+    const std::span<const std::uint64_t> words = column(number);
+    const auto size = static_cast<std::uint32_t>(words.size());
+    Stored* const of_column = stored_.data() + begin_[number];
+    const auto passed = [of_column](std::size_t k) -> std::uint32_t& { return of_column[k].passed; };
+    std::uint64_t least = ~std::uint64_t{0};
+    for (std::uint32_t k = size; k-- > 0;) {
+        of_column[k].least = least = std::min(least, words[k]);
+        of_column[k].passed = 0;
+    }
+    surfaces_[number] = surface;
+    if (size <= few) return count_few(words, surface, passed);
     by_code_.clear();
     by_place_.clear();
-    std::uint64_t least = ~std::uint64_t{0};
-    for (std::uint32_t k = size; k-- > 0;) least_stored_[begin + k] = least = std::min(least, stored[k]);
-    columns_[pixel].updates_end = surface;
-    if (size <= few) return put_few({stored, size}, surface, updates);
     for (std::uint32_t k = 0; k < size; ++k) {
-        updates[k] = 0;
-        if (stored[k] >> 32 >= surface) continue;
-        by_code_.push_back(stored[k]);
-        by_place_.push_back(stored[k] << 32 | k);
+        if (words[k] >> 32 >= surface) continue;
+        by_code_.push_back(words[k]);
+        by_place_.push_back(words[k] << 32 | k);
     }
     sort_if_needed(by_code_);
     sort_if_needed(by_place_);
@@ -86,14 +79,14 @@ void SortedFragments::count_stored_updates(std::size_t pixel, std::uint32_t surf
     for (const std::uint64_t word : by_place_) {
         const auto k = static_cast<std::uint32_t>(word);
         // Fragments of f's own code that arrived before it have lower words, and are in the tree already.
-        const auto rank = static_cast<std::size_t>(std::ranges::lower_bound(by_code_, stored[k]) - by_code_.begin());
+        const auto rank = static_cast<std::size_t>(std::ranges::lower_bound(by_code_, words[k]) - by_code_.begin());
         const std::uint32_t from = behind.up_to(rank);
         behind.put(rank, k + 1);
         if (from > k) continue;
-        ++updates[from];
-        if (k + 1 < size) --updates[k + 1];
+        ++passed(from);
+        if (k + 1 < size) --passed(k + 1);
     }
-    for (std::uint32_t k = 1; k < size; ++k) updates[k] += updates[k - 1];
+    for (std::uint32_t k = 1; k < size; ++k) passed(k) += passed(k - 1);
 }
 
 }  // namespace strata::pipeline

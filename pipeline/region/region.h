@@ -233,6 +233,11 @@ class Region {
     void select_previous(const PassState& state, std::size_t pixel, const ColumnPart& part, std::uint32_t updates);
     void select_nearest_compared(const PassState& state);
     void select_ends_compared(const PassState& state);
+    // Selections: selections/repeat_pass.cpp.
+    [[nodiscard]] bool may_repeat(const PassState& state) const;
+    [[nodiscard]] bool is_repeated(const PassState& state);  // else its bounds are those of the next one's pass before
+    void remember(const PassState& state);
+    void repeat(const PassState& state);
     void count_up(const PassState& state, std::size_t pixel, std::uint32_t by);
     void select_window(const PassState& state);
     void select_arrivals(const PassState& state);

@@ -44,6 +44,10 @@ Drawn Region::draw_everything(const PassState& state, const PreparedDraw& list, 
 template <FragmentProgram P>
 Drawn Region::draw_selected(const PassState& state, P& program) {
     const Counters before = record().counters;
+    if (is_repeated(state)) {
+        repeat(state);
+        return book_selected(state, before, {});
+    }
     select(state);
     open_cache(state);
     Drawn drawn;
@@ -56,6 +60,7 @@ Drawn Region::draw_selected(const PassState& state, P& program) {
         finish(drawn_to, *batch, out, drawn);
     }
     close_cache();
+    remember(state);
     return book_selected(state, before, drawn);
 }
 

@@ -11,6 +11,7 @@
 #include "pipeline/fragments/sorted_sets.h"
 #include "pipeline/frame/pass.h"
 #include "pipeline/frame/trace.h"
+#include "pipeline/region/repeated_pass.h"
 #include "pipeline/region/target_storage.h"
 #include "rasterizer/base/uninitialized.h"
 
@@ -34,6 +35,7 @@ struct alignas(64) RegionScratch {
     FragmentStore store;
     SortedSets sorted;  // of the store
     SelectedFragments selected;
+    RepeatedPass repeated;  // what was selected last
     Trace trace;
     Arena arena;
     std::vector<TargetWords> target_words;  // of targets that are no more
@@ -61,6 +63,7 @@ class RegionScratchPool {
         free_.pop_back();
         scratch->store.forget();
         scratch->sorted.forget();
+        scratch->selected.is_remembered = false;
         scratch->arena.reset();
         return scratch;
     }

@@ -34,23 +34,28 @@ Parts parts_of(SortedFragments& sorted, std::size_t column, const DepthCompare& 
 void Region::select_nearest_compared(const PassState& state) {
     SortedFragments& sorted = scratch_->sorted.present();
     SelectedFragments& selected = scratch_->selected;
-    const DepthCompare& compare = sorted.compare();
+    const DepthCompare compare = sorted.compare();
     const std::uint32_t* const peeled = state.selection.behind.exists() ? codes_of(state.selection.behind) : nullptr;
     const StoredDepth stored = stored_depth(state);
     std::uint32_t* const depth = depth_of_kept(state);
-    for (std::size_t column = 0; column < sorted.occupied().size(); ++column) {
-        const std::uint32_t p = sorted.occupied()[column];
-        const auto is_behind = [bound = peeled == nullptr ? 0.0 : compare.bound(peeled[p])](double own) {
-            return own > bound;
-        };
-        const std::uint32_t first = peeled == nullptr ? 0 : sorted.first_compared(column, 0, is_behind);
-        selected.inside += sorted.column(column).size() - first;
-        const SortedFragments::Passing found = sorted.passing_stored(p, first, stored.of(p));
-        if (found.passed == 0) continue;
-        selected.passed += found.passed;
-        if (depth != nullptr) depth[p] = static_cast<std::uint32_t>(found.word >> 32);
-        selected.add(p, found.word, 0);
+    std::uint32_t* const same_up_to = may_repeat(state) ? scratch_->repeated.behind_most.data() : nullptr;
+    constexpr double before_all = -1.0;
+    selected.open(0);
+    SelectedFragments::Filling kept = selected.of_rank[0].filling();
+    std::uint64_t inside = 0, passed = 0;
+    std::size_t number = 0;
+    for (const std::uint32_t p : sorted.occupied()) {
+        const double bound = peeled == nullptr ? before_all : compare.bound(peeled[p]);
+        const SortedFragments::Passing found = sorted.passing_behind(number++, bound, stored.of(p));
+        if (same_up_to != nullptr) same_up_to[p] = found.inside > 0 ? peeled[p] : ~0u;
+        inside += found.inside;
+        passed += found.passed;
+        kept.add_if(found.passed > 0, p, found.word);
     }
+    selected.of_rank[0].count = kept.count;
+    selected.inside += inside;
+    selected.passed += passed;
+    for (std::size_t k = 0; depth != nullptr && k < kept.count; ++k) depth[kept.pixel[k]] = kept.key[k];
 }
 
 // All of either end, in the order of arrival, and between them the least and the greatest key.

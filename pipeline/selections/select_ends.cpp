@@ -10,12 +10,9 @@ namespace strata::pipeline {
 
 namespace {
 
-constexpr std::size_t end_ranks = SelectedFragments::end_ranks_count;
-
 // Two channels that MAX leaves (-z, z) in, of the nearest and of the farthest of what lies between the ends.
 struct InnerPlanes {
     Word *near = nullptr, *far = nullptr;
-    [[nodiscard]] bool exist() const noexcept { return near != nullptr; }
 };
 
 // The same of a pixel.
@@ -72,13 +69,13 @@ void Region::select_ends(const PassState& state) {
         course.begin({inner.near, inner.far, surface}, sorted.pixels(), keeps_empty);
     }
     std::uint64_t done = 0;
-    auto ranks = selected.begin_ranks<end_ranks>();
-    SelectedFragments::Filling &nearest = ranks[0], &after_nearest = ranks[1], &before_farthest = ranks[2],
-                               &farthest = ranks[3];
+    SelectedFragments::Ends ends = selected.begin_ends();
+    SelectedFragments::Filling &nearest = ends[0], &after_nearest = ends[1], &before_farthest = ends[2],
+                               &farthest = ends[3];
     const auto visit = [&](const WindowColumn& column) {
         const auto& [number, p, words, first, last, tested, low] = column;
         selected.inside += last - first;
-        std::size_t rank = end_ranks;  // of what is tied with an end
+        std::size_t rank = SelectedFragments::end_ranks;  // of what is tied with an end
         const auto key = [&column](std::uint32_t k) { return column.words[k] >> 32; };
         std::uint32_t near_end = first, far_begin = last;
         if (first < last) nearest.add(p, words[near_end++]);
@@ -111,7 +108,7 @@ void Region::select_ends(const PassState& state) {
         for_each_column(sorted,
                         window_of(selection, frame_, [&](Target t) -> const TargetStorage& { return storage(t); }),
                         nullptr, selected.windows, visit);
-    selected.end_ranks<end_ranks>(ranks);
+    selected.finish_ends(ends);
     count_visits(done);
 }
 

@@ -50,7 +50,9 @@ void interpolate_double(const std::array<float, 3>& u, const std::array<float, 3
     planes.has_w = has_w(corners.inverse_w);
     planes.inverse_w = {{corners.inverse_w[0], corners.inverse_w[1], corners.inverse_w[2]}};
     const auto add = [&](const std::array<float, 3>& u, float* values) {
-        is_constant(u) ? planes.add(u[0], values) : planes.add(over_w(u, corners.inverse_w), values);
+        if (is_constant(u)) return planes.add(u[0], values);
+        std::array<double, 3>& over_w = planes.add(values);
+        for (std::size_t i = 0; i < 3; ++i) over_w[i] = double{u[i] * corners.inverse_w[i]};
     };
     add(corners.r, r.data());
     add(corners.q, q.data());

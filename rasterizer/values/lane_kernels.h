@@ -53,6 +53,11 @@ struct AttributeLanes {
         plane[count] = p;
         out[count++] = lanes;
     }
+    // The values at the vertices go where this says: copied as a plane they would wait for their own stores.
+    [[nodiscard]] std::array<double, 3>& add(float* lanes) noexcept {
+        out[count] = lanes;
+        return plane[count++].v;
+    }
     void add(float value, float* lanes) noexcept { constant[constant_count++] = {value, lanes}; }
 };
 

@@ -17,6 +17,7 @@ GROUPS = {
     "selections: passes visit what they keep": [
         "pipeline/selections/*", "pipeline/frame/selection.h", "pipeline/region/region_layer.cpp", "pipeline/fragments/sorted_*",
         "pipeline/fragments/layer_lists.*", "pipeline/fragments/ends_course.h", "pipeline/fragments/stored_updates.cpp",
+        "pipeline/region/repeated_pass.h",
         "pipeline/fragments/selected_fragments.h",
         "pipeline/fragments/compared_depths.cpp", "pipeline/fragments/first_that.h", "pipeline/fragments/earliest_index.h",
         "pipeline/fragments/sort_arrivals.h"],

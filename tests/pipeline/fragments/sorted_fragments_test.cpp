@@ -241,12 +241,12 @@ TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffe
         SortedFragments sorted;
         const DepthCompare compare{.format = strata::rasterizer::DepthFormat::d24, .has_reference = true};
         REQUIRE(sorted.sort(given.store, {.compared = compare}, column_pixels, std::uint64_t{64} << 20));
-        for (std::size_t p = 0; p < column_pixels; ++p) {
+        for (std::size_t number = 0; number < sorted.occupied().size(); ++number) {
             struct Arrival {
                 std::uint32_t place, compared, code;
             };
             std::vector<Arrival> arrivals;
-            for (const std::uint64_t word : sorted.of(p)) {
+            for (const std::uint64_t word : sorted.column(number)) {
                 const auto place = static_cast<std::uint32_t>(word);
                 given.store.fetch({&place, 1}, {.code = true, .color = false, .reference = true},
                                   strata::pipeline::FragmentStore::Numbers::no, *one);
@@ -266,8 +266,9 @@ TEST_CASE("behind a compared depth, the stored codes are tested as a depth buffe
                     last_place = a.place;
                     ++passed;
                 }
-                const auto found = sorted.passing_stored(p, first, surface);
-                wrong += found.passed == passed ? 0 : 1;
+                const auto found =
+                    sorted.passing_behind(number, static_cast<double>(arrivals[first].compared) - 0.5, surface);
+                wrong += found.passed == passed && found.inside == arrivals.size() - first ? 0 : 1;
                 if (passed > 0) wrong += found.word == (std::uint64_t{stored} << 32 | last_place) ? 0 : 1;
             }
         }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/pipeline/region/both_ways.h"
+#include "tests/pipeline/region/put_pixel.h"
 #include "tests/support/random_numbers.h"
 
 // A namespace of its own: names of the bodies are short.
@@ -56,17 +57,6 @@ Walk random_walk(Random& random) {
     return walk;
 }
 
-// Draws over the whole frame, and keeps of it one pixel.
-template <class Put>
-void put_pixel(Region& region, const PassState& state, int x, int y, const Put& put) {
-    static_cast<void>(region.full_screen(state, [=](const FragmentBatch& in, const Loads&, Outputs& out) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
-            put(out, i);
-            if (in.x[i] != x || in.y[i] != y) out.discard(static_cast<int>(i));
-        }
-    }));
-}
-
 class Peel {
   public:
     Peel(Region& region, const Walk& walk) : region_{region}, walk_{walk}, random_{walk.seed} {
@@ -94,15 +84,7 @@ class Peel {
                 out.color[0][1][i] = far;
             });
         }
-        if (step == Step::other_surface) {
-            PassState state;
-            state.depth = {.enabled = true, .func = CompareFunc::always, .write = true};
-            state.depth_target = surface_;
-            put_pixel(region_, state, x, y, [=](Outputs& out, std::size_t i) {
-                out.replaces_depth = true;
-                out.depth[i] = std::bit_cast<std::uint32_t>(std::max(far, 0.0f));
-            });
-        }
+        if (step == Step::other_surface) put_depth(region_, surface_, x, y, std::max(far, 0.0f));
         const bool is_other = step == Step::other_clear;
         region_.clear(next_, {.color = {is_other ? -0.5f : -1.0f, is_other ? 0.25f : -1.0f, 0, 0}});
         if (step == Step::other_outside)

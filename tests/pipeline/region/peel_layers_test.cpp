@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/pipeline/region/both_ways.h"
+#include "tests/pipeline/region/put_pixel.h"
 #include "tests/support/random_numbers.h"
 
 // A namespace of its own: names of the bodies are short.
@@ -55,27 +56,6 @@ Walk random_walk(Random& random) {
                                       : static_cast<Step>(any));
     }
     return walk;
-}
-
-// Of D32F any depth has a code, of the others the nearest one.
-std::uint32_t code_of(const Region& region, float depth) {
-    const DepthFormat format = region.frame().key_request().format;
-    return format == DepthFormat::d32f ? std::bit_cast<std::uint32_t>(depth)
-                                       : strata::rasterizer::to_depth_code(depth, format, DepthRounding::nearest);
-}
-
-// The depth of one pixel of the frame, wherever it lies.
-void put_depth(Region& region, Target target, int x, int y, float depth) {
-    PassState state;
-    state.depth = {.enabled = true, .func = CompareFunc::always, .write = true};
-    state.depth_target = target;
-    static_cast<void>(region.full_screen(state, [=, &region](const FragmentBatch& in, const Loads&, Outputs& out) {
-        out.replaces_depth = true;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i) {
-            out.depth[i] = code_of(region, depth);
-            if (in.x[i] != x || in.y[i] != y) out.discard(static_cast<int>(i));
-        }
-    }));
 }
 
 class Peel {

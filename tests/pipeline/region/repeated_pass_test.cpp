@@ -1,0 +1,218 @@
+// Peels by a depth that is not rounded like the stored one, whose fragments may lie behind themselves: passes that repeat the one before,
+// and passes that do not, for a bound, a surface, a target, the program or the pass between is another. Model: literal execution, which
+// visits every fragment.
+#include <catch2/catch.hpp>
+
+#include "tests/pipeline/region/both_ways.h"
+#include "tests/pipeline/region/put_pixel.h"
+#include "tests/support/random_numbers.h"
+
+// A namespace of its own: names of the bodies are short.
+namespace strata::testing::repeated_pass {
+namespace {
+
+using namespace pipeline;
+
+// Up to six layers a pixel in any order, one code apart or equal, half of them behind their own code; opaque surfaces at a layer's depth;
+// pixels without any.
+FragmentScene any_layers(Random& random) {
+    FragmentScene made{16, 16};
+    for (auto& pixel : made.pixels) {
+        for (int n = random_int(random, 0, 6); n-- > 0;) {
+            const float depth = static_cast<float>(random_int(random, 0, 15)) / 16.0f;
+            const float part =
+                static_cast<float>(random_int(random, -3, 3)) * 0x1p-25f;  // of a code of D24, which is 2^-24
+            pixel.fragments.push_back({std::max(depth + part, 0.0f), random_color(random)});
+        }
+        if (random_int(random, 0, 3) == 0)
+            pixel.opaque =
+                GivenFragment{static_cast<float>(std::max(random_int(random, -4, 32), 0)) / 32.0f, {0, 1, 0, 1}};
+    }
+    return made;
+}
+
+// What may be different in one pass of a peel.
+enum class Step {
+    next,           // as a peel goes on
+    again,          // with the bound of the pass before
+    first,          // without a bound
+    other_bound,    // at one pixel
+    other_surface,  // at one pixel
+    other_clear,    // of the colour
+    other_format,   // of the colour
+    other_outside,  // how a fragment outside ends
+    other_compare,  // an epsilon
+    two_targets,    // the second as the first
+    masked,         // without alpha
+    between,        // after a pass that keeps something else
+    part,           // of the list
+    unpromised      // other colours, and no promise
+};
+
+struct Walk {
+    std::vector<Step> steps;
+    std::uint64_t seed;
+};
+
+Walk random_walk(Random& random) {
+    Walk walk{{Step::first}, random()};
+    const int disturbed = random_int(random, 0, 2);  // how often
+    for (int n = random_int(random, 4, 16); n-- > 0;) {
+        const bool is_plain = random_int(random, 0, 4) >= disturbed;
+        walk.steps.push_back(is_plain ? Step::next
+                                      : static_cast<Step>(random_int(random, 0, static_cast<int>(Step::unpromised))));
+    }
+    return walk;
+}
+
+class Peel {
+  public:
+    Peel(Region& region, const Walk& walk) : region_{region}, walk_{walk}, random_{walk.seed} {}
+
+    void run() {
+        for (const Step step : walk_.steps) take(step);
+        region_.publish(sum_);
+    }
+
+  private:
+    void take(Step step) {
+        const int x = random_int(random_, 0, 15), y = random_int(random_, 0, 15);
+        const float depth = static_cast<float>(random_int(random_, 0, 17)) / 16.0f;
+        if (step == Step::other_bound) put_depth(region_, peeled_, x, y, std::min(depth, 1.0f));
+        region_.copy(region_.opaque_depth(), nearest_);
+        if (step == Step::other_surface) put_depth(region_, nearest_, x, y, std::min(depth, 1.0f));
+        if (step == Step::other_format) std::swap(color_, other_color_);
+        if (step == Step::other_outside)
+            outside_ = outside_ == Outside::discarded ? Outside::alpha_test : Outside::discarded;
+        if (step == Step::other_compare) compare_.epsilon.absolute = compare_.epsilon.absolute == 0 ? 0x1p-24 : 0;
+        if (step == Step::between) keep_others();
+        region_.clear(color_, {.color = {step == Step::other_clear ? 0.5f : 0.0f, 0, 0, 0}});
+        draw(step);
+        add();
+        if (step != Step::again) std::swap(peeled_, nearest_);
+    }
+
+    void draw(Step step) {
+        const bool is_first = step == Step::first;
+        PassState state;
+        state.alpha = {.enabled = outside_ == Outside::alpha_test, .func = CompareFunc::greater, .ref = 0.0f};
+        state.depth = {.enabled = true, .func = CompareFunc::less, .write = true};
+        state.depth_target = nearest_;
+        state.color[0] = color_;
+        if (step == Step::two_targets) state.color[1] = second_;
+        if (step == Step::masked) state.blend[0].write_mask = state.blend[1].write_mask = 0x7;
+        state.reads[0] = peeled_;
+        state.needs.reference = true;
+        const PrimitiveRange part{100, 700};
+        if (step == Step::part) state.primitives = {&part, 1};
+        state.selection = {.keeps = Keeps::nearest,
+                           .outside = outside_,
+                           .behind = is_first ? Target{} : peeled_,
+                           .compared = compare_,
+                           .repeats = step != Step::unpromised};
+        const float scale = step == Step::unpromised ? 0.5f : 1.0f;
+        static_cast<void>(region_.draw(state, [=, this](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            for (std::size_t c = 0; c < 4; ++c)
+                for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+                    out.color[0][c][i] = out.color[1][c][i] = (c < 3 ? scale : 1.0f) * in.color[c][i];
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count) && !is_first; ++i) {
+                if (compare_.is_behind(in.reference_code[i], in.reference_z[i], own.depth(0)[i])) continue;
+                if (outside_ == Outside::discarded)
+                    out.discard(static_cast<int>(i));
+                else
+                    out.color[0][3][i] = 0.0f;
+            }
+        }));
+    }
+
+    // What the frame's own codes find at one depth.
+    void keep_others() {
+        PassState state;
+        state.color[0] = sum_;
+        state.blend[0] = blend_mode::over;
+        state.reads[0] = peeled_;
+        state.selection = {.keeps = Keeps::window, .at = peeled_};
+        static_cast<void>(region_.draw(state, [](const FragmentBatch& in, const Loads& own, Outputs& out) {
+            out.color[0] = in.color;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(in.count); ++i)
+                if (in.code[i] != own.depth(0)[i]) out.discard(static_cast<int>(i));
+        }));
+    }
+
+    // No pass's colours are lost.
+    void add() {
+        PassState state;
+        state.color[0] = sum_;
+        state.blend[0] = blend_mode::over;
+        state.reads[0] = color_;
+        static_cast<void>(region_.full_screen(
+            state, [](const FragmentBatch&, const Loads& own, Outputs& out) { out.color[0] = own.color(0); }));
+    }
+
+    Region& region_;
+    const Walk& walk_;
+    Random random_;
+    Target color_ = region_.make(walk_.seed % 2 == 0 ? Format::rgba8 : Format::rgba16f);
+    Target other_color_ = region_.make(Format::rgba32f), second_ = region_.make(Format::rgba8);
+    Target sum_ = region_.make(Format::rgba32f);
+    Target peeled_ = region_.make_depth(), nearest_ = region_.make_depth();
+    DepthCompare compare_ = region_.frame().depth_compare();
+    Outside outside_ = walk_.seed % 3 == 0 ? Outside::discarded : Outside::alpha_test;
+};
+
+// Runs `walk` tile by tile.
+struct Repeated {
+    explicit Repeated(const FragmentScene& scene, const char* profile = "ideal", bool quantizes = false)
+        : test{scene, profile} {
+        test.frame.depth.format = DepthFormat::d24;
+        test.frame.quantize_reference = quantizes;
+        if (quantizes) test.frame.epsilon.ulps = 1;
+        test.frame.replay = {std::uint64_t{1} << 20, {.reference = true}};
+    }
+    [[nodiscard]] WhatIsLeft run(const Walk& walk, Execution execution, const Instruments& instruments = {}) const {
+        const Body body = [&](Region& region) { Peel{region, walk}.run(); };
+        return run_one_way(test.frame, body, execution, instruments);
+    }
+    TestFrame test;
+};
+
+}  // namespace
+
+TEST_CASE("a peel whose fragments lie behind themselves leaves and counts what visiting everything does") {
+    Random random{2211};
+    for (int round = 0; round < 300; ++round) {
+        const Repeated peel{any_layers(random), round % 4 == 0 ? "softpipe" : "ideal", round % 5 == 0};
+        const Walk walk = random_walk(random);
+        INFO("round " << round);
+        const WhatIsLeft literal = peel.run(walk, Execution::literal);
+        REQUIRE(literal.refusal.empty());
+        REQUIRE(difference_of(literal, peel.run(walk, Execution::replay, {.check_selections = true})) == "");
+        REQUIRE(difference_of(literal, peel.run(walk, Execution::replay)) == "");
+    }
+}
+
+TEST_CASE("what a region's only pass left is no other region's, though their bounds are the same") {
+    Random random{2213};
+    FragmentScene scene = any_layers(random);
+    for (auto& pixel : scene.pixels) pixel.opaque.reset();
+    const Repeated peel{scene};
+    const Walk walk{{Step::next}, 2};
+    CHECK(difference_of(peel.run(walk, Execution::literal), peel.run(walk, Execution::replay)) == "");
+}
+
+TEST_CASE("a pass that repeats the one before visits nothing") {
+    Random random{2212};
+    const Repeated peel{any_layers(random)};
+    // At most six layers: the seventh pass finds what is behind itself, or nothing.
+    Walk walk{std::vector<Step>(9, Step::next), 2};
+    walk.steps[0] = Step::first;
+    const WhatIsLeft steady = peel.run(walk, Execution::replay);
+    walk.steps.resize(29, Step::next);
+    const WhatIsLeft longer = peel.run(walk, Execution::replay);
+    CHECK(longer.visited == steady.visited);
+    CHECK(longer.counters.blended > steady.counters.blended);
+    walk.steps.push_back(Step::other_surface);
+    CHECK(peel.run(walk, Execution::replay).visited > steady.visited);
+}
+
+}  // namespace strata::testing::repeated_pass
