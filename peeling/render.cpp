@@ -29,17 +29,6 @@ namespace {
 // closed form takes of one (columns.h).
 constexpr std::uint64_t sorted_bytes = 33, column_bytes = 32;
 
-// A light's map in the depth that the device writes by itself; none if it cannot be had, for then nothing runs.
-std::unique_ptr<const LightMap> light_of(const DrawList& list, const DeviceProfile& profile,
-                                         const rasterizer::RasterState& eye, int threads) {
-    // A light's map is compared with z, so that it never holds w.
-    const bool writes_w = profile.raster.depth_path == rasterizer::DepthPath::w_buffer;
-    const rasterizer::DepthRequest request{writes_w ? rasterizer::DepthPath::window_z : profile.raster.depth_path,
-                                           eye.depth_format};
-    if (!list.light || check_depth(profile, request)) return nullptr;
-    return std::make_unique<const LightMap>(light_map(list, profile, eye, request, threads));
-}
-
 // A closed form where the algorithm offers one, its passes elsewhere.
 Body body_of(const Algorithm& algorithm) {
     if (algorithm.body) return algorithm.body;
@@ -325,7 +314,7 @@ Renderer::Renderer(const DrawList& list, const View& view, const DeviceProfile& 
     rasterizer::RasterState raster = options.raster;
     raster.viewport = {0, 0, options.width, options.height};
     raster.depth_format = depth.format;
-    auto light = light_of(list, profile, raster, options.threads);
+    auto light = light_map(list, profile, raster, options.threads);
     state_ = std::unique_ptr<State>(
         new State{.profile = profile,
                   .options = options,

@@ -2,6 +2,7 @@
 // target.
 #include "peeling/shadow_light.h"
 
+#include "peeling/check_options.h"
 #include "pipeline/region/executor.h"
 #include "pipeline/region/region.h"
 
@@ -22,7 +23,9 @@ void draw_depth(Region& region) {
     region.publish(depth);
 }
 
-LightMap light_map(const DrawList& list, const DeviceProfile& profile, const rasterizer::RasterState& eye,
+namespace {
+
+LightMap drawn_map(const DrawList& list, const DeviceProfile& profile, const rasterizer::RasterState& eye,
                    const rasterizer::DepthRequest& depth, int threads) {
     const ShadowLight& light = *list.light;
     // Viewport, scissor and clip planes are the eye's own business; clip depth range and the direction of y are
@@ -50,6 +53,18 @@ LightMap light_map(const DrawList& list, const DeviceProfile& profile, const ras
     // vector does not change.
     map.stage = shadow_stage(light, map.depth, state);
     return map;
+}
+
+}  // namespace
+
+std::unique_ptr<const LightMap> light_map(const DrawList& list, const DeviceProfile& profile,
+                                          const rasterizer::RasterState& eye, int threads) {
+    // The map is compared with z, so that it never holds w.
+    const bool writes_w = profile.raster.depth_path == rasterizer::DepthPath::w_buffer;
+    const rasterizer::DepthRequest depth{writes_w ? rasterizer::DepthPath::window_z : profile.raster.depth_path,
+                                         eye.depth_format};
+    if (!list.light || check_depth(profile, depth)) return nullptr;
+    return std::make_unique<const LightMap>(drawn_map(list, profile, eye, depth, threads));
 }
 
 }  // namespace strata::peeling

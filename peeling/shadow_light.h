@@ -2,6 +2,8 @@
 // It runs before anything is drawn for the eye, literally: whoever looks at it later looks anywhere. Transparent surfaces let
 // the light through, also where --alpha makes all of them transparent.
 #pragma once
+#include <memory>
+
 #include "pipeline/formats/image.h"
 #include "pipeline/textures/shadow_stage.h"
 
@@ -20,9 +22,10 @@ struct LightMap {
     pipeline::ShadowStage stage;    // looks at `depth`, whose codes stay where they are when this is moved
 };
 
-// `eye` lends its conventions: clip depth, y direction, depth range.
-[[nodiscard]] LightMap light_map(const pipeline::DrawList& list, const pipeline::DeviceProfile& profile,
-                                 const rasterizer::RasterState& eye, const rasterizer::DepthRequest& depth,
-                                 int threads);
+// The map of the list's light, in the depth that the device writes by itself; `eye` lends its conventions: clip depth, y direction, depth
+// range. None without a light, or if the device cannot have that depth, for then nothing runs.
+[[nodiscard]] std::unique_ptr<const LightMap> light_map(const pipeline::DrawList& list,
+                                                        const pipeline::DeviceProfile& profile,
+                                                        const rasterizer::RasterState& eye, int threads);
 
 }  // namespace strata::peeling
