@@ -17,7 +17,8 @@ bool is_of_a_peel(const FragmentSelection& s) {
                                  .least = s.least,
                                  .most = s.most,
                                  .keys_suffice = s.keys_suffice,
-                                 .compared = s.compared};
+                                 .compared = s.compared,
+                                 .repeats = s.repeats};
     return has_codes && s == peel;
 }
 
