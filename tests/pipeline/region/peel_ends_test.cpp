@@ -5,7 +5,7 @@
 
 #include "tests/pipeline/region/both_ways.h"
 #include "tests/pipeline/region/put_pixel.h"
-#include "tests/support/random_numbers.h"
+#include "tests/pipeline/region/random_walk.h"
 
 // A namespace of its own: names of the bodies are short.
 namespace strata::testing::peel_ends {
@@ -41,25 +41,9 @@ enum class Step {
     no_keys         // leaves something else of what lies between, and does not promise that keys suffice
 };
 
-struct Walk {
-    std::vector<Step> steps;
-    std::uint64_t seed;
-};
-
-Walk random_walk(Random& random) {
-    Walk walk{{Step::first}, random()};
-    const int disturbed = random_int(random, 0, 2);  // how often
-    for (int n = random_int(random, 2, 12); n-- > 0;) {
-        const bool is_plain = random_int(random, 0, 3) >= disturbed;
-        walk.steps.push_back(is_plain ? Step::next
-                                      : static_cast<Step>(random_int(random, 0, static_cast<int>(Step::no_keys))));
-    }
-    return walk;
-}
-
 class Peel {
   public:
-    Peel(Region& region, const Walk& walk) : region_{region}, walk_{walk}, random_{walk.seed} {
+    Peel(Region& region, const Walk<Step>& walk) : region_{region}, walk_{walk}, random_{walk.seed} {
         region_.clear(ends_, {.color = {0, 0, 0, 0}});
         region_.copy(region_.opaque_depth(), surface_);
     }
@@ -122,7 +106,7 @@ class Peel {
     }
 
     Region& region_;
-    const Walk& walk_;
+    const Walk<Step>& walk_;
     Random random_;
     Target range_ = region_.make(Format::rg32f), next_ = region_.make(Format::rg32f);
     Target ends_ = region_.make(Format::rgba32f), surface_ = region_.make_depth();
@@ -130,7 +114,7 @@ class Peel {
     Outside outside_ = walk_.seed % 2 == 0 ? Outside::discarded : Outside::one_value;
 };
 
-std::string difference_of_walk(const Walk& walk, const FragmentScene& scene) {
+std::string difference_of_walk(const Walk<Step>& walk, const FragmentScene& scene) {
     TestFrame test{scene, walk.seed % 4 == 0 ? "softpipe" : "ideal"};
     test.frame.depth.format = DepthFormat::d32f;
     test.frame.key = DepthKey::shader_z;
@@ -149,7 +133,7 @@ TEST_CASE("a peel from both ends leaves and counts what visiting everything does
     Random random{2091};
     for (int round = 0; round < 250; ++round) {
         const FragmentScene scene = any_depths(random, round % 4 == 0);
-        const Walk walk = random_walk(random);
+        const Walk<Step> walk = random_walk(random, 12, Step::no_keys);
         INFO("round " << round);
         REQUIRE(difference_of_walk(walk, scene) == "");
     }

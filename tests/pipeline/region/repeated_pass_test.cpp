@@ -5,7 +5,7 @@
 
 #include "tests/pipeline/region/both_ways.h"
 #include "tests/pipeline/region/put_pixel.h"
-#include "tests/support/random_numbers.h"
+#include "tests/pipeline/region/random_walk.h"
 
 // A namespace of its own: names of the bodies are short.
 namespace strata::testing::repeated_pass {
@@ -49,25 +49,9 @@ enum class Step {
     unpromised      // other colours, and no promise
 };
 
-struct Walk {
-    std::vector<Step> steps;
-    std::uint64_t seed;
-};
-
-Walk random_walk(Random& random) {
-    Walk walk{{Step::first}, random()};
-    const int disturbed = random_int(random, 0, 2);  // how often
-    for (int n = random_int(random, 4, 16); n-- > 0;) {
-        const bool is_plain = random_int(random, 0, 4) >= disturbed;
-        walk.steps.push_back(is_plain ? Step::next
-                                      : static_cast<Step>(random_int(random, 0, static_cast<int>(Step::unpromised))));
-    }
-    return walk;
-}
-
 class Peel {
   public:
-    Peel(Region& region, const Walk& walk) : region_{region}, walk_{walk}, random_{walk.seed} {}
+    Peel(Region& region, const Walk<Step>& walk) : region_{region}, walk_{walk}, random_{walk.seed} {}
 
     void run() {
         for (const Step step : walk_.steps) take(step);
@@ -150,7 +134,7 @@ class Peel {
     }
 
     Region& region_;
-    const Walk& walk_;
+    const Walk<Step>& walk_;
     Random random_;
     Target color_ = region_.make(walk_.seed % 2 == 0 ? Format::rgba8 : Format::rgba16f);
     Target other_color_ = region_.make(Format::rgba32f), second_ = region_.make(Format::rgba8);
@@ -169,7 +153,8 @@ struct Repeated {
         if (quantizes) test.frame.epsilon.ulps = 1;
         test.frame.replay = {std::uint64_t{1} << 20, {.reference = true}};
     }
-    [[nodiscard]] WhatIsLeft run(const Walk& walk, Execution execution, const Instruments& instruments = {}) const {
+    [[nodiscard]] WhatIsLeft run(const Walk<Step>& walk, Execution execution,
+                                 const Instruments& instruments = {}) const {
         const Body body = [&](Region& region) { Peel{region, walk}.run(); };
         return run_one_way(test.frame, body, execution, instruments);
     }
@@ -182,7 +167,7 @@ TEST_CASE("a peel whose fragments lie behind themselves leaves and counts what v
     Random random{2211};
     for (int round = 0; round < 300; ++round) {
         const Repeated peel{any_layers(random), round % 4 == 0 ? "softpipe" : "ideal", round % 5 == 0};
-        const Walk walk = random_walk(random);
+        const Walk<Step> walk = random_walk(random, 16, Step::unpromised);
         INFO("round " << round);
         const WhatIsLeft literal = peel.run(walk, Execution::literal);
         REQUIRE(literal.refusal.empty());
@@ -196,7 +181,7 @@ TEST_CASE("what a region's only pass left is no other region's, though their bou
     FragmentScene scene = any_layers(random);
     for (auto& pixel : scene.pixels) pixel.opaque.reset();
     const Repeated peel{scene};
-    const Walk walk{{Step::next}, 2};
+    const Walk<Step> walk{{Step::next}, 2};
     CHECK(difference_of(peel.run(walk, Execution::literal), peel.run(walk, Execution::replay)) == "");
 }
 
@@ -204,7 +189,7 @@ TEST_CASE("a pass that repeats the one before visits nothing") {
     Random random{2212};
     const Repeated peel{any_layers(random)};
     // At most six layers: the seventh pass finds what is behind itself, or nothing.
-    Walk walk{std::vector<Step>(9, Step::next), 2};
+    Walk<Step> walk{std::vector<Step>(9, Step::next), 2};
     walk.steps[0] = Step::first;
     const WhatIsLeft steady = peel.run(walk, Execution::replay);
     walk.steps.resize(29, Step::next);
