@@ -68,7 +68,8 @@ struct FragmentSelection {
     // Of nearest and ends: `behind` or `range` bounds the depth that this compares, and no key; the program looks at no other. Of
     // nearest it asks no more than whether that depth lies behind the bound.
     std::optional<DepthCompare> compared{};
-    // Of nearest: where `behind` and the depth target hold what they held before the pass that went before, it writes what that one wrote.
+    // Of nearest: at a pixel where `behind` and the depth target hold what they held before the pass that went before, it writes what that
+    // one wrote. Its program tallies nothing.
     bool repeats = false;
     friend bool operator==(const FragmentSelection&, const FragmentSelection&) = default;
 };
