@@ -1,27 +1,82 @@
 #!/usr/bin/env bash
 # Installs the Debian packages of tools/packages.txt that are missing. Says nothing when none is.
+#   tools/setup.sh program  what the program is built from
+#   tools/setup.sh [tests]  that, and what the tests need
+#   tools/setup.sh all      that, and what tools and tests need that are asked for by name
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fail() { echo "tools/setup.sh: $*" >&2; exit 3; }
 
-# The names after the mark $1: "" for needed packages, "?" for optional ones.
-listed() { sed -e 's/#.*//' tools/packages.txt | awk -v mark="$1" '(mark == "?") == ($1 == "?") && NF { print $NF }'; }
+case "${1:-tests}" in
+    program) needed_sets="program" optional_sets="" ;;
+    tests) needed_sets="program tests" optional_sets="tests?" ;;
+    all) needed_sets="program tests" optional_sets="tests? all?" ;;
+    *) echo "tools/setup.sh: expected program, tests or all, found '$1'" >&2; exit 2 ;;
+esac
+
+# Lines "PACKAGE # why" of the sets that are named.
+listed() { awk -v sets=" $* " '/^[^#]/ && index(sets, " " $1 " ") { $1 = ""; print substr($0, 2) }' tools/packages.txt; }
 missing() {
-    local package
-    while read -r package; do
-        [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null </dev/null)" = installed ] || echo "$package"
+    local package why
+    while read -r package why; do
+        [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null </dev/null)" = installed ] || echo "$package $why"
     done
 }
+names() { printf '%s\n' "$@" | cut -d ' ' -f 1; }
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
-install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@" >/dev/null; }
 
-command -v dpkg-query >/dev/null || fail "expected Debian 12 or one of its kin (dpkg-query, apt-get); elsewhere install what tools/packages.txt lists"
-mapfile -t needed < <(listed "" | missing)
-mapfile -t optional < <(listed "?" | missing)
-[ $((${#needed[@]} + ${#optional[@]})) -gt 0 ] || exit 0
+# How far apt-get is, from what APT::Status-Fd says: in place on a terminal, else a line for each quarter.
+progress() {
+    local line doing percent before=""
+    while IFS= read -r line; do
+        [[ $line =~ ^(dl|pm)status:.*:([0-9]+)(\.[0-9]*)?:(.*)$ ]] || continue
+        if [ "${BASH_REMATCH[1]}" = dl ]; then doing="downloading"; else doing="installing"; fi
+        percent=${BASH_REMATCH[2]}
+        if [ -t 1 ]; then
+            printf '\r  %s %3d %%  %-50.50s' "$doing" "$percent" "${BASH_REMATCH[4]}"
+        elif [ "$doing $((percent / 25))" != "$before" ]; then
+            before="$doing $((percent / 25))"
+            echo "  $doing: $percent %"
+        fi
+    done
+    if [ -t 1 ]; then printf '\r%-80s\r' ""; fi
+}
+install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends -o APT::Status-Fd=1 "$@" | progress; }
 
-[ "$(id -u)" = 0 ] || command -v sudo >/dev/null || fail "expected root or sudo to install: ${needed[*]} ${optional[*]}"
-echo "installing ${needed[*]} ${optional[*]}"
-as_root apt-get update -qq || fail "apt-get update failed; is there a network?"
-[ ${#needed[@]} = 0 ] || install "${needed[@]}" || fail "apt-get could not install: ${needed[*]}"
-[ ${#optional[@]} = 0 ] || install "${optional[@]}" || echo "tools/setup.sh: without ${optional[*]}: no fuzzing, no clang++, no instruction counts, no plots, no GNU parallel, no tools/port" >&2
+command -v dpkg-query >/dev/null || fail "this is neither Debian 12 nor one of its kin (no dpkg-query, no apt-get); install what tools/packages.txt lists"
+# shellcheck disable=SC2086
+{
+    mapfile -t needed < <(listed $needed_sets | missing)
+    mapfile -t optional < <(listed $optional_sets | missing)
+}
+headers=()
+[ -z "$optional_sets" ] || mapfile -t headers < <(listed headers | while read -r package _; do [ -d "build/headers/$package" ] || echo "$package"; done)
+[ $((${#needed[@]} + ${#optional[@]} + ${#headers[@]})) -gt 0 ] || exit 0
+
+all=("${needed[@]}" "${optional[@]}")
+if [ ${#all[@]} -gt 0 ]; then
+    mapfile -t packages < <(names "${all[@]}")
+    [ "$(id -u)" = 0 ] || command -v sudo >/dev/null || fail "needs root or sudo to install ${packages[*]}"
+    echo "installing what is missing:"
+    printf '%s\n' "${all[@]}" | awk '{ name = $1; $1 = ""; sub(/^ # /, ""); printf "  %-20s %s\n", name, $0 }'
+    as_root apt-get update -qq || fail "apt-get update failed; is there a network?"
+    # apt-get's own sentence: how much comes, and how much of the disk it takes.
+    LC_ALL=C apt-get install --assume-no --no-install-recommends "${packages[@]}" 2>/dev/null | sed -n -e 's/^Need to get/  to download:/p' -e 's/^After this operation,/  then:/p' || true
+fi
+if [ ${#needed[@]} -gt 0 ]; then
+    mapfile -t packages < <(names "${needed[@]}")
+    install "${packages[@]}" || fail "apt-get could not install ${packages[*]}"
+fi
+if [ ${#optional[@]} -gt 0 ]; then
+    mapfile -t packages < <(names "${optional[@]}")
+    install "${packages[@]}" || echo "tools/setup.sh: goes on without ${packages[*]}: what needs them says that it is skipped" >&2
+fi
+for package in "${headers[@]}"; do
+    folder=$(mktemp -d)
+    if (cd "$folder" && { apt-get download -qq "$package" || { as_root apt-get update -qq && apt-get download -qq "$package"; } } && dpkg-deb -x ./*.deb unpacked) 2>/dev/null; then
+        mkdir -p build/headers && mv "$folder/unpacked" "build/headers/$package"
+    else
+        echo "tools/setup.sh: goes on without the headers of $package: what needs them says that it is skipped" >&2
+    fi
+    rm -rf "$folder"
+done

@@ -143,8 +143,11 @@ LayerLists::Layer LayerLists::layer() const noexcept {
 }
 
 std::span<const LayerLists::Tied> LayerLists::tied() const noexcept {
-    const auto first = std::ranges::lower_bound(tied_, next_ - 1, {}, &Tied::layer);
-    return {first, std::ranges::lower_bound(tied_, next_, {}, &Tied::layer)};
+    const auto before = [&](std::size_t layer) {
+        return static_cast<std::size_t>(std::ranges::lower_bound(tied_, layer, {}, &Tied::layer) - tied_.begin());
+    };
+    const std::size_t first = before(next_ - 1);
+    return std::span{tied_}.subspan(first, before(next_) - first);
 }
 
 // A pixel behind its last layer has the surface's depth again.

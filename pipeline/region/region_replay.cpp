@@ -52,7 +52,9 @@ void Region::rasterize(const PreparedDraw& list, FragmentNeeds needs, std::span<
     for (const PrimitiveRange& range : primitives) {
         const auto first = std::lower_bound(triangles.begin(), triangles.end(), range.first, before);
         const auto last = std::lower_bound(first, triangles.end(), range.last, before);
-        rasterizer_->draw(geometry, {first, last}, frame_.key_request(), needs, sink);
+        const auto part = triangles.subspan(static_cast<std::size_t>(first - triangles.begin()),
+                                            static_cast<std::size_t>(last - first));
+        rasterizer_->draw(geometry, part, frame_.key_request(), needs, sink);
     }
 }
 

@@ -7,9 +7,7 @@ prefix=${1:-/usr/local}
 cd "$(dirname "$0")/../.."
 
 if [ "${STRATA_PACKAGES:-yes}" != no ]; then
-    mapfile -t packages < <(sed -e 's/#.*//' tools/packages.txt | awk '$1 != "?" && NF { print $1 }')
-    apt-get update -qq
-    env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}"
+    tools/setup.sh program
 fi
 if [ -z "${STRATA_BUILD:-}" ]; then
     STRATA_BUILD=build/recipe

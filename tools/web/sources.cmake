@@ -1,0 +1,18 @@
+# The sources of the page's program beside the core: what scenes need neither disk, image module nor packs, layers and histories.
+set(scenes ${PROJECT_SOURCE_DIR}/scenes)
+set(oracle ${PROJECT_SOURCE_DIR}/tools/oracle)
+include(${scenes}/sources.cmake)
+list(REMOVE_ITEM strata_scenes_sources ${strata_scenes_with_files})
+list(TRANSFORM strata_scenes_sources PREPEND ${scenes}/)
+set(strata_web_sources
+  ${CMAKE_CURRENT_LIST_DIR}/header_libraries.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/workbench.cpp
+  ${PROJECT_SOURCE_DIR}/tools/strata/report/survey.cpp
+  ${oracle}/codes.cpp
+  ${oracle}/fragment_facts.cpp
+  ${oracle}/history.cpp
+  ${oracle}/history_text.cpp
+  ${oracle}/passes.cpp
+  ${oracle}/target_parts.cpp
+  ${strata_scenes_sources})
+set(strata_web_definitions TINYGLTF_NO_STB_IMAGE TINYGLTF_NO_INCLUDE_JSON STRATA_VERSION="${PROJECT_VERSION}")
