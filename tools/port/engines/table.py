@@ -1,0 +1,133 @@
+#!/usr/bin/python3
+"""Draws every scene with every engine, explains each picture from the engine's source, and writes RESULTS.md: what is true of it, whether
+the rules of that source give the picture, and what `strata compare` says of it with no option given.
+
+    table.py [--build FOLDER] [--only SCENE] [--keep FOLDER] [-o FILE]
+
+--keep is where packs and pictures stay; what lies there is not drawn again. Exit status 1 if a rule does not give its picture or truth.py
+says something else than the rules; 77, and a sentence, if a program or a package is missing.
+"""
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+import draw  # noqa: E402
+import fragments  # noqa: E402
+import pack_scene  # noqa: E402
+import pictures  # noqa: E402
+import rules  # noqa: E402
+import scenes  # noqa: E402
+import truth  # noqa: E402
+
+BACKGROUND = [51, 51, 102]
+HARD = {name: ["hard:case=" + name, "--size", "32x32"] for name in ("cyclic-overlap", "woven", "inside-out")}
+CLOSE_ENOUGH = 2  # codes between a rule in binary64 and a picture of any format here
+SAME = 0.01  # codes between two colours that are one
+
+
+def words_of(name, folder):
+    """The scene as `strata golden` takes it."""
+    own = [folder / f"{name}.gltf", "--camera", folder / f"{scenes.camera_of(name)}.json", "--size", "128x96"]
+    return HARD.get(name) or own
+
+
+def run(words, allowed=(0,)):
+    done = subprocess.run([str(w) for w in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode not in allowed:
+        sys.exit(f"table.py: {' '.join(map(str, words))}: exit status {done.returncode}: {done.stderr.strip()}")
+    return done
+
+
+def picture_of(folder, engine, scene_name, way):
+    return folder / engine / f"{scene_name}.{way}.{'npy' if way == 'float' else 'png'}"
+
+
+class Frame:
+    """A scene's pack, its pixels and their right colours."""
+    def __init__(self, pack):
+        self.pack, self.scene = pack, pack_scene.read_scene(pack)
+        self.background = [c / 255 for c in BACKGROUND]
+        self.pixels = {mixes_light: fragments.pixels_of(self.scene, mixes_light) for mixes_light in (False, True)}
+        self.right = [[None if pixel is None else rules.exact(pixel, self.background) for pixel in row] for row in self.pixels[False]]
+
+    def explain(self, engine, way, picture):
+        """The greatest distance of the rule from the picture, the pixels at which the rule is not right, and of how many."""
+        mixes_light = engine == "three" and way != "float"
+        made = rules.rule_of(engine, way, self.scene)(self.pixels[mixes_light], self.background)
+        decided = [(x, y) for y, row in enumerate(made) for x, color in enumerate(row) if color]
+        worst = max(rules.distance(made[y][x], picture[y][x]) for x, y in decided)
+        wrong = sum(min(rules.distance(made[y][x], right) for right in self.right[y][x]) > SAME for x, y in decided)
+        return worst, wrong, len(decided)
+
+
+def verdict_of(strata, pack, picture):
+    """Exit status and the first line of what Strata says."""
+    done = run([strata, "compare", pack, picture], allowed=(0, 1, 2))
+    return done.returncode, ((done.stdout or done.stderr).strip().splitlines() or [""])[0]
+
+
+def rows_of(name, folder, strata):
+    pack = folder / "packs" / name
+    if not (pack / "manifest.json").exists():
+        background = ",".join(str(c / 255) for c in BACKGROUND)
+        run([strata, "golden", *words_of(name, folder / "scenes"), "--background", background, "--algorithm", "dual", "-o", pack, "-q"])
+    frame = Frame(pack)
+    for engine, ways in draw.WAYS.items():
+        for way in ways:
+            if (engine, name) in truth.CANNOT:
+                continue
+            picture = picture_of(folder, engine, name, way)
+            if not picture.exists():
+                draw.write(draw.draw(engine, frame.scene, way), picture, None)
+            worst, wrong, decided = frame.explain(engine, way, pictures.read(picture))
+            why = truth.WRONG[engine, way].get(name, "")
+            yield {"scene": name, "engine": engine, "way": way, "wrong": wrong, "decided": decided, "worst": worst, "why": why,
+                   "verdict": verdict_of(strata, pack, picture), "consistent": worst <= CLOSE_ENOUGH and bool(wrong) == bool(why)}
+
+
+def line_of(row):
+    true = f"wrong at {row['wrong']:,} of {row['decided']:,}: {row['why']}" if row["wrong"] or row["why"] else "right"
+    status, sentence = row["verdict"]
+    return f"| {row['scene']} | {row['engine']}, {row['way']} | {true} | {row['worst']:.1f} | {status}: {sentence} |"
+
+
+def page_of(rows):
+    explained = sum(row["consistent"] for row in rows)
+    return "\n".join([
+        "# Pictures of four engines, and what is true of them",
+        "", "Made by `tools/port/engines/table.py`. A picture's truth comes from the engine's source (rules.py, truth.py) and from fragments that are computed",
+        "there, without Strata, at all pixels that are away from edges. \"Rule\" is the greatest distance in codes between that computation and the picture:",
+        f"{explained} of {len(rows)} pictures are explained by it.", "",
+        "| scene | engine, way | true | rule | `strata compare PACK PICTURE` |", "|---|---|---|---|---|", *map(line_of, rows), ""])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--build", default=str(draw.HERE.parents[2] / "build" / "release"), type=pathlib.Path)
+    parser.add_argument("--only", action="append", choices=[*scenes.SCENES, *HARD])
+    parser.add_argument("--keep", type=pathlib.Path)
+    parser.add_argument("-o", dest="output", type=pathlib.Path, default=draw.HERE / "RESULTS.md")
+    given = parser.parse_args()
+    lacking = [draw.missing(engine) for engine in draw.WAYS if draw.missing(engine)]
+    if lacking:
+        print("\n".join(lacking))
+        return draw.SKIPPED
+    if not os.environ.get("DISPLAY"):
+        return draw.with_display()
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = (given.keep or pathlib.Path(temporary)).resolve()
+        scenes.main(folder / "scenes")
+        rows = [row for name in given.only or [*scenes.SCENES, *HARD] for row in rows_of(name, folder, given.build / "strata")]
+    given.output.write_text(page_of(rows))
+    for row in rows:
+        if not row["consistent"]:
+            print(f"{row['scene']}, {row['engine']} {row['way']}: the rule is {row['worst']:.1f} codes from the picture, and wrong at {row['wrong']} pixels; truth.py says {row['why'] or 'right'!r}")
+    return 0 if all(row["consistent"] for row in rows) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
